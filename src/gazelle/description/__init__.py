@@ -1,0 +1,1 @@
+"""Robot and world descriptions: documents, their readers, and the model they compile into."""

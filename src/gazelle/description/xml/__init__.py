@@ -1,0 +1,9 @@
+"""XML with places: what URDF, SDF, SRDF and launch files are read from."""
+
+from __future__ import annotations
+
+from gazelle.description.xml.numbers import bool_from, float_from, floats_from, int_from
+from gazelle.description.xml.reader import parse_xml, read_xml
+from gazelle.description.xml.tag import Tag
+
+__all__ = ["Tag", "bool_from", "float_from", "floats_from", "int_from", "parse_xml", "read_xml"]

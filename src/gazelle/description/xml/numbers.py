@@ -1,0 +1,83 @@
+"""Numbers in attributes and texts, read without locale, all mistakes reported."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.description.xml.tag import Tag
+from gazelle.diagnostics import Diagnostics, SourceSpan
+
+__all__ = ["bool_from", "float_from", "floats_from", "int_from"]
+
+_TRUE = frozenset({"1", "true", "yes", "on"})
+_FALSE = frozenset({"0", "false", "no", "off"})
+
+
+def floats_from(
+    text: str,
+    count: int,
+    default: tuple[float, ...],
+    *,
+    what: str,
+    span: SourceSpan,
+    diagnostics: Diagnostics,
+) -> tuple[float, ...]:
+    """Return exactly `count` finite numbers; `default` and a reported error otherwise.
+
+    Args:
+        text: numbers separated by white space.
+        count: how many are needed.
+        default: what to go on with when the text is unusable.
+        what: the element or attribute, for the message, such as ``<origin xyz>``.
+        span: where the text stands.
+        diagnostics: receives ``xml.bad-number``.
+    """
+    words = text.split()
+    values = [_number(word) for word in words]
+    bad = [word for word, value in zip(words, values, strict=True) if value is None]
+    if not bad and len(values) == count:
+        return tuple(value for value in values if value is not None)
+    if bad:
+        comma = " (the decimal sign is a dot, not a comma)" if "," in bad[0] else ""
+        message = f"{what}: '{bad[0]}' is not a finite number{comma}"
+    else:
+        message = f"{what} needs {count} number{'s' * (count != 1)}, found {len(values)}: '{text}'"
+    diagnostics.report("xml.bad-number", message, span)
+    return default
+
+
+def float_from(tag: Tag | None, default: float, diagnostics: Diagnostics) -> float:
+    """Return the number in a tag's text; `default` when the tag is None or empty."""
+    if tag is None or not tag.text:
+        return default
+    what = f"<{tag.name}>"
+    found = floats_from(tag.text, 1, (default,), what=what, span=tag.span, diagnostics=diagnostics)
+    return found[0]
+
+
+def int_from(tag: Tag | None, default: int, diagnostics: Diagnostics) -> int:
+    """Return the integer in a tag's text; a fraction is cut off as the C++ readers do."""
+    return int(float_from(tag, float(default), diagnostics))
+
+
+def bool_from(tag: Tag | None, default: bool, diagnostics: Diagnostics) -> bool:
+    """Return the truth value in a tag's text: 1/true/yes/on or 0/false/no/off, any case."""
+    if tag is None or not tag.text:
+        return default
+    word = tag.text.strip().lower()
+    if word in _TRUE:
+        return True
+    if word not in _FALSE:
+        message = f"<{tag.name}>: '{tag.text}' is neither true nor false; {default} is used"
+        diagnostics.report("xml.bad-number", message, tag.span, fix="write true or false")
+        return default
+    return False
+
+
+def _number(word: str) -> float | None:
+    try:
+        value = float(word)
+    except ValueError:
+        return None
+    # float() also takes underscores and words such as 'infinity', C++ readers do not.
+    return value if math.isfinite(value) and "_" not in word else None

@@ -1,0 +1,123 @@
+"""XML text to `Tag`s, with line and column, without entities and without network."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+from xml.parsers import expat
+
+from gazelle.description.xml.tag import Tag
+from gazelle.diagnostics import Diagnostics, SourceSpan
+
+__all__ = ["parse_xml", "read_xml"]
+
+
+def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
+    """Read a file and parse it; None (and an error reported) when that is impossible."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        reason = error.strerror or str(error)
+        diagnostics.report(
+            "xml.unreadable", f"cannot read '{path}': {reason}", SourceSpan(str(path))
+        )
+        return None
+    return parse_xml(data, str(path), diagnostics)
+
+
+def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | None:
+    """Parse a document; None (and an error reported) when it is not well-formed.
+
+    Args:
+        text: the document; bytes follow their XML declaration's encoding.
+        file: name for the spans.
+        diagnostics: receives ``xml.malformed`` or ``xml.entity``.
+    """
+    builder = _Builder(file)
+    try:
+        builder.parse(text)
+    except expat.ExpatError as error:
+        span = SourceSpan(file, error.lineno, error.offset + 1)
+        message = f"not well-formed XML: {expat.ErrorString(error.code)}"
+        diagnostics.report("xml.malformed", message, span)
+        return None
+    except _EntityError as error:
+        diagnostics.report("xml.entity", f"entity '{error.name}' is refused", error.span)
+        return None
+    return builder.root
+
+
+class _EntityError(Exception):
+    def __init__(self, name: str, span: SourceSpan) -> None:
+        self.name = name
+        self.span = span
+        super().__init__(name)
+
+
+class _Open:
+    """An element whose end tag has not been seen yet."""
+
+    def __init__(self, name: str, attributes: dict[str, str], span: SourceSpan) -> None:
+        self.name = name
+        self.attributes = attributes
+        self.span = span
+        self.children: list[Tag] = []
+        self.text: list[str] = []
+
+    def close(self) -> Tag:
+        parts = [part for part in map(str.strip, "".join(self.text).split("\0")) if part]
+        return Tag(self.name, self.span, self.attributes, tuple(self.children), " ".join(parts))
+
+
+class _Builder:
+    def __init__(self, file: str) -> None:
+        self.root: Tag | None = None
+        self._file = file
+        self._stack: list[_Open] = []
+        self._parser: Any = None
+        self._line_shift = 0
+
+    def parse(self, text: str | bytes) -> None:
+        # A str is already decoded; an encoding named in its declaration no longer applies.
+        self._parser = self._new_parser("utf-8" if isinstance(text, str) else None)
+        if isinstance(text, str):
+            text = text.encode("utf-8")
+        # Leading blank lines before <?xml …?> are common in hand-made files and in launch output.
+        stripped = text.lstrip(b" \t\r\n")
+        self._line_shift = text[: len(text) - len(stripped)].count(b"\n")
+        try:
+            self._parser.Parse(stripped, True)
+        except expat.ExpatError as error:
+            error.lineno += self._line_shift
+            raise
+
+    def _new_parser(self, encoding: str | None) -> Any:
+        # No namespace processing: robot files of 2011 use prefixes they never declare.
+        parser = expat.ParserCreate(encoding)
+        parser.buffer_text = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._text
+        parser.EntityDeclHandler = self._entity
+        return parser
+
+    def _span(self, length: int = 0) -> SourceSpan:
+        line = self._parser.CurrentLineNumber + self._line_shift
+        return SourceSpan(self._file, line, self._parser.CurrentColumnNumber + 1, length)
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        self._stack.append(_Open(name, attributes, self._span(len(name) + 1)))
+
+    def _end(self, _name: str) -> None:
+        tag = self._stack.pop().close()
+        if self._stack:
+            self._stack[-1].children.append(tag)
+            self._stack[-1].text.append("\0")
+        else:
+            self.root = tag
+
+    def _text(self, data: str) -> None:
+        self._stack[-1].text.append(data)
+
+    def _entity(self, name: str, *_rest: Any) -> None:
+        raise _EntityError(name, self._span())

@@ -1,0 +1,19 @@
+"""Findings about users' files: places, severities, collecting and rendering them."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity
+from gazelle.diagnostics.nearest import did_you_mean, nearest_names
+from gazelle.diagnostics.render import render, render_text
+from gazelle.diagnostics.span import SourceSpan
+
+__all__ = [
+    "Diagnostic",
+    "Diagnostics",
+    "Severity",
+    "SourceSpan",
+    "did_you_mean",
+    "nearest_names",
+    "render",
+    "render_text",
+]

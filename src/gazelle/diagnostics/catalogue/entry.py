@@ -1,0 +1,29 @@
+"""What the catalogue knows about one diagnostic code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+__all__ = ["Entry"]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One code of the catalogue.
+
+    Attributes:
+        code: ``<area>.<what-is-wrong>``, stable for ever.
+        severity: default severity.
+        title: one line for the docs' headline.
+        why: why it matters and what Gazelle does about it.
+        fix: the general remedy.
+        phrase: the words ROS or Gazebo print in this case, empty when they are silent.
+    """
+
+    code: str
+    severity: Literal["info", "warning", "error"]
+    title: str
+    why: str
+    fix: str
+    phrase: str = ""

@@ -1,0 +1,91 @@
+"""Diagnostics on a terminal: the message, the source line and a caret under the place."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from gazelle.diagnostics.diagnostic import Diagnostic, Severity
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+    from gazelle.diagnostics.span import SourceSpan
+
+__all__ = ["render", "render_text"]
+
+_COLOURS = {Severity.INFO: "cyan", Severity.WARNING: "yellow", Severity.ERROR: "red"}
+
+
+def render(
+    diagnostics: Iterable[Diagnostic],
+    *,
+    stream: TextIO | None = None,
+    sources: Mapping[str, str] | None = None,
+) -> None:
+    """Print findings with their source lines, in colour where the stream is a terminal.
+
+    Args:
+        diagnostics: what to print, in this order.
+        stream: where to; standard error when None.
+        sources: texts of spans that are no files, by `SourceSpan.file`.
+    """
+    from rich.console import Console
+
+    console = Console(file=stream or sys.stderr, soft_wrap=True, highlight=False)
+    for item in diagnostics:
+        console.print(_rich_text(item, sources or {}))
+
+
+def render_text(diagnostic: Diagnostic, sources: Mapping[str, str] | None = None) -> str:
+    """Return one finding as plain text: message, source line with caret, way there, fix."""
+    return _rich_text(diagnostic, sources or {}).plain
+
+
+def _rich_text(item: Diagnostic, sources: Mapping[str, str]) -> Text:
+    from rich.text import Text
+
+    colour = _COLOURS[item.severity]
+    text = Text()
+    if item.span:
+        text.append(f"{item.span}: ", style="bold")
+    text.append(str(item.severity), style=f"bold {colour}")
+    text.append(f": {item.message} ")
+    text.append(f"[{item.code}]", style="dim")
+    if item.span:
+        _append_source(text, item.span, sources, colour)
+        for place in item.span.via:
+            text.append(f"\n  from {place}", style="dim")
+    if item.fix:
+        text.append("\n  fix: ", style="green")
+        text.append(item.fix)
+    if item.phrase:
+        text.append(f"\n  ROS/Gazebo says: {item.phrase}", style="dim")
+    return text
+
+
+def _append_source(text: Text, span: SourceSpan, sources: Mapping[str, str], colour: str) -> None:
+    line = _source_line(span, sources)
+    if line is None:
+        return
+    shown = line.replace("\t", " ")
+    text.append(f"\n  {span.line:>5} | {shown}")
+    if span.column:
+        width = max(1, min(span.length or 1, len(shown) - span.column + 1))
+        text.append(f"\n  {'':>5} | {'':>{span.column - 1}}")
+        text.append("^" * width, style=f"bold {colour}")
+
+
+def _source_line(span: SourceSpan, sources: Mapping[str, str]) -> str | None:
+    if not span.line:
+        return None
+    try:
+        source = sources.get(span.file)
+        if source is None:
+            source = Path(span.file).read_text(encoding="utf-8", errors="replace")
+    except (OSError, ValueError):
+        return None
+    lines = source.splitlines()
+    return lines[span.line - 1] if span.line <= len(lines) else None

@@ -1,0 +1,100 @@
+"""The one tree of errors that Gazelle raises on purpose.
+
+Problems in a user's files travel as `gazelle.diagnostics.Diagnostic` values; `UserFileError`
+carries all of them at once. Everything else raised here is a mistake in a call or in the
+environment, and says what to do about it in its message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gazelle.diagnostics import Diagnostic
+
+__all__ = [
+    "EngineError",
+    "GazelleError",
+    "GraphError",
+    "InterfaceError",
+    "LaunchError",
+    "NotFoundError",
+    "SimulationDivergedError",
+    "UserFileError",
+]
+
+
+class GazelleError(Exception):
+    """Base of every error that Gazelle raises on purpose."""
+
+
+class UserFileError(GazelleError):
+    """One or more errors in the user's files, all of them at once.
+
+    Attributes:
+        diagnostics: every diagnostic collected, warnings included, in the order found.
+    """
+
+    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(str(item) for item in self.diagnostics))
+
+
+class NotFoundError(GazelleError):
+    """A name that was asked for does not exist.
+
+    Attributes:
+        kind: what was looked for, such as ``"package"`` or ``"joint"``.
+        name: the name asked for.
+        searched: the places looked at.
+        nearest: existing names most like it, best first.
+    """
+
+    def __init__(
+        self,
+        kind: str,
+        name: str,
+        *,
+        searched: Sequence[str] = (),
+        nearest: Sequence[str] = (),
+        hint: str = "",
+    ) -> None:
+        self.kind = kind
+        self.name = name
+        self.searched = tuple(searched)
+        self.nearest = tuple(nearest)
+        super().__init__(_not_found_text(kind, name, searched, nearest, hint))
+
+
+class EngineError(GazelleError):
+    """The physics engine cannot do what was asked."""
+
+
+class SimulationDivergedError(EngineError):
+    """The state became non-finite; the message names the link and its source line."""
+
+
+class InterfaceError(GazelleError):
+    """A message, service or action definition or value is not usable."""
+
+
+class GraphError(GazelleError):
+    """A topic, service, parameter or transport operation failed."""
+
+
+class LaunchError(GazelleError):
+    """A launch cannot start or go on."""
+
+
+def _not_found_text(
+    kind: str, name: str, searched: Sequence[str], nearest: Sequence[str], hint: str
+) -> str:
+    text = f"{kind} '{name}' not found"
+    if nearest:
+        text += "; did you mean " + " or ".join(f"'{item}'" for item in nearest) + "?"
+    if searched:
+        text += "\n  looked in:\n" + "\n".join(f"    {place}" for place in searched)
+    if hint:
+        text += f"\n  {hint}"
+    return text
