@@ -13,11 +13,13 @@ LONGEST_FUNCTION = 40
 
 
 def _layers() -> dict[str, int]:
+    """Rank by row of the table; layers of one row may import each other."""
     rank: dict[str, int] = {}
-    for line in (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").splitlines():
-        if line.startswith("| `gazelle"):
-            for name in re.findall(r"`(gazelle[\w.]*)`", line.split("|")[1]):
-                rank[name] = len(rank)
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = [line for line in text.splitlines() if line.startswith("| `gazelle")]
+    for row, line in enumerate(rows):
+        for name in re.findall(r"`(gazelle[\w.]*)`", line.split("|")[1]):
+            rank[name] = row
     return rank
 
 
