@@ -1,0 +1,83 @@
+"""Which files of a package ``rosrun package type`` can mean."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from gazelle.workspace.entry_points import console_scripts
+
+__all__ = ["executable_names", "executables_named"]
+
+_FOLDERS = ("scripts", "nodes", "bin", "src", "script", "test", "")
+_SCRIPT_FOLDERS = frozenset({"bin", "nodes", "script", "scripts"})
+_PRUNED = frozenset({"__pycache__", "build", "node_modules"})
+_SCRIPT_SUFFIXES = frozenset({".py", ".sh", ".bash"})
+
+
+def executables_named(
+    package: str, path: Path, prefix: Path | None, type_name: str
+) -> tuple[Path, ...]:
+    """Return the candidate files, best first; empty when there is none.
+
+    ``type_name`` is matched as written; a script installed under its name without the suffix
+    (as ``CMakeLists.txt`` and ``console_scripts`` do) is found as well.
+    """
+    found: dict[Path, None] = {}
+    if prefix is not None:
+        _add(found, prefix / "lib" / package / type_name)
+        _add(found, path / type_name)
+        return tuple(found)
+    target = console_scripts(path).get(type_name)
+    if target is not None:
+        _add(found, _module_file(path, target))
+    for name in _spellings(type_name):
+        for folder in (*_FOLDERS, package):
+            _add(found, path / folder / name)
+    if not found:
+        for name in _spellings(type_name):
+            for file in _files_below(path):
+                if file.name == name:
+                    _add(found, file)
+    return tuple(found)
+
+
+def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str, ...]:
+    """Return the names ``rosrun`` would offer for a package, sorted."""
+    if prefix is not None:
+        return tuple(sorted(file.name for file in _files_below(prefix / "lib" / package)))
+    names = set(console_scripts(path))
+    for file in _files_below(path):
+        top = file.relative_to(path).parts[0]
+        is_script = top in _SCRIPT_FOLDERS and file.suffix in _SCRIPT_SUFFIXES
+        if is_script or os.access(file, os.X_OK):
+            names.add(file.name)
+    return tuple(sorted(names))
+
+
+def _add(found: dict[Path, None], path: Path) -> None:
+    if path.is_file():
+        found.setdefault(path)
+
+
+def _spellings(type_name: str) -> tuple[str, ...]:
+    return (type_name,) if Path(type_name).suffix else (type_name, f"{type_name}.py")
+
+
+def _module_file(path: Path, target: str) -> Path:
+    module = target.partition(":")[0].strip().replace(".", "/")
+    for base in (path, path / "src"):
+        for name in (f"{module}.py", f"{module}/__init__.py"):
+            if (base / name).is_file():
+                return base / name
+    return path / f"{module}.py"
+
+
+def _files_below(folder: Path) -> list[Path]:
+    files: list[Path] = []
+    for root, folders, names in os.walk(folder):
+        folders[:] = sorted(
+            name for name in folders if name not in _PRUNED and not name.startswith(".")
+        )
+        files += [Path(root, name) for name in sorted(names)]
+    return files

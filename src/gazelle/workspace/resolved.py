@@ -1,0 +1,92 @@
+"""The outcome of looking for a file, and the look-up that forgives upper and lower case."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.diagnostics import nearest_names
+
+__all__ = ["Resolved", "locate", "nearest_below"]
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """Where a URI leads.
+
+    Attributes:
+        path: the existing file or folder; None when there is none.
+        tried: every place looked at, in order.
+        nearest: existing names most like the missing one, best first.
+        note: what to tell the user although it was found (case differs …) or why it was not
+            (the package is unknown …); empty when there is nothing to say.
+    """
+
+    path: Path | None
+    tried: tuple[str, ...] = ()
+    nearest: tuple[str, ...] = ()
+    note: str = ""
+
+    def explain(self, uri: str) -> str:
+        """Return a message for a URI that leads nowhere: reason, nearest names, places."""
+        text = f"'{uri}' not found"
+        if self.note:
+            text += f": {self.note}"
+        if self.nearest:
+            text += "; did you mean " + " or ".join(f"'{name}'" for name in self.nearest) + "?"
+        if self.tried:
+            text += "\n  looked in:\n" + "\n".join(f"    {place}" for place in self.tried)
+        return text
+
+
+def locate(base: Path, relative: str) -> tuple[Path | None, str]:
+    """Return an existing path below `base` and a note; (None, "") when there is none.
+
+    When the exact name does not exist, one that differs only in upper and lower case is taken
+    and the note says so: such files work on Windows and macOS and fail on Linux.
+    """
+    path = base / relative if relative else base
+    if path.exists():
+        return path, ""
+    found = _ignoring_case(base, relative)
+    if found is None:
+        return None, ""
+    shown = os.path.relpath(found, base)
+    return found, f"upper and lower case differ: the file is '{shown}', written was '{relative}'"
+
+
+def nearest_below(base: Path, relative: str) -> tuple[str, ...]:
+    """Return names like the missing part of `relative`, from the deepest folder that exists."""
+    parts = [part for part in Path(relative).parts if part not in {"", "/"}]
+    folder = base
+    for index, part in enumerate(parts):
+        if (folder / part).exists():
+            folder = folder / part
+            continue
+        near = nearest_names(part, _names_in(folder))
+        rest = parts[:index]
+        return tuple("/".join([*rest, name]) for name in near)
+    return ()
+
+
+def _ignoring_case(base: Path, relative: str) -> Path | None:
+    folder = base
+    for part in Path(relative).parts:
+        if part == "..":
+            folder = folder.parent
+            continue
+        if not (folder / part).exists():
+            same = [name for name in _names_in(folder) if name.casefold() == part.casefold()]
+            if len(same) != 1:
+                return None
+            part = same[0]  # noqa: PLW2901
+        folder = folder / part
+    return folder if folder.exists() else None
+
+
+def _names_in(folder: Path) -> list[str]:
+    try:
+        return sorted(os.listdir(folder))  # noqa: PTH208
+    except OSError:
+        return []

@@ -1,0 +1,204 @@
+"""URIs to paths, with every place tried and the nearest names when there is nothing."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import unquote
+
+from gazelle.diagnostics import nearest_names
+from gazelle.workspace.models import fuel_model
+from gazelle.workspace.resolved import Resolved, locate, nearest_below
+
+if TYPE_CHECKING:
+    from gazelle.workspace.workspace import Workspace
+
+__all__ = ["resolve", "resolve_world"]
+
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):/{1,2}(?!$)(.*)", re.DOTALL)
+_FIND = re.compile(r"\$\(find(?:-pkg-share)?\s+([^)\s]+)\s*\)/?(.*)", re.DOTALL)
+_FUEL = re.compile(r"[^/]+/(?:[0-9.]+/)?([^/]+)/models/([^/]+)/?(.*)", re.DOTALL)
+
+
+def resolve(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolved:
+    """Find what a URI means; see `Workspace.resolve`."""
+    written = uri.strip()
+    text = written.replace("\\", "/") if "\\" in written and os.sep == "/" else written
+    result = _by_scheme(workspace, text, base_dir)
+    if text != written and result.path is not None:
+        note = "'\\' was read as '/'"
+        note = f"{note}; {result.note}" if result.note else note
+        return Resolved(result.path, result.tried, result.nearest, note)
+    return result
+
+
+def resolve_world(workspace: Workspace, name: str, base_dir: Path | None) -> Resolved:
+    """Find a world file; see `Workspace.world_file`."""
+    if "://" in name or name.startswith("$("):
+        return resolve(workspace, name, base_dir)
+    bases = [] if base_dir is None else [base_dir]
+    bases += [Path.cwd(), *workspace.resource_folders]
+    names = [name]
+    if not Path(name).suffix:
+        names += [f"{name}.world", f"{name}.sdf"]
+    names += [f"worlds/{item}" for item in names if "/" not in item]
+    tried: list[str] = []
+    for item in names:
+        for base in bases:
+            path = base / Path(item).expanduser()
+            if path.is_file():
+                return Resolved(path, tuple(dict.fromkeys([*tried, str(path)])))
+            tried.append(str(path))
+    worlds = {
+        path.name
+        for base in bases
+        for path in sorted((base / "worlds").glob("*"))
+        if path.is_file()
+    }
+    return Resolved(
+        None, tuple(dict.fromkeys(tried)), nearest_names(Path(name).name, sorted(worlds))
+    )
+
+
+def _by_scheme(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolved:
+    found = _FIND.fullmatch(uri)
+    if found:
+        return _in_package(workspace, found.group(1), found.group(2))
+    matched = _SCHEME.fullmatch(uri)
+    if matched is None or (os.sep == "\\" and len(matched.group(1)) == 1):
+        return _plain(workspace, uri, base_dir)
+    scheme, rest = matched.group(1).lower(), matched.group(2)
+    if scheme == "file":
+        return _file(workspace, rest, base_dir)
+    if scheme == "package":
+        name, _, inside = _unquoted(rest).lstrip("/").partition("/")
+        return _in_package(workspace, name, inside)
+    if scheme == "model":
+        name, _, inside = _unquoted(rest).lstrip("/").partition("/")
+        return _in_model(workspace, name, inside)
+    if scheme in {"http", "https"}:
+        return _in_fuel_cache(workspace, _unquoted(rest))
+    schemes = "package://, model://, file://"
+    return Resolved(None, note=f"the scheme '{scheme}://' is not known; known are {schemes}")
+
+
+def _unquoted(text: str) -> str:
+    return unquote(text) if "%" in text else text
+
+
+def _in_package(workspace: Workspace, name: str, inside: str) -> Resolved:
+    package = workspace.packages.get(name)
+    if package is None:
+        return Resolved(
+            None,
+            workspace.package_places,
+            nearest_names(name, workspace.packages),
+            f"there is no package '{name}'",
+        )
+    path, note = locate(package.path, inside)
+    tried = (str(package.path / inside),)
+    if path is not None:
+        return Resolved(path, tried, note=note)
+    near = tuple(f"package://{name}/{item}" for item in nearest_below(package.path, inside))
+    return Resolved(None, tried, near, f"package '{name}' has no '{inside}'")
+
+
+def _in_model(workspace: Workspace, name: str, inside: str) -> Resolved:
+    tried: list[str] = []
+    for folder in _model_candidates(workspace, name):
+        tried.append(str(folder / inside) if inside else str(folder))
+        path, note = locate(folder, inside)
+        if path is not None and (inside or path.is_dir()):
+            return Resolved(path, tuple(tried), note=note)
+    return _case_differs(workspace, name, inside, tried) or _no_model(
+        workspace, name, inside, tried
+    )
+
+
+def _model_candidates(workspace: Workspace, name: str) -> Iterable[Path]:
+    for folder in workspace.model_folders:
+        yield folder / name
+    cached = workspace.models.get(name)
+    if cached is not None:
+        yield cached
+    # gazebo_ros puts the parents of packages on Gazebo's model path, so that URDFs' package://
+    # addresses work as model:// ones.
+    package = workspace.packages.get(name)
+    if package is not None:
+        yield package.path
+
+
+def _case_differs(
+    workspace: Workspace, name: str, inside: str, tried: list[str]
+) -> Resolved | None:
+    same = [item for item in workspace.models if item.casefold() == name.casefold()]
+    for item in same:
+        path, note = locate(workspace.models[item], inside)
+        if path is not None and item != name:
+            text = f"upper and lower case differ: the model is '{item}', written was '{name}'"
+            return Resolved(path, tuple(tried), note=f"{text}; {note}" if note else text)
+    return None
+
+
+def _no_model(workspace: Workspace, name: str, inside: str, tried: list[str]) -> Resolved:
+    places = [*tried, *(f"{root} (Fuel cache)" for root in workspace.fuel_folders)]
+    home = workspace.models.get(name) or getattr(workspace.packages.get(name), "path", None)
+    if home is not None:
+        near = tuple(f"model://{name}/{item}" for item in nearest_below(home, inside))
+        return Resolved(None, tuple(places), near, f"model '{name}' has no '{inside}'")
+    near = tuple(f"model://{item}" for item in nearest_names(name, workspace.models))
+    note = (
+        f"there is no model '{name}'; name the folder it lies in in GAZEBO_MODEL_PATH "
+        "(nothing is downloaded)"
+    )
+    return Resolved(None, tuple(places), near, note)
+
+
+def _in_fuel_cache(workspace: Workspace, rest: str) -> Resolved:
+    matched = _FUEL.fullmatch(rest)
+    tried = tuple(f"{root} (Fuel cache)" for root in workspace.fuel_folders)
+    if matched is None:
+        return Resolved(None, tried, note="nothing is downloaded; use a local path")
+    owner, name, inside = matched.groups()
+    inside = re.sub(r"^(?:tip|\d+)(?:/files)?(?:/|$)", "", inside)
+    for root in workspace.fuel_folders:
+        folder = fuel_model(root, owner, name)
+        if folder is not None:
+            path, note = locate(folder, inside)
+            if path is not None:
+                return Resolved(path, (str(folder / inside),), note=note)
+    local = workspace.model_dir(name)
+    if local is not None and not inside:
+        return Resolved(local, tried, note=f"the local model '{local}' stands in for {owner}'s")
+    note = f"model '{name}' of {owner} is in no local cache and nothing is downloaded"
+    return Resolved(None, tried, nearest_names(name, workspace.models), note)
+
+
+def _file(workspace: Workspace, rest: str, base_dir: Path | None) -> Resolved:
+    text = _unquoted(rest)
+    if re.match(r"/?[A-Za-z]:/", text):
+        return _plain(workspace, text.lstrip("/"), base_dir)
+    if text.startswith("localhost/"):
+        text = text.removeprefix("localhost")
+    return _plain(workspace, text, base_dir)
+
+
+def _plain(workspace: Workspace, text: str, base_dir: Path | None) -> Resolved:
+    path = Path(text).expanduser() if text.startswith("~") else Path(text)
+    if path.is_absolute():
+        bases, relative = [Path(path.anchor)], str(path.relative_to(path.anchor))
+    else:
+        bases = [] if base_dir is None else [base_dir]
+        bases += [Path.cwd(), *workspace.resource_folders]
+        relative = text
+    tried: list[str] = []
+    for base in dict.fromkeys(bases):
+        tried.append(str(base / relative))
+        found, note = locate(base, relative)
+        if found is not None:
+            return Resolved(found, tuple(tried), note=note)
+    near = next(filter(None, (nearest_below(base, relative) for base in bases)), ())
+    return Resolved(None, tuple(tried), near)
