@@ -1,0 +1,55 @@
+"""Making mesh parts from what file formats give: soups, or indexed corners."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.geometry.mesh import MeshMaterial, MeshPart
+from gazelle.geometry.shading import group_rows, rounded_normals, smooth_corners
+
+__all__ = ["part_from_corners", "part_from_soup"]
+
+
+def part_from_soup(
+    corners_m: NDArray[np.float64], *, name: str = "", material: MeshMaterial | None = None
+) -> MeshPart:
+    """Make a part of loose triangles (M, 3, 3): equal vertices shared, normals computed."""
+    flat = np.ascontiguousarray(corners_m, dtype=np.float64).reshape(-1, 3)
+    _, group = group_rows(flat)
+    return part_from_corners(flat, group, name=name, material=material)
+
+
+def part_from_corners(
+    positions_m: NDArray[np.float64],
+    vertex_of_corner: NDArray[np.intp],
+    *,
+    normals: NDArray[np.float64] | None = None,
+    uv: NDArray[np.float64] | None = None,
+    name: str = "",
+    material: MeshMaterial | None = None,
+) -> MeshPart:
+    """Make a part of triangle corners, merging those alike in vertex, normal and uv.
+
+    Args:
+        positions_m: (3 M, 3) position of each corner.
+        vertex_of_corner: (3 M,) which corners share a position.
+        normals: (3 M, 3) unit normal of each corner; computed when None.
+        uv: (3 M, 2) or None.
+        name: submesh name.
+        material: or None.
+    """
+    if normals is None:
+        normals = smooth_corners(positions_m.reshape(-1, 3, 3), vertex_of_corner)
+    columns = [vertex_of_corner[:, None].astype(np.float64), rounded_normals(normals)]
+    if uv is not None:
+        columns.append(uv)
+    first, group = group_rows(np.concatenate(columns, axis=1))
+    return MeshPart(
+        name=name,
+        vertices_m=np.ascontiguousarray(positions_m[first]),
+        faces=group.reshape(-1, 3).astype(np.int32),
+        normals=np.ascontiguousarray(normals[first]),
+        uv=None if uv is None else np.ascontiguousarray(uv[first]),
+        material=material,
+    )

@@ -1,0 +1,112 @@
+"""Loading mesh files of every supported format, each file once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from threading import Lock
+from typing import NamedTuple
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.geometry.dae import read_dae
+from gazelle.geometry.mesh import Mesh, MeshError
+from gazelle.geometry.stl import read_stl
+
+__all__ = ["MESH_SUFFIXES", "load_mesh", "load_mesh_reported"]
+
+_READERS: dict[str, Callable[[bytes, Path], Mesh]] = {
+    ".dae": read_dae,
+    ".stl": read_stl,
+}
+
+MESH_SUFFIXES = tuple(sorted(_READERS))
+"""File name endings of the formats that can be loaded, in lower case."""
+
+
+class _Key(NamedTuple):
+    path: str
+    mtime_ns: int
+    size: int
+
+
+_loaded: dict[_Key, Mesh] = {}
+_lock = Lock()
+
+
+def load_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """Load a mesh file; the same unchanged file is read once per process.
+
+    Args:
+        path: ``.stl`` (text or binary), ``.dae``, ``.obj`` (with ``.mtl``), ``.gltf`` or ``.glb``;
+            upper and lower case alike. A wrong suffix is found out from the content.
+
+    Returns:
+        the mesh; its arrays are read-only, since it is shared.
+
+    Raises:
+        MeshError: the file is missing, unreadable, malformed, empty or of another format.
+    """
+    file = Path(path)
+    try:
+        info = file.stat()
+        key = _Key(str(file.absolute()), info.st_mtime_ns, info.st_size)
+        with _lock:
+            known = _loaded.get(key)
+        if known is not None:
+            return known
+        data = file.read_bytes()
+    except OSError as error:
+        raise MeshError(file, f"cannot be read: {error.strerror or error}") from error
+    mesh = _reader(data, file)(data, file)
+    with _lock:
+        return _loaded.setdefault(key, mesh)
+
+
+def load_mesh_reported(
+    path: str | os.PathLike[str], diagnostics: Diagnostics, span: SourceSpan | None = None
+) -> Mesh | None:
+    """Load a mesh file; report what is wrong with it instead of raising.
+
+    Args:
+        path: the file.
+        diagnostics: receives ``mesh.unreadable`` and the mesh's notes.
+        span: where the file is referred to; the mesh file itself when None.
+
+    Returns:
+        None when the file cannot be used.
+    """
+    place = span or SourceSpan(str(path))
+    try:
+        mesh = load_mesh(path)
+    except MeshError as error:
+        diagnostics.report("mesh.unreadable", str(error), place)
+        return None
+    for note in mesh.notes:
+        diagnostics.report(note.code, f"mesh '{path}': {note.message}", place)
+    return mesh
+
+
+def _reader(data: bytes, file: Path) -> Callable[[bytes, Path], Mesh]:
+    if not data:
+        raise MeshError(file, "the file is empty")
+    if data.startswith(b"version https://git-lfs"):
+        raise MeshError(
+            file,
+            "this is a Git LFS pointer, not the mesh; run 'git lfs pull' in the package's folder",
+        )
+    suffix = _sniffed_suffix(data) or file.suffix.lower()
+    reader = _READERS.get(suffix)
+    if reader is None:
+        known = ", ".join(MESH_SUFFIXES)
+        raise MeshError(file, f"'{file.suffix}' is no known mesh format; known are {known}")
+    return reader
+
+
+def _sniffed_suffix(data: bytes) -> str:
+    head = data[:1024].lstrip(b"\xef\xbb\xbf \t\r\n")
+    if head.startswith(b"glTF"):
+        return ".glb"
+    if head.startswith(b"<") and b"<COLLADA" in data[:4096]:
+        return ".dae"
+    return ""
