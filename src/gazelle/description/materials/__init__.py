@@ -1,0 +1,12 @@
+"""Looks of surfaces: Gazebo's named materials and OGRE's material scripts."""
+
+from __future__ import annotations
+
+from gazelle.description.materials.gazebo import (
+    GAZEBO_MATERIAL_NAMES,
+    gazebo_material,
+    has_picture,
+)
+from gazelle.description.materials.scripts import material_from_scripts
+
+__all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "has_picture", "material_from_scripts"]

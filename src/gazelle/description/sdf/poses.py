@@ -1,0 +1,79 @@
+"""SDF ``<pose>``: numbers, rotation formats and the frame it is relative to."""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+from gazelle.description.context import ReadContext
+from gazelle.description.xml import Tag, floats_from
+from gazelle.geometry import IDENTITY_POSE, Pose
+
+__all__ = ["pose_of", "read_pose", "relative_to_of"]
+
+_FORMATS = ("euler_rpy", "quat_xyzw")
+
+
+def read_pose(tag: Tag | None, context: ReadContext) -> Pose:
+    """Return the pose in a ``<pose>`` element as written, identity when it is None or empty.
+
+    Understands ``rotation_format`` (``euler_rpy``, ``quat_xyzw``) and ``degrees`` of SDF 1.9.
+    The frame it is relative to is for the caller (`relative_to_of`).
+    """
+    if tag is None or not tag.text:
+        return IDENTITY_POSE
+    rotation_format = tag.attributes.get("rotation_format", "euler_rpy")
+    if rotation_format not in _FORMATS:
+        message = f"<pose rotation_format='{rotation_format}'> is not known; euler_rpy is used"
+        context.diagnostics.report(
+            "sdf.bad-value", message, tag.span, fix="write one of: " + ", ".join(_FORMATS)
+        )
+    if rotation_format == "quat_xyzw":
+        return _quaternion_pose(tag, context)
+    values = _numbers(tag, 6, context)
+    roll, pitch, yaw = values[3:]
+    if tag.attributes.get("degrees", "").strip().lower() in ("true", "1"):
+        roll, pitch, yaw = (math.radians(value) for value in (roll, pitch, yaw))
+    return Pose.from_xyz_rpy((values[0], values[1], values[2]), (roll, pitch, yaw))
+
+
+def pose_of(tag: Tag, context: ReadContext) -> Pose:
+    """Return the pose in the ``<pose>`` child (SDF 1.0's ``<origin pose>`` is reported)."""
+    return read_pose(tag.find("pose"), context)
+
+
+def relative_to_of(tag: Tag) -> str:
+    """Return what the ``<pose>`` child is relative to, empty for the default.
+
+    SDF 1.5 and 1.6 called the attribute ``frame``.
+    """
+    pose = tag.find("pose")
+    if pose is None:
+        return ""
+    return pose.attributes.get("relative_to", pose.attributes.get("frame", "")).strip()
+
+
+def _quaternion_pose(tag: Tag, context: ReadContext) -> Pose:
+    px, py, pz, x, y, z, w = _numbers(tag, 7, context)
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    if norm < 1e-9:
+        message = "the quaternion of <pose> has length 0; no rotation is used"
+        context.diagnostics.report("sdf.bad-value", message, tag.span, fix="write 0 0 0 1")
+        return Pose((px, py, pz))
+    return Pose((px, py, pz), cast(tuple[float, float, float, float], _scaled((x, y, z, w), norm)))
+
+
+def _scaled(values: tuple[float, ...], norm: float) -> tuple[float, ...]:
+    return tuple(value / norm for value in values)
+
+
+def _numbers(tag: Tag, count: int, context: ReadContext) -> tuple[float, ...]:
+    identity = (0.0,) * count if count == 6 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    return floats_from(
+        tag.text,
+        count,
+        identity,
+        what="<pose>",
+        span=tag.span,
+        diagnostics=context.diagnostics,
+    )
