@@ -1,0 +1,115 @@
+"""Links and joints as a tree: one root, no loops, every name known, and the frames it gives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import Link
+from gazelle.description.urdf.joints import ReadJoint
+from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.geometry import IDENTITY_POSE, Pose
+
+__all__ = ["check_tree", "poses_of"]
+
+
+def check_tree(
+    links: Mapping[str, Link], joints: Sequence[ReadJoint], span: SourceSpan, context: ReadContext
+) -> str | None:
+    """Return the root link's name; None when the links form no tree, every reason reported.
+
+    Args:
+        links: links by name.
+        joints: joints with both ends named.
+        span: place of ``<robot>``.
+        context: where to report.
+    """
+    known = _ends_exist(links, joints, context)
+    single = _one_parent_each(joints, context)
+    children = {item.joint.child for item in joints}
+    roots = [name for name in links if name not in children]
+    if not known:
+        return None
+    if len(roots) > 1:
+        _report_roots(roots, links, joints, context)
+        return None
+    reached = set(_below(roots[0], joints)) if roots else set()
+    stranded = [name for name in links if name not in reached]
+    if stranded:
+        names = ", ".join(f"'{name}'" for name in stranded)
+        start = "no root link found" if not roots else f"not all links hang on '{roots[0]}'"
+        message = f"{start}: the joints of {names} form a loop"
+        joint = next(item for item in joints if item.joint.child == stranded[0])
+        context.diagnostics.report("urdf.loop", message, joint.tag.span or span)
+        return None
+    return roots[0] if single else None
+
+
+def poses_of(root: str, joints: Sequence[ReadJoint]) -> dict[str, Pose]:
+    """Return the pose of every link's frame in the root's frame with all joints at zero."""
+    poses = {root: IDENTITY_POSE}
+    above = {item.joint.child: item for item in joints}
+    for name in _below(root, joints)[1:]:
+        poses[name] = poses[above[name].joint.parent] @ above[name].T_parent_joint
+    return poses
+
+
+def _below(root: str, joints: Sequence[ReadJoint]) -> list[str]:
+    children: dict[str, list[str]] = {}
+    for item in joints:
+        children.setdefault(item.joint.parent, []).append(item.joint.child)
+    order = [root]
+    seen = {root}
+    for name in order:
+        for child in children.get(name, ()):
+            if child not in seen:
+                seen.add(child)
+                order.append(child)
+    return order
+
+
+def _ends_exist(
+    links: Mapping[str, Link], joints: Sequence[ReadJoint], context: ReadContext
+) -> bool:
+    good = True
+    for item in joints:
+        joint = item.joint
+        for which, name in (("parent", joint.parent), ("child", joint.child)):
+            if name in links:
+                continue
+            good = False
+            end = item.tag.find(which) or item.tag
+            hint = did_you_mean(name, links) or f'add <link name="{name}"/> or remove the joint'
+            message = f"{which} link '{name}' of joint '{joint.name}' not found"
+            context.diagnostics.report(f"urdf.{which}-missing", message, end.span, fix=hint)
+    return good
+
+
+def _one_parent_each(joints: Sequence[ReadJoint], context: ReadContext) -> bool:
+    good = True
+    first: dict[str, str] = {}
+    for item in joints:
+        joint = item.joint
+        if joint.child in first:
+            good = False
+            message = (
+                f"link '{joint.child}' has two parents: it is the child of joint "
+                f"'{first[joint.child]}' and of joint '{joint.name}'"
+            )
+            context.diagnostics.report("urdf.two-parents", message, item.tag.span)
+        first.setdefault(joint.child, joint.name)
+    return good
+
+
+def _report_roots(
+    roots: Sequence[str],
+    links: Mapping[str, Link],
+    joints: Sequence[ReadJoint],
+    context: ReadContext,
+) -> None:
+    parents = {item.joint.parent for item in joints}
+    loose = [name for name in roots if name not in parents] or list(roots[1:])
+    names = " and ".join(f"'{name}'" for name in roots)
+    message = f"{'two' if len(roots) == 2 else len(roots)} root links found: {names}"
+    fix = f"join {', '.join(repr(name) for name in loose[:5])} to the robot with a joint"
+    context.diagnostics.report("urdf.two-roots", message, links[roots[1]].span, fix=fix)
