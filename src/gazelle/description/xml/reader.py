@@ -65,8 +65,10 @@ class _Open:
         self.text: list[str] = []
 
     def close(self) -> Tag:
-        parts = [part for part in map(str.strip, "".join(self.text).split("\0")) if part]
-        return Tag(self.name, self.span, self.attributes, tuple(self.children), " ".join(parts))
+        raw = "".join(self.text)
+        text = " ".join(part for part in map(str.strip, raw.split("\0")) if part)
+        children = tuple(self.children)
+        return Tag(self.name, self.span, self.attributes, children, text, raw.replace("\0", ""))
 
 
 class _Builder:

@@ -20,6 +20,7 @@ class Tag:
         attributes: attribute values by name, in document order.
         children: child elements in document order.
         text: character data directly inside, stripped; that between children is joined.
+        raw_text: the same, unstripped: YAML inside XML needs its indentation.
         span: place of the start tag.
     """
 
@@ -28,6 +29,7 @@ class Tag:
     attributes: dict[str, str] = field(default_factory=dict)
     children: tuple[Tag, ...] = ()
     text: str = ""
+    raw_text: str = ""
 
     def find(self, *names: str) -> Tag | None:
         """Return the first descendant reached by these child names, or None."""

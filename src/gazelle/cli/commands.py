@@ -1,0 +1,36 @@
+"""Every command with the module that runs it and one line of help."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["COMMANDS", "Command"]
+
+
+class Command(NamedTuple):
+    """A command: `module` has ``main(argv) -> int``."""
+
+    module: str
+    help: str
+
+
+COMMANDS: dict[str, Command] = {
+    "env": Command("gazelle.cli.env", "print shell lines that make the ROS commands available"),
+    "shell": Command("gazelle.cli.shell", "start a shell with the ROS commands and modules"),
+    "roscore": Command("gazelle.cli.roscore", "run the graph's hub and parameter store"),
+    "roslaunch": Command("gazelle.cli.roslaunch", "start what launch files name"),
+    "rosrun": Command("gazelle.cli.rosrun", "run a node of a package"),
+    "rostopic": Command("gazelle.cli.rostopic", "list, echo, hz, bw, info, type, find, pub"),
+    "rosnode": Command("gazelle.cli.rosnode", "list, info, ping, kill, machine, cleanup"),
+    "rosservice": Command("gazelle.cli.rosservice", "list, info, type, find, call, args, uri"),
+    "rosparam": Command("gazelle.cli.rosparam", "list, get, set, load, dump, delete"),
+    "rosmsg": Command("gazelle.cli.rosmsg", "show, info, list, md5, package, packages"),
+    "rossrv": Command("gazelle.cli.rosmsg", "the same for services"),
+    "rospack": Command("gazelle.cli.rospack", "find, list, list-names, depends, depends1"),
+    "rosversion": Command("gazelle.cli.rospack", "version of a package"),
+    "gzserver": Command("gazelle.cli.gzserver", "run a world"),
+    "gazebo": Command("gazelle.cli.gzserver", "run a world"),
+    "spawn_model": Command("gazelle.cli.spawn_model", "put a model into a running world"),
+    "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
+    "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
+}

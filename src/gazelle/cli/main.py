@@ -1,0 +1,69 @@
+"""``gazelle COMMAND …``."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from gazelle._version import __version__
+from gazelle.cli.commands import COMMANDS
+from gazelle.errors import GazelleError, UserFileError
+
+__all__ = ["main"]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Returns:
+        Its exit code: 0 for success, 1 for a failure it explained, 2 for wrong usage,
+        130 for Ctrl-C.
+    """
+    words = list(sys.argv[1:] if argv is None else argv)
+    if not words or words[0] in {"-h", "--help", "help"}:
+        print(_usage())
+        return 0 if words else 2
+    if words[0] == "--version":
+        print(f"gazelle {__version__}")
+        return 0
+    return _run(words[0], words[1:])
+
+
+def _run(name: str, rest: list[str]) -> int:
+    command = COMMANDS.get(name)
+    if command is None:
+        from gazelle.diagnostics import did_you_mean
+
+        hint = did_you_mean(name, COMMANDS)
+        print(
+            f"gazelle: '{name}' is not a command; {hint or 'see gazelle --help'}", file=sys.stderr
+        )
+        return 2
+    try:
+        module = import_module(command.module)
+        if command.module == "gazelle.cli.rosmsg" or name == "rosversion":
+            rest = [name, *rest]
+        return int(module.main(rest))
+    except UserFileError as error:
+        from gazelle.diagnostics import render
+
+        render(error.diagnostics)
+        return 1
+    except GazelleError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:
+        # The reader of our output has gone, as in `rostopic list | head`.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        return 130
+
+
+def _usage() -> str:
+    width = max(map(len, COMMANDS)) + 2
+    lines = ["usage: gazelle COMMAND …", "", "commands:"]
+    lines += [f"  {name:<{width}}{command.help}" for name, command in COMMANDS.items()]
+    return "\n".join([*lines, "", 'eval "$(gazelle env)" makes the ROS-named ones available.'])

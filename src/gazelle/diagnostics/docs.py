@@ -1,0 +1,37 @@
+"""The catalogue as a page: ``python -m gazelle.diagnostics.docs > docs/diagnostics.md``."""
+
+from __future__ import annotations
+
+import sys
+
+from gazelle.diagnostics.catalogue import Entry, all_entries
+
+__all__ = ["catalogue_markdown"]
+
+_HEAD = """# Diagnostics
+
+Every finding that Gazelle reports has one of these codes. A code never changes its meaning.
+This page is generated: `python -m gazelle.diagnostics.docs > docs/diagnostics.md`.
+"""
+
+
+def catalogue_markdown() -> str:
+    """Return the page: one section per area, one entry per code."""
+    lines = [_HEAD]
+    area = ""
+    for entry in all_entries().values():
+        if entry.code.split(".")[0] != area:
+            area = entry.code.split(".")[0]
+            lines.append(f"## {area}\n")
+        lines.append(_entry_markdown(entry))
+    return "\n".join(lines)
+
+
+def _entry_markdown(entry: Entry) -> str:
+    head = f"### `{entry.code}` ({entry.severity})\n\n**{entry.title}.** {entry.why}\n"
+    text = f"{head}\nFix: {entry.fix}.\n"
+    return f"{text}\nROS/Gazebo says: `{entry.phrase}`\n" if entry.phrase else text
+
+
+if __name__ == "__main__":
+    sys.stdout.write(catalogue_markdown())

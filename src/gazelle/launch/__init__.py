@@ -1,0 +1,1 @@
+"""Launch files: reading them, and starting and supervising what they name."""

@@ -1,0 +1,24 @@
+"""``python -m gazelle.launch.child COMMAND…``: a foreign program that dies with its launcher."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from gazelle.graph.parent import end_with_parent
+
+__all__ = ["main"]
+
+
+def main(words: list[str]) -> int:
+    """Replace this process by the command; the parent-death signal survives exec."""
+    end_with_parent()
+    try:
+        os.execvp(words[0], words)  # noqa: S606 - starting what a launch file names is the purpose
+    except OSError as error:
+        print(f"cannot run '{words[0]}': {error.strerror}", file=sys.stderr)  # noqa: T201
+        return 127
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

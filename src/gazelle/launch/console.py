@@ -1,0 +1,75 @@
+"""roslaunch's own lines on the terminal: colours where it is one, plain text elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import Any, TextIO
+
+import yaml
+
+from gazelle.launch.config import LaunchConfig
+from gazelle.launch.xml1.values import flatten
+
+__all__ = ["Console", "dump_text", "summary"]
+
+_BOLD, _RED, _YELLOW, _RESET = "\x1b[1m", "\x1b[31m", "\x1b[33m", "\x1b[0m"
+_LONGEST_VALUE = 20
+
+
+class Console:
+    """Writes lines as roslaunch does."""
+
+    def __init__(self, stream: TextIO | None = None) -> None:
+        self._stream = stream or sys.stdout
+        self._coloured = self._stream.isatty()
+
+    def plain(self, text: str) -> None:
+        """Write a line."""
+        self._write(text, "")
+
+    def bold(self, text: str) -> None:
+        """Write a line that stands out."""
+        self._write(text, _BOLD)
+
+    def error(self, text: str) -> None:
+        """Write a line about a failure."""
+        self._write(text, _RED)
+
+    def warning(self, text: str) -> None:
+        """Write a line about something to look at."""
+        self._write(text, _YELLOW)
+
+    def _write(self, text: str, colour: str) -> None:
+        shown = f"{colour}{text}{_RESET}" if colour and self._coloured else text
+        self._stream.write(shown + "\n")
+        self._stream.flush()
+
+
+def summary(config: LaunchConfig, params: Mapping[str, Any]) -> str:
+    """Return the SUMMARY block: parameters with shortened values, nodes by namespace."""
+    lines = ["", "SUMMARY", "========", "", "PARAMETERS"]
+    lines += [f" * {name}: {_short(value)}" for name, value in sorted(params.items())]
+    lines += ["", "NODES"]
+    by_namespace: dict[str, list[str]] = {}
+    for node in config.nodes:
+        text = f"    {node.name} ({node.package}/{node.type})"
+        by_namespace.setdefault(node.namespace, []).append(text)
+    for namespace in sorted(by_namespace):
+        lines += [f"  {namespace}", *sorted(by_namespace[namespace])]
+    return "\n".join([*lines, ""])
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    if len(text) > _LONGEST_VALUE:
+        text = text[: _LONGEST_VALUE - 3] + "..."
+    return text.replace("\n", " ")
+
+
+def dump_text(config: LaunchConfig) -> str:
+    """Return what ``roslaunch --dump-params`` prints."""
+    leaves: dict[str, Any] = {}
+    for name, value in config.params.items():
+        leaves.update(flatten(name, value))
+    return yaml.safe_dump(leaves, default_flow_style=False)

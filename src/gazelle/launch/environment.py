@@ -1,0 +1,88 @@
+"""The environment of launched nodes: drop-in modules and ROS-named commands on their paths."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+from gazelle.workspace import Workspace
+
+__all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment", "ros_home"]
+
+ROS_COMMANDS = (
+    "gazebo",
+    "gzclient",
+    "gzserver",
+    "rosclean",
+    "roscore",
+    "roslaunch",
+    "rosmsg",
+    "rosnode",
+    "rospack",
+    "rosparam",
+    "rosrun",
+    "rosservice",
+    "rossrv",
+    "rostopic",
+    "rosversion",
+    "xacro",
+)
+
+
+def drop_in_folder() -> Path:
+    """Return the folder with `rospy` and its kin; only nodes of ours have it on their path."""
+    return Path(__file__).parents[1] / "compat" / "modules"
+
+
+def command_folder() -> Path:
+    """Return a folder with the ROS-named commands, made on first use for this Python."""
+    key = hashlib.sha256(f"{sys.executable}\0{__file__}".encode()).hexdigest()[:12]
+    folder = _cache_home() / "bin" / key
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ROS_COMMANDS:
+        script = folder / name
+        text = f'#!/bin/sh\nexec "{sys.executable}" -m gazelle.cli {name} "$@"\n'
+        if not script.is_file() or script.read_text(encoding="utf-8") != text:
+            part = script.with_suffix(f".{os.getpid()}")
+            part.write_text(text, encoding="utf-8")
+            part.chmod(0o755)
+            part.replace(script)
+    return folder
+
+
+def node_environment(environ: Mapping[str, str], workspace: Workspace) -> dict[str, str]:
+    """Return the environment for nodes and commands of a launch.
+
+    A real ROS on the path stays reachable: our folders only come first.
+    """
+    environment = dict(environ)
+    environment["PATH"] = _prepended(command_folder(), environ.get("PATH", ""))
+    environment["PYTHONPATH"] = _prepended(drop_in_folder(), environ.get("PYTHONPATH", ""))
+    environment.setdefault("ROS_PACKAGE_PATH", os.pathsep.join(_source_folders(workspace)))
+    environment.setdefault("ROS_MASTER_URI", "http://localhost:11311")
+    environment.setdefault("ROS_DISTRO", "noetic")
+    environment.setdefault("ROS_VERSION", "1")
+    environment.setdefault("PYTHONUNBUFFERED", "1")
+    return environment
+
+
+def ros_home(environ: Mapping[str, str]) -> Path:
+    """Return ``ROS_HOME``, ``~/.ros`` when it is not set."""
+    return Path(environ.get("ROS_HOME") or Path.home() / ".ros")
+
+
+def _source_folders(workspace: Workspace) -> list[str]:
+    folders = {str(item.path.parent) for item in workspace.packages.values() if not item.is_builtin}
+    return sorted(folders)
+
+
+def _prepended(folder: Path, path: str) -> str:
+    parts = [part for part in path.split(os.pathsep) if part and part != str(folder)]
+    return os.pathsep.join([str(folder), *parts])
+
+
+def _cache_home() -> Path:
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle"

@@ -1,0 +1,151 @@
+"""Which command a ``(package, type)`` means."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.errors import NotFoundError
+from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
+from gazelle.workspace import Package, Workspace
+
+__all__ = ["Executable", "find_executable", "script_command"]
+
+_COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
+
+
+@dataclass(frozen=True, slots=True)
+class Executable:
+    """How to run a node.
+
+    Attributes:
+        command: words to execute, the node's own arguments follow.
+        builtin: the built-in node, None for a file.
+        folder: folder of the file, for ``cwd="node"``.
+    """
+
+    command: tuple[str, ...]
+    builtin: BuiltinNode | None = None
+    folder: Path | None = None
+
+
+def find_executable(
+    package: str,
+    type_name: str,
+    *,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    span: SourceSpan | None = None,
+    environ: Mapping[str, str] | None = None,
+) -> Executable | None:
+    """Return what runs a node; None (and a diagnostic) when nothing does.
+
+    The order is: a file of the user's package, a built-in node, an executable of an installed
+    ROS (``lib/<package>`` below its prefixes).
+    """
+    found = _in_workspace(package, type_name, workspace, diagnostics, span)
+    if found is not None:
+        return found
+    builtin = builtin_node(package, type_name)
+    if builtin is not None:
+        words = (sys.executable, "-m", "gazelle.nodes", f"{builtin.package}/{builtin.type}")
+        return Executable(words, builtin)
+    native = _native(package, type_name, os.environ if environ is None else environ)
+    if native is not None:
+        return Executable((str(native),), folder=native.parent)
+    _report_missing(package, type_name, workspace, diagnostics, span)
+    return None
+
+
+def script_command(path: Path) -> tuple[str, ...]:
+    """Return the words that run a file: Python goes through our runner, the rest as it is."""
+    if path.suffix == ".py" or _is_python(path):
+        return (sys.executable, "-m", "gazelle.compat.runner", str(path))
+    return (str(path),)
+
+
+def _in_workspace(
+    package: str,
+    type_name: str,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    span: SourceSpan | None,
+) -> Executable | None:
+    try:
+        found = workspace.package(package)
+    except NotFoundError:
+        return None
+    files = found.find_executables(type_name)
+    if not files:
+        return None
+    path = files[0]
+    if not os.access(path, os.X_OK) and not found.is_builtin:
+        message = f"'{path}' is not executable; it runs here, real ROS would not find it"
+        diagnostics.report("launch.not-executable", message, span, fix=f"chmod +x {path}")
+    return Executable(script_command(path), folder=path.parent)
+
+
+def _is_python(path: Path) -> bool:
+    try:
+        with path.open("rb") as stream:
+            first = stream.readline(200)
+    except OSError:
+        return False
+    return first.startswith(b"#!") and b"python" in first
+
+
+def _native(package: str, type_name: str, environ: Mapping[str, str]) -> Path | None:
+    for variable in ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"):
+        for prefix in filter(None, environ.get(variable, "").split(os.pathsep)):
+            candidate = Path(prefix) / "lib" / package / type_name
+            if candidate.is_file() and os.access(candidate, os.X_OK):
+                return candidate
+    return None
+
+
+def _report_missing(
+    package: str,
+    type_name: str,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    span: SourceSpan | None,
+) -> None:
+    try:
+        found = workspace.package(package)
+    except NotFoundError as error:
+        diagnostics.report("launch.package-missing", str(error), span)
+        return
+    source = _compiled_source(found, type_name)
+    if source is not None:
+        message = (
+            f"Cannot locate node of type [{type_name}] in package [{package}]: it is compiled "
+            f"code ('{source}') that is not built here"
+        )
+        diagnostics.report("launch.compiled-node", message, span)
+        return
+    existing = sorted({*builtin_types(package), *_scripts(found)})
+    known = f"the package has: {', '.join(existing)}" if existing else "the package has no nodes"
+    message = f"Cannot locate node of type [{type_name}] in package [{package}]; {known}"
+    fix = did_you_mean(type_name, existing)
+    diagnostics.report("launch.executable-missing", message, span, fix=fix)
+
+
+def _compiled_source(package: Package, type_name: str) -> Path | None:
+    """Return the C++ file that an executable of this name is most likely made from."""
+    for path in sorted(package.path.rglob("*")):
+        if path.suffix in _COMPILED and path.stem == type_name:
+            return path
+    lists = package.path / "CMakeLists.txt"
+    text = lists.read_text(encoding="utf-8", errors="replace") if lists.is_file() else ""
+    return lists if f"add_executable({type_name}" in text.replace(" ", "") else None
+
+
+def _scripts(package: Package) -> list[str]:
+    folders = [package.path / name for name in ("scripts", "nodes", "bin", "src")]
+    files = [path for folder in folders if folder.is_dir() for path in folder.iterdir()]
+    return [path.name for path in files if path.suffix == ".py" or shutil.which(str(path))]

@@ -1,0 +1,198 @@
+"""What the ``roslaunch`` command does once its options are read."""
+
+from __future__ import annotations
+
+import os
+import sys
+import uuid
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.diagnostics import Diagnostics, render
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph
+from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.console import Console, summary
+from gazelle.launch.environment import node_environment, ros_home
+from gazelle.launch.executables import Executable, find_executable
+from gazelle.launch.supervisor import StopTimes, Supervisor
+from gazelle.workspace import Workspace
+
+__all__ = ["LaunchOptions", "launch"]
+
+_ROSOUT = NodeSpec("rosout", "rosout", "rosout")
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchOptions:
+    """Options of ``roslaunch`` that change how nodes run.
+
+    Attributes:
+        screen: all output to the terminal.
+        log: all output to files.
+        required: every node is required.
+        wait: wait for a graph that is there instead of starting one.
+        port: port of the graph's hub, None for the default.
+        show_summary: print the SUMMARY block.
+        run_id: identifier of the run, made up when empty.
+        simulator_args: words added to every simulator server (``--fast``, ``--lockstep``).
+    """
+
+    screen: bool = False
+    log: bool = False
+    required: bool = False
+    wait: bool = False
+    port: int | None = None
+    show_summary: bool = True
+    run_id: str = ""
+    simulator_args: tuple[str, ...] = ()
+    stop_times: StopTimes | None = None
+
+
+def launch(
+    config: LaunchConfig,
+    *,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    options: LaunchOptions,
+    title: str,
+) -> int:
+    """Set the parameters, start every node and stay until the launch is over.
+
+    Args:
+        config: what the launch files came to.
+        workspace: where packages are.
+        diagnostics: findings of reading; those of finding executables are added and printed.
+        options: of the command line.
+        title: the launch file's path, for the terminal.
+
+    Returns:
+        The exit code: 1 when a node could not be found or a required one failed.
+
+    Raises:
+        LaunchError: the graph cannot be opened.
+    """
+    console = Console()
+    run_id = options.run_id or str(uuid.uuid1())
+    log_folder = _log_folder(run_id)
+    console.plain(f"... logging to {log_folder}/roslaunch-{os.uname().nodename}-{os.getpid()}.log")
+    console.plain("Press Ctrl-C to interrupt\n")
+    nodes, missing = _executables(config, workspace, diagnostics, options)
+    render(diagnostics)
+    environ = _environ(options)
+    with _graph(options) as graph:
+        _set_params(config, graph, run_id)
+        if options.show_summary:
+            console.plain(summary(config, {**config.params, **_core_params()}))
+        _announce(graph, console, title, run_id)
+        environment = node_environment(environ, workspace)
+        supervisor = Supervisor(
+            environment, log_folder, _cwd(environ), console=console, stop_times=options.stop_times
+        )
+        code = _run(supervisor, nodes, workspace, diagnostics, console)
+    console.bold("done")
+    return 1 if missing else code
+
+
+def _run(
+    supervisor: Supervisor,
+    nodes: Sequence[tuple[NodeSpec, Executable]],
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    console: Console,
+) -> int:
+    rosout = find_executable("rosout", "rosout", workspace=workspace, diagnostics=diagnostics)
+    if rosout is not None and supervisor.start(_ROSOUT, rosout):
+        console.plain("started core service [/rosout]")
+    for spec, executable in nodes:
+        supervisor.start(spec, executable)
+    return supervisor.run()
+
+
+def _executables(
+    config: LaunchConfig, workspace: Workspace, diagnostics: Diagnostics, options: LaunchOptions
+) -> tuple[list[tuple[NodeSpec, Executable]], int]:
+    """Return every node with its command, and how many have none."""
+    found: list[tuple[NodeSpec, Executable]] = []
+    for spec in config.nodes:
+        executable = find_executable(
+            spec.package, spec.type, workspace=workspace, diagnostics=diagnostics, span=spec.span
+        )
+        if executable is not None:
+            found.append((_with_options(spec, executable, options), executable))
+        if spec.machine and spec.machine != "localhost":
+            message = f"node '{spec.name}' asks for machine '{spec.machine}'; it runs here"
+            diagnostics.report("launch.remote-machine", message, spec.span)
+    return found, len(config.nodes) - len(found)
+
+
+def _with_options(spec: NodeSpec, executable: Executable, options: LaunchOptions) -> NodeSpec:
+    output = "screen" if options.screen else "log" if options.log else spec.output
+    builtin = executable.builtin
+    args = spec.args
+    if builtin is not None and builtin.type in {"gzserver", "gazebo", "debug"}:
+        args = " ".join([args, *options.simulator_args]).strip()
+    required = spec.required or options.required
+    return replace(spec, output=output, required=required, args=args)
+
+
+def _graph(options: LaunchOptions) -> Graph:
+    try:
+        return Graph.open(port=options.port, role="client" if options.wait else "hub")
+    except Exception as error:
+        raise LaunchError(f"cannot open the graph: {error}") from error
+
+
+def _set_params(config: LaunchConfig, graph: Graph, run_id: str) -> None:
+    """Clear, delete, set and dump parameters, in roslaunch's order."""
+    store = graph.parameters
+    for name in [*config.clear_params, *config.deleted_params]:
+        bare = name.rstrip("/") or "/"
+        if store.has(bare):
+            store.delete(bare)
+    for name, value in {**_core_params(), "/run_id": run_id, **config.params}.items():
+        store.set(name, value)
+    for dump in config.dumps:
+        text = yaml.safe_dump(store.get(dump.namespace), default_flow_style=False)
+        Path(dump.file).write_text(text, encoding="utf-8")
+
+
+def _core_params() -> dict[str, Any]:
+    return {"/rosdistro": "noetic\n", "/rosversion": "1.16.0\n"}
+
+
+def _announce(graph: Graph, console: Console, title: str, run_id: str) -> None:
+    if sys.stdout.isatty():
+        sys.stdout.write(f"\x1b]2;{title}\x07")
+    console.bold(f"ROS_MASTER_URI=http://localhost:{graph.port}/")
+    console.bold(f"setting /run_id to {run_id}")
+
+
+def _environ(options: LaunchOptions) -> Mapping[str, str]:
+    environ = dict(os.environ)
+    if options.port is not None:
+        environ["GAZELLE_PORT"] = str(options.port)
+    return environ
+
+
+def _cwd(environ: Mapping[str, str]) -> Path:
+    home = ros_home(environ)
+    home.mkdir(parents=True, exist_ok=True)
+    return home
+
+
+def _log_folder(run_id: str) -> Path:
+    """Make ``~/.ros/log/RUN_ID`` and let ``latest`` point at it."""
+    root = Path(os.environ.get("ROS_LOG_DIR") or ros_home(os.environ) / "log")
+    folder = root / run_id
+    folder.mkdir(parents=True, exist_ok=True)
+    link = root / "latest"
+    if link.is_symlink() or not link.exists():
+        part = root / f".latest-{os.getpid()}"
+        part.symlink_to(folder)
+        part.replace(link)
+    return folder

@@ -1,0 +1,233 @@
+"""Starting the nodes of a launch and keeping them until it ends."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from gazelle.launch.config import NodeSpec
+from gazelle.launch.console import Console
+from gazelle.launch.executables import Executable
+from gazelle.launch.host import HostEnded, NodeEnded, NodeHost
+from gazelle.launch.process import LaunchedProcess, end_text, node_words, start_process
+
+__all__ = ["StopTimes", "Supervisor"]
+
+_RULE = "=" * 80
+
+
+class StopTimes:
+    """How long a process may take to end before the next stronger signal (roslaunch's)."""
+
+    def __init__(self, sigint_s: float = 15.0, sigterm_s: float = 2.0) -> None:
+        self.sigint_s = sigint_s
+        self.sigterm_s = sigterm_s
+
+
+class _ProcessEnded:
+    def __init__(self, process: LaunchedProcess, code: int) -> None:
+        self.process = process
+        self.code = code
+
+
+class _Respawn:
+    def __init__(self, spec: NodeSpec, executable: Executable) -> None:
+        self.spec = spec
+        self.executable = executable
+
+
+class _Shutdown:
+    pass
+
+
+class Supervisor:
+    """Owns every process of a launch; when it ends, all of them end.
+
+    Events (ends, respawns, signals) come through one queue and are handled in the thread that
+    calls `run`, so nothing here needs a lock.
+    """
+
+    def __init__(
+        self,
+        environment: Mapping[str, str],
+        log_folder: Path,
+        cwd: Path,
+        *,
+        console: Console,
+        stop_times: StopTimes | None = None,
+    ) -> None:
+        self._environment = environment
+        self._log_folder = log_folder
+        self._cwd = cwd
+        self._console = console
+        self._stop_times = stop_times or StopTimes()
+        self._events: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._running: list[LaunchedProcess] = []
+        self._started: list[subprocess.Popen[bytes]] = []
+        self._executables: dict[str, Executable] = {}
+        self._count = 0
+        self._respawning = 0
+        self._host: NodeHost | None = None
+        self._exit_code = 0
+
+    def start(self, spec: NodeSpec, executable: Executable) -> bool:
+        """Start a node; False (and a line on the terminal) when that is impossible."""
+        self._count += 1
+        label = f"{spec.full_name.strip('/').replace('/', '-')}-{self._count}"
+        words = (*executable.command, *node_words(spec))
+        process = LaunchedProcess(label, spec, words, self._log_folder / label)
+        self._executables[label] = executable
+        builtin = executable.builtin
+        if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
+            self._start_hosted(process, f"{builtin.package}/{builtin.type}")
+            return True
+        try:
+            start_process(process, executable, self._environment, self._cwd)
+        except OSError as error:
+            self._console.error(f"cannot start [{label}]: {error}")
+            self._exit_code = 1
+            return False
+        self._running.append(process)
+        assert process.popen is not None
+        self._started.append(process.popen)
+        threading.Thread(target=self._wait_for, args=(process,), daemon=True).start()
+        self._console.bold(f"process[{label}]: started with pid [{process.pid}]")
+        return True
+
+    def run(self) -> int:
+        """Handle events until every process has ended or a shutdown is asked for.
+
+        Returns:
+            0 when all went well, 1 when a required process died or a start failed.
+        """
+        previous = {
+            number: signal.signal(number, lambda *_args: self._events.put(_Shutdown()))
+            for number in (signal.SIGINT, signal.SIGTERM)
+        }
+        try:
+            while (self._running or self._respawning) and self._handle(self._events.get()):
+                continue
+        finally:
+            self.shutdown()
+            for number, handler in previous.items():
+                signal.signal(number, handler)
+        return self._exit_code
+
+    def shutdown(self) -> None:
+        """End all processes: SIGINT, then SIGTERM, then SIGKILL."""
+        for process in reversed(self._running):
+            self._console.plain(f"[{process.label}] killing on exit")
+            self._signal(process, signal.SIGINT)
+        self._close_host()
+        self._wait_until(time.monotonic() + self._stop_times.sigint_s)
+        self._escalate(signal.SIGTERM, self._stop_times.sigterm_s)
+        self._escalate(signal.SIGKILL, self._stop_times.sigterm_s)
+        for popen in self._started:
+            _signal_group(popen, signal.SIGKILL)
+
+    def _start_hosted(self, process: LaunchedProcess, node: str) -> None:
+        if self._host is None:
+            self._host = NodeHost(self._environment, self._cwd, self._events)
+        process.host_id = self._count
+        process.popen = self._host.popen
+        self._host.start(self._count, node, process.spec)
+        self._running.append(process)
+        self._console.bold(f"process[{process.label}]: started with pid [{process.pid}]")
+
+    def _wait_for(self, process: LaunchedProcess) -> None:
+        assert process.popen is not None
+        self._events.put(_ProcessEnded(process, process.popen.wait()))
+
+    def _handle(self, event: Any) -> bool:
+        """Handle one event; False means that the launch is over."""
+        if isinstance(event, _Shutdown):
+            return False
+        if isinstance(event, _Respawn):
+            self._respawning -= 1
+            self.start(event.spec, event.executable)
+            return True
+        ended = [self._ended(process, code) for process, code in self._ends(event)]
+        return all(ended)
+
+    def _ends(self, event: Any) -> list[tuple[LaunchedProcess, int]]:
+        if isinstance(event, _ProcessEnded):
+            return [(event.process, event.code)]
+        if isinstance(event, NodeEnded):
+            hosted = [item for item in self._running if item.host_id == event.host_id]
+            return [(item, event.code) for item in hosted]
+        assert isinstance(event, HostEnded)
+        self._host = None
+        hosted = [item for item in self._running if item.host_id is not None]
+        return [(item, event.code) for item in hosted]
+
+    def _ended(self, process: LaunchedProcess, code: int) -> bool:
+        if process not in self._running:
+            return True
+        self._running.remove(process)
+        text = end_text(process, code)
+        if process.spec.required:
+            head = f"REQUIRED process [{process.label}] has died!"
+            self._console.error(f"{_RULE}{head}\n{text}\nInitiating shutdown!\n{_RULE}")
+            self._exit_code = 1 if code else self._exit_code
+            return False
+        show = self._console.plain if code == 0 else self._console.error
+        show(f"[{process.label}] {text}")
+        if process.spec.respawn:
+            self._respawn(process)
+        return True
+
+    def _respawn(self, process: LaunchedProcess) -> None:
+        self._console.plain(f"[{process.label}] restarting process")
+        self._respawning += 1
+        event = _Respawn(process.spec, self._executables[process.label])
+        if process.spec.respawn_delay_s > 0:
+            timer = threading.Timer(process.spec.respawn_delay_s, self._events.put, (event,))
+            timer.daemon = True
+            timer.start()
+        else:
+            self._events.put(event)
+
+    def _signal(self, process: LaunchedProcess, number: signal.Signals) -> None:
+        process.stopping = True
+        if process.host_id is not None:
+            if self._host is not None:
+                self._host.stop(process.host_id)
+        elif process.popen is not None and process.popen.poll() is None:
+            _signal_group(process.popen, number)
+
+    def _close_host(self) -> None:
+        if self._host is not None and self._host.popen.stdin is not None:
+            self._host.popen.stdin.close()
+
+    def _wait_until(self, deadline: float) -> None:
+        for popen in self._alive():
+            try:
+                popen.wait(max(0.0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                continue
+
+    def _escalate(self, number: signal.Signals, seconds: float) -> None:
+        for popen in self._alive():
+            label = next((item.label for item in self._running if item.popen is popen), "nodes")
+            self._console.warning(f"[{label}] escalating to {number.name}")
+            _signal_group(popen, number)
+        self._wait_until(time.monotonic() + seconds)
+
+    def _alive(self) -> list[subprocess.Popen[bytes]]:
+        own = [item.popen for item in self._running if item.popen is not None]
+        hosts = [self._host.popen] if self._host is not None else []
+        return [popen for popen in dict.fromkeys([*own, *hosts]) if popen.poll() is None]
+
+
+def _signal_group(popen: subprocess.Popen[bytes], number: signal.Signals) -> None:
+    """Signal a process and what it started: each is the leader of a group of its own."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(popen.pid, number)

@@ -1,0 +1,1 @@
+"""roslaunch XML, the format of ROS 1 launch files."""

@@ -1,0 +1,185 @@
+"""``<param>`` and ``<rosparam>``: values from text, files, commands and YAML."""
+
+from __future__ import annotations
+
+import shlex
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.description.xml import Tag
+from gazelle.diagnostics import SourceSpan
+from gazelle.graph.names import resolve
+from gazelle.launch.config import ParamDump
+from gazelle.launch.environment import node_environment
+from gazelle.launch.xml1.reading import Reading, TagError
+from gazelle.launch.xml1.scope import Scope
+from gazelle.launch.xml1.values import flatten, load_yaml, param_value
+
+__all__ = ["param", "rosparam"]
+
+_SOURCES = ("value", "textfile", "binfile", "command")
+
+
+def param(tag: Tag, scope: Scope, reading: Reading) -> None:
+    """Read a ``<param>``; ``~name`` at file level is for the nodes that follow."""
+    name = reading.required(tag, "name", scope)
+    value = _value(tag, name, scope, reading)
+    if name.startswith("~") and not scope.in_node:
+        scope.private_params[name] = value
+    else:
+        reading.config.params[_absolute(name, scope)] = value
+
+
+def rosparam(tag: Tag, scope: Scope, reading: Reading) -> None:
+    """Read a ``<rosparam>``: load (default), dump or delete."""
+    command = reading.choice(tag, "command", scope, ("load", "dump", "delete"))
+    inner = scope.child(reading.text(tag, "ns", scope))
+    name = reading.text(tag, "param", scope)
+    target = _absolute(name, inner) if name else inner.namespace.rstrip("/")
+    if command == "delete":
+        reading.config.deleted_params.append(target or "/")
+    elif command == "dump":
+        file = reading.required(tag, "file", scope)
+        reading.config.dumps.append(ParamDump(file, target or "/"))
+    else:
+        _load(tag, name, target, scope, reading)
+
+
+def _load(tag: Tag, name: str, target: str, scope: Scope, reading: Reading) -> None:
+    file = reading.text(tag, "file", scope)
+    text = _read_text(Path(file), "file", tag) if file else tag.raw_text
+    if reading.flag(tag, "subst_value", scope):
+        text = _substitute_lines(text, tag, scope, reading)
+    try:
+        data = load_yaml(text)
+    except yaml.YAMLError as error:
+        raise TagError(
+            "launch.bad-yaml", _yaml_text(error, file), _yaml_span(error, file, tag)
+        ) from error
+    if data is None and not name:
+        return
+    if not isinstance(data, dict) and not name:
+        message = f"<rosparam> without param= needs a mapping, found {type(data).__name__}"
+        raise TagError("launch.bad-yaml", message, fix='add param="name"')
+    reading.config.params.update(_absolute_leaves(target, data))
+
+
+def _absolute_leaves(target: str, data: Any) -> dict[str, Any]:
+    """Resolve keys such as ``/global`` and ``a/b`` in the YAML as rosparam does."""
+    if not isinstance(data, dict) or not data:
+        return {target or "/": data}
+    leaves: dict[str, Any] = {}
+    for key, value in data.items():
+        name = resolve(str(key), target or "/")
+        leaves.update(flatten(name, value))
+    return leaves
+
+
+def _value(tag: Tag, name: str, scope: Scope, reading: Reading) -> Any:
+    given = [source for source in _SOURCES if source in tag.attributes]
+    if len(given) != 1:
+        found = ", ".join(given) or "none"
+        message = f"<param name='{name}'> needs exactly one of {', '.join(_SOURCES)}; found {found}"
+        raise TagError("launch.bad-param", message)
+    source = reading.text(tag, given[0], scope)
+    type_name = reading.text(tag, "type", scope) or "auto"
+    if given[0] == "binfile":
+        return _read_bytes(Path(source), tag)
+    if given[0] == "textfile":
+        text = _read_text(Path(source), "textfile", tag)
+    elif given[0] == "command":
+        text = _run(source, name, scope, reading)
+    else:
+        text = source
+    if given[0] != "value" and type_name == "auto":
+        return text
+    try:
+        return param_value(text, type_name)
+    except (ValueError, yaml.YAMLError) as error:
+        raise TagError("launch.bad-param", f"Invalid <param> tag: '{name}': {error}") from error
+
+
+def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
+    """Run a command and return what it prints; xacro runs in this process, it is Python."""
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        raise TagError("launch.param-command-failed", f"[{name}]: {error}: {command}") from error
+    if words and Path(words[0]).name in {"xacro", "xacro.py"}:
+        return _run_xacro(words[1:], name, reading)
+    environment = {**node_environment(reading.environ, reading.workspace), **scope.env}
+    try:
+        done = subprocess.run(words, capture_output=True, env=environment, check=False)
+    except OSError as error:
+        message = f"Cannot load command parameter [{name}]: '{command}': {error.strerror}"
+        raise TagError("launch.param-command-failed", message) from error
+    if done.returncode:
+        detail = done.stderr.decode(errors="replace").strip()
+        message = (
+            f"Cannot load command parameter [{name}]: command [{words}] "
+            f"returned with code [{done.returncode}]"
+        )
+        raise TagError("launch.param-command-failed", f"{message}\n{detail}" if detail else message)
+    return done.stdout.decode("utf-8", errors="replace")
+
+
+def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
+    from gazelle.description.xacro import expand_xacro
+
+    files = [word for word in words if not word.startswith("-") and ":=" not in word]
+    if len(files) != 1:
+        message = f"[{name}]: xacro needs one file, found {len(files)}: {' '.join(words)}"
+        raise TagError("launch.param-command-failed", message)
+    mappings = dict(word.split(":=", 1) for word in words if ":=" in word)
+    errors_before = len(reading.diagnostics.errors)
+    expanded = expand_xacro(
+        Path(files[0]),
+        mappings=mappings,
+        workspace=reading.workspace,
+        diagnostics=reading.diagnostics,
+    )
+    if expanded is None or len(reading.diagnostics.errors) > errors_before:
+        message = f"Cannot load command parameter [{name}]: xacro failed on '{files[0]}'"
+        raise TagError("launch.param-command-failed", message)
+    return expanded.text
+
+
+def _read_text(path: Path, attribute: str, tag: Tag) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise TagError("xml.unreadable", f"{attribute} '{path}': {reason}", tag.span) from error
+
+
+def _read_bytes(path: Path, tag: Tag) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise TagError("xml.unreadable", f"binfile '{path}': {error.strerror}", tag.span) from error
+
+
+def _substitute_lines(text: str, tag: Tag, scope: Scope, reading: Reading) -> str:
+    return "\n".join(reading.substitute(line, tag, scope) for line in text.split("\n"))
+
+
+def _absolute(name: str, scope: Scope) -> str:
+    bare = name.removeprefix("~").lstrip("/") if name.startswith("~") else name
+    return resolve(bare, scope.namespace.rstrip("/") or "/")
+
+
+def _yaml_text(error: yaml.YAMLError, file: str) -> str:
+    problem = getattr(error, "problem", None) or str(error)
+    context = getattr(error, "context", None)
+    where = f" of '{file}'" if file else ""
+    return f"error loading <rosparam> tag{where}: {f'{context}: ' if context else ''}{problem}"
+
+
+def _yaml_span(error: yaml.YAMLError, file: str, tag: Tag) -> SourceSpan:
+    mark = getattr(error, "problem_mark", None)
+    if file and mark is not None:
+        return SourceSpan(file, mark.line + 1, mark.column + 1)
+    return tag.span

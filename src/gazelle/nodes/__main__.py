@@ -1,0 +1,49 @@
+"""``python -m gazelle.nodes PKG/TYPE args…``, or ``--host FD`` for light nodes together."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+
+from gazelle.errors import GazelleError
+from gazelle.graph.parent import end_with_parent
+
+__all__ = ["main"]
+
+
+def main(words: list[str]) -> int:
+    """Run a node, or a host of nodes, in this process."""
+    end_with_parent()
+    if words and words[0] == "--host":
+        from gazelle.nodes.host import host
+
+        # Ctrl-C is the launcher's business; it closes our input.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        return host(int(words[1]), sys.stdin)
+    if not words:
+        print("usage: python -m gazelle.nodes PKG/TYPE [args…]", file=sys.stderr)  # noqa: T201
+        return 2
+    return _single(words[0], words[1:])
+
+
+def _single(name: str, argv: list[str]) -> int:
+    from gazelle.graph import Graph
+    from gazelle.nodes.host import run_node
+
+    stop = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_args: stop.set())
+    namespace = os.environ.get("ROS_NAMESPACE", "/")
+    try:
+        with Graph.open() as graph:
+            request = {"node": name, "argv": argv, "namespace": namespace}
+            return run_node(request, graph, stop)
+    except GazelleError as error:
+        print(f"[{name}] {error}", file=sys.stderr)  # noqa: T201
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

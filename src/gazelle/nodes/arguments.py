@@ -1,0 +1,47 @@
+"""What a node is told when it starts: names, remaps, private parameters, its own arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from gazelle.graph.names import parse_command_line
+
+__all__ = ["NodeArguments", "read_arguments"]
+
+
+@dataclass(frozen=True, slots=True)
+class NodeArguments:
+    """Arguments of one node.
+
+    Attributes:
+        name: node name without namespace.
+        namespace: absolute namespace.
+        remappings: as written, from → to.
+        params: private parameters of the command line (``_rate:=5``).
+        rest: the node's own arguments.
+        output: ``screen``, or ``log`` for warnings and errors only on the terminal.
+    """
+
+    name: str
+    namespace: str = "/"
+    remappings: Mapping[str, str] = field(default_factory=dict)
+    params: Mapping[str, Any] = field(default_factory=dict)
+    rest: tuple[str, ...] = ()
+    output: str = "screen"
+
+
+def read_arguments(
+    argv: Sequence[str], default_name: str, *, namespace: str = "/", output: str = "screen"
+) -> NodeArguments:
+    """Split a node's words into ROS's and its own (wiki: Remapping Arguments)."""
+    line = parse_command_line(argv)
+    return NodeArguments(
+        name=line.name or default_name,
+        namespace=line.namespace or namespace or "/",
+        remappings=dict(line.remappings),
+        params=dict(line.params),
+        rest=tuple(line.rest),
+        output=output,
+    )

@@ -1,0 +1,93 @@
+"""Light nodes in one process: started and stopped by lines of JSON on standard input."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import threading
+import traceback
+from typing import Any, TextIO
+
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph
+from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.registry import builtin_node
+
+__all__ = ["host"]
+
+
+def host(status_fd: int, commands: TextIO) -> int:
+    """Run nodes until the command stream ends.
+
+    Args:
+        status_fd: receives ``{"id": 3, "exit": 0}`` when a node has ended.
+        commands: ``{"start": {"id", "node", "argv", "namespace", "output"}}`` or ``{"stop": 3}``.
+    """
+    status = os.fdopen(status_fd, "w", encoding="utf-8")
+    nodes = _Nodes(status)
+    with Graph.open() as graph:
+        for line in commands:
+            command = json.loads(line)
+            if "start" in command:
+                nodes.start(command["start"], graph)
+            else:
+                nodes.stop(command["stop"])
+        nodes.stop_all()
+    return 0
+
+
+class _Nodes:
+    def __init__(self, status: TextIO) -> None:
+        self._status = status
+        self._lock = threading.Lock()
+        self._running: dict[int, tuple[threading.Event, threading.Thread]] = {}
+
+    def start(self, request: dict[str, Any], graph: Graph) -> None:
+        stop = threading.Event()
+        thread = threading.Thread(
+            target=self._run, args=(request, graph, stop), name=request["node"], daemon=True
+        )
+        self._running[request["id"]] = (stop, thread)
+        thread.start()
+
+    def stop(self, number: int) -> None:
+        if number in self._running:
+            self._running[number][0].set()
+
+    def stop_all(self) -> None:
+        for stop, _ in self._running.values():
+            stop.set()
+        for _, thread in self._running.values():
+            thread.join(timeout=2.0)
+
+    def _run(self, request: dict[str, Any], graph: Graph, stop: threading.Event) -> None:
+        code = 1
+        try:
+            code = run_node(request, graph, stop)
+        except GazelleError as error:
+            sys.stderr.write(f"[{request['node']}] {error}\n")
+        except Exception:  # noqa: BLE001 - one node's bug must not take the others along
+            traceback.print_exc()
+        with self._lock:
+            self._status.write(json.dumps({"id": request["id"], "exit": code}) + "\n")
+            self._status.flush()
+
+
+def run_node(request: dict[str, Any], graph: Graph, stop: threading.Event) -> int:
+    """Run one node in this thread and return its exit code.
+
+    Raises:
+        GazelleError: there is no such node, or it failed in a way it can explain.
+    """
+    package, _, type_name = request["node"].partition("/")
+    node = builtin_node(package, type_name)
+    if node is None:
+        raise GazelleError(f"'{request['node']}' is not a built-in node")
+    arguments = read_arguments(
+        request["argv"],
+        type_name,
+        namespace=request.get("namespace", "/"),
+        output=request.get("output", "screen"),
+    )
+    return int(node.load()(arguments, graph, stop))

@@ -1,0 +1,151 @@
+"""Which built-in node answers to which ``(package, type)``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import threading
+
+    from gazelle.graph import Graph
+    from gazelle.nodes.arguments import NodeArguments
+
+    NodeFunction = Callable[[NodeArguments, Graph, threading.Event], int]
+
+__all__ = ["BuiltinNode", "builtin_node", "builtin_nodes", "builtin_types"]
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltinNode:
+    """A node that Gazelle brings.
+
+    Attributes:
+        package, type: its first name.
+        target: ``module:function``; the function takes `NodeArguments`, the graph and an event
+            that tells it to stop, and returns an exit code.
+        light: it may share a process with other light ones.
+        help: one line about it.
+        aliases: other ``(package, type)`` names it answers to.
+    """
+
+    package: str
+    type: str
+    target: str
+    light: bool
+    help: str
+    aliases: tuple[tuple[str, str], ...] = ()
+
+    def load(self) -> Callable[..., Any]:
+        """Import and return the function."""
+        module, _, function = self.target.partition(":")
+        return getattr(import_module(module), function)  # type: ignore[no-any-return]
+
+
+_VIEWS = (
+    ("rviz", "rviz"),
+    ("rviz2", "rviz2"),
+    ("rqt_gui", "rqt_gui"),
+    ("rqt_graph", "rqt_graph"),
+    ("rqt_plot", "rqt_plot"),
+    ("rqt_image_view", "rqt_image_view"),
+    ("rqt_robot_steering", "rqt_robot_steering"),
+    ("rqt_reconfigure", "rqt_reconfigure"),
+    ("rqt_console", "rqt_console"),
+    ("rqt_tf_tree", "rqt_tf_tree"),
+    ("image_view", "image_view"),
+)
+_SERVER_NAMES = (
+    ("gazebo_ros", "gazebo"),
+    ("gazebo_ros", "debug"),
+    ("gazebo_ros", "perf"),
+    ("gazebo", "gazebo"),
+    ("gazebo", "gzserver"),
+)
+_SPAWN_NAMES = (
+    ("gazebo_ros", "spawn_model.py"),
+    ("gazebo_ros", "spawn_entity.py"),
+    ("gazebo", "spawn_model"),
+    ("gazebo", "spawn_model.py"),
+    ("gazebo_tools", "gazebo_model"),
+)
+
+_NODES = (
+    BuiltinNode(
+        "gazebo_ros",
+        "gzserver",
+        "gazelle.nodes.gzserver:run",
+        light=False,
+        help="the simulator",
+        aliases=_SERVER_NAMES,
+    ),
+    BuiltinNode(
+        "gazebo_ros",
+        "spawn_model",
+        "gazelle.nodes.spawn_model:run",
+        light=True,
+        help="puts a model into the running world",
+        aliases=_SPAWN_NAMES,
+    ),
+    BuiltinNode(
+        "joint_state_publisher",
+        "joint_state_publisher",
+        "gazelle.nodes.joint_state_publisher:run",
+        light=True,
+        help="publishes joint states of a robot description",
+    ),
+    BuiltinNode(
+        "robot_state_publisher",
+        "robot_state_publisher",
+        "gazelle.nodes.robot_state_publisher:run",
+        light=True,
+        help="turns joint states into tf",
+        aliases=(("robot_state_publisher", "state_publisher"),),
+    ),
+    BuiltinNode(
+        "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"
+    ),
+    BuiltinNode(
+        "tf",
+        "static_transform_publisher",
+        "gazelle.nodes.static_transform_publisher:run_tf",
+        light=True,
+        help="publishes one fixed transform again and again",
+    ),
+    BuiltinNode(
+        "tf2_ros",
+        "static_transform_publisher",
+        "gazelle.nodes.static_transform_publisher:run_tf2",
+        light=True,
+        help="publishes one fixed transform, latched",
+    ),
+    BuiltinNode(
+        "gazebo_ros",
+        "gzclient",
+        "gazelle.nodes.view:run",
+        light=True,
+        help="stands for a window: stays alive and says what is missing",
+        aliases=(("gazebo", "gzclient"), ("gazebo_ros", "gzclient.py"), *_VIEWS),
+    ),
+)
+
+
+def builtin_nodes() -> tuple[BuiltinNode, ...]:
+    """Return all built-in nodes."""
+    return _NODES
+
+
+def builtin_node(package: str, type_name: str) -> BuiltinNode | None:
+    """Return the node that answers to a name, or None."""
+    wanted = (package, type_name)
+    return next(
+        (node for node in _NODES if wanted in ((node.package, node.type), *node.aliases)), None
+    )
+
+
+def builtin_types(package: str) -> tuple[str, ...]:
+    """Return the types that exist under a package's name."""
+    names = [name for node in _NODES for name in ((node.package, node.type), *node.aliases)]
+    return tuple(sorted({type_name for owner, type_name in names if owner == package}))

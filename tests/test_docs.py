@@ -1,0 +1,40 @@
+"""The generated pages are what their generators print, and every code is provoked somewhere."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from gazelle.diagnostics.catalogue import all_entries
+from gazelle.diagnostics.docs import catalogue_markdown
+
+ROOT = Path(__file__).parents[1]
+
+
+def test_diagnostics_page_is_generated_from_the_catalogue() -> None:
+    page = (ROOT / "docs" / "diagnostics.md").read_text(encoding="utf-8")
+    command = "python -m gazelle.diagnostics.docs > docs/diagnostics.md"
+    assert page == catalogue_markdown(), f"run: {command}"
+
+
+def test_every_code_is_used_in_the_source_and_named_in_a_test() -> None:
+    catalogue = ROOT / "src" / "gazelle" / "diagnostics" / "catalogue"
+    source = _text(ROOT / "src", skip=catalogue)
+    tests = _text(ROOT / "tests", skip=catalogue)
+    unused = [code for code in all_entries() if f'"{code}"' not in source]
+    untested = [code for code in all_entries() if f'"{code}"' not in tests]
+    assert not unused, f"codes that nothing reports: {unused}"
+    assert not untested, f"codes that no test provokes: {untested}"
+
+
+def test_every_code_reported_has_an_entry() -> None:
+    source = _text(ROOT / "src" / "gazelle")
+    areas = {code.split(".")[0] for code in all_entries()}
+    pattern = re.compile(r'\.report\(\s*"([a-z0-9]+\.[a-z0-9-]+)"')
+    named = {code for code in pattern.findall(source) if code.split(".")[0] in areas}
+    assert named <= set(all_entries())
+
+
+def _text(folder: Path, skip: Path | None = None) -> str:
+    files = [path for path in folder.rglob("*.py") if skip is None or skip not in path.parents]
+    return "\n".join(path.read_text(encoding="utf-8") for path in files)
