@@ -10,13 +10,18 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry.dae import read_dae
+from gazelle.geometry.gltf import read_gltf
 from gazelle.geometry.mesh import Mesh, MeshError
+from gazelle.geometry.obj import read_obj
 from gazelle.geometry.stl import read_stl
 
 __all__ = ["MESH_SUFFIXES", "load_mesh", "load_mesh_reported"]
 
 _READERS: dict[str, Callable[[bytes, Path], Mesh]] = {
     ".dae": read_dae,
+    ".glb": read_gltf,
+    ".gltf": read_gltf,
+    ".obj": read_obj,
     ".stl": read_stl,
 }
 

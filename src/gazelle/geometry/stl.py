@@ -98,11 +98,13 @@ def _corners_ascii(data: bytes, file: Path) -> tuple[NDArray[np.float64], tuple[
 def _first_bad_line(data: bytes) -> str:
     for number, line in enumerate(data.splitlines(), start=1):
         words = line.split()
-        if words[:1] and words[0].lower() == b"vertex":
-            try:
-                if len([float(word) for word in words[1:4]]) == 3:
-                    continue
-            except ValueError:
-                pass
+        if words[:1] and words[0].lower() == b"vertex" and not _are_numbers(words[1:4]):
             return f"line {number}: '{line.strip().decode('ascii', 'replace')}'"
     return "a vertex"
+
+
+def _are_numbers(words: list[bytes]) -> bool:
+    try:
+        return len([float(word) for word in words]) == 3
+    except ValueError:
+        return False

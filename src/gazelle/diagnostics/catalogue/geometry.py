@@ -32,6 +32,14 @@ ENTRIES = (
         "Unable to find file",
     ),
     Entry(
+        "mesh.missing-material",
+        "warning",
+        "A mesh names a material that is nowhere",
+        "The part is shown in the plain colour of its visual.",
+        "put the .mtl file beside the .obj file",
+        "Unable to find file",
+    ),
+    Entry(
         "mesh.incomplete",
         "warning",
         "Parts of a mesh file cannot be used",

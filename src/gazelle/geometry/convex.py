@@ -1,0 +1,151 @@
+"""Convex hulls and convex parts of meshes."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.geometry.building import part_from_soup
+from gazelle.geometry.mesh import Mesh, MeshPart
+
+__all__ = ["ConvexParts", "cache_folder", "convex_hull", "convex_parts"]
+
+_CONVEX_SHARE = 0.98
+_DEFAULT_THRESHOLD = 0.05
+_CACHE_VERSION = 1
+
+
+@dataclass(frozen=True, slots=True)
+class ConvexParts:
+    """Convex pieces that together stand for a mesh in collisions.
+
+    Attributes:
+        parts: at least one piece.
+        is_exact: the pieces follow the mesh; False when one hull fills its hollows.
+        note: what was done, for the user; empty when the mesh is convex already.
+    """
+
+    parts: tuple[MeshPart, ...]
+    is_exact: bool
+    note: str = ""
+
+
+def convex_hull(vertices_m: NDArray[np.float64]) -> MeshPart:
+    """Return the convex hull of points, faces outwards.
+
+    Points in one plane or on one line get a hull of a millionth of their size in thickness.
+
+    Raises:
+        ValueError: fewer than one finite point.
+    """
+    from scipy.spatial import ConvexHull
+
+    points = np.unique(np.asarray(vertices_m, np.float64).reshape(-1, 3), axis=0)
+    if not len(points) or not np.isfinite(points).all():
+        raise ValueError("a convex hull needs at least one point, all of them finite")
+    if _is_solid(points):
+        return _hull_part(ConvexHull(points))
+    thickness = max(1e-6 * float(np.ptp(points, axis=0).max()), 1e-9)
+    corners = np.array([[-1, -1, -1], [1, -1, 1], [-1, 1, 1], [1, 1, -1]], np.float64)
+    thick = (points[:, None] + corners * thickness).reshape(-1, 3)
+    return _hull_part(ConvexHull(thick, qhull_options="QJ Pp"))
+
+
+def convex_parts(mesh: Mesh, *, threshold: float = _DEFAULT_THRESHOLD) -> ConvexParts:
+    """Split a mesh into convex pieces.
+
+    A mesh that fills 98 % of its hull is its hull. Others are split by ``coacd`` where it is
+    installed (``pip install gazelle-sim[convex]``) and the result is kept on disk under the hash
+    of the triangles; without it the hull stands for the mesh and the note says so.
+
+    Args:
+        mesh: closed or not.
+        threshold: CoACD's concavity limit, 0.01 (fine) to 1 (coarse).
+    """
+    hull = convex_hull(mesh.vertices_m)
+    if _fills(mesh, hull):
+        return ConvexParts((hull,), True)
+    file = _cache_file(mesh, threshold)
+    cached = _load(file)
+    if cached:
+        return ConvexParts(cached, True, f"{len(cached)} convex pieces, from '{file}'")
+    try:
+        import coacd
+    except ImportError:
+        note = (
+            "the mesh is hollow and collides as its convex hull; "
+            "pip install 'gazelle-sim[convex]' to follow its shape"
+        )
+        return ConvexParts((hull,), False, note)
+    coacd.set_log_level("error")
+    pieces = coacd.run_coacd(
+        coacd.Mesh(np.asarray(mesh.vertices_m), np.asarray(mesh.faces)),
+        threshold=threshold,
+        seed=0,
+    )
+    parts = tuple(convex_hull(np.asarray(vertices)) for vertices, _ in pieces)
+    if not parts:
+        return ConvexParts((hull,), False, "coacd found no pieces; the convex hull is used")
+    _save(file, parts)
+    return ConvexParts(parts, True, f"{len(parts)} convex pieces")
+
+
+def cache_folder() -> Path:
+    """Return ``$XDG_CACHE_HOME/gazelle``, by default ``~/.cache/gazelle``."""
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "gazelle"
+
+
+def _is_solid(points: NDArray[np.float64]) -> bool:
+    """Whether the points span a volume: their smallest spread counts against the largest."""
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return len(points) >= 4 and bool(spread[2] > 1e-7 * spread[0])
+
+
+def _hull_part(hull: object) -> MeshPart:
+    points, triangles = hull.points, hull.simplices  # type: ignore[attr-defined]
+    corners = points[triangles]
+    outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inside = points[hull.vertices].mean(axis=0)  # type: ignore[attr-defined]
+    turned = np.einsum("ij,ij->i", outward, corners[:, 0] - inside) < 0
+    corners[turned] = corners[turned][:, ::-1]
+    return part_from_soup(corners, name="hull")
+
+
+def _fills(mesh: Mesh, hull: MeshPart) -> bool:
+    from gazelle.geometry.mesh_mass import is_closed, mesh_volume_m3
+
+    return is_closed(mesh) and mesh_volume_m3(mesh) >= _CONVEX_SHARE * mesh_volume_m3(hull)
+
+
+def _cache_file(mesh: Mesh, threshold: float) -> Path:
+    digest = hashlib.sha256(f"{_CACHE_VERSION} {threshold!r} ".encode())
+    digest.update(np.ascontiguousarray(mesh.vertices_m).tobytes())
+    digest.update(np.ascontiguousarray(mesh.faces).tobytes())
+    return cache_folder() / "convex" / f"{digest.hexdigest()}.npz"
+
+
+def _load(file: Path) -> tuple[MeshPart, ...]:
+    try:
+        with np.load(file, allow_pickle=False) as data:
+            return tuple(convex_hull(data[name]) for name in sorted(data.files))
+    except (OSError, ValueError, KeyError, EOFError):
+        return ()
+
+
+def _save(file: Path, parts: tuple[MeshPart, ...]) -> None:
+    """Write beside and rename, so that a reader never sees half a file."""
+    arrays = {f"part{index:05d}": part.vertices_m for index, part in enumerate(parts)}
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
+            np.savez(target, allow_pickle=False, **arrays)
+        Path(target.name).replace(file)
+    except OSError:
+        return  # a read-only home only costs the time of the next run

@@ -1,0 +1,146 @@
+"""Wavefront OBJ files and their MTL materials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.geometry.building import part_from_corners
+from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
+from gazelle.geometry.mtl import read_mtl
+
+__all__ = ["read_obj"]
+
+Corner = tuple[int, int, int]
+_IGNORED = frozenset({"s", "l", "p", "vp", "mg", "lod", "shadow_obj", "trace_obj", "bevel"})
+
+
+def read_obj(data: bytes, file: Path) -> Mesh:
+    """Read an OBJ file's bytes; lengths are metres, axes as written, as in Gazebo.
+
+    Faces with more than three corners are split into a fan. Texture coordinates keep OBJ's
+    sense (v up), missing normals are computed.
+
+    Raises:
+        MeshError: a line cannot be understood (with its number), or there are no faces.
+    """
+    reader = _Reader(file)
+    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+        words = line.split()
+        if words and not words[0].startswith("#"):
+            reader.line(number, words)
+    return reader.mesh()
+
+
+@dataclass(slots=True)
+class _Group:
+    name: str
+    material: str
+    corners: list[Corner] = field(default_factory=list)
+
+
+class _Reader:
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        self._tables: dict[str, list[list[float]]] = {"v": [], "vt": [], "vn": []}
+        self._groups: dict[tuple[str, str], _Group] = {}
+        self._name = self._material = ""
+        self._materials: dict[str, MeshMaterial] = {}
+        self._notes: dict[MeshNote, None] = {}
+
+    def line(self, number: int, words: list[str]) -> None:
+        key = words[0]
+        try:
+            if key in self._tables:
+                self._tables[key].append([float(word) for word in words[1:4]])
+            elif key == "f":
+                self._face(words[1:])
+            elif key in {"o", "g"}:
+                self._name = " ".join(words[1:])
+            elif key == "usemtl":
+                self._material = " ".join(words[1:])
+            elif key == "mtllib":
+                self._library(" ".join(words[1:]))
+            elif key not in _IGNORED:
+                text = f"'{key}' is not supported and has no effect (line {number})"
+                self._notes.setdefault(MeshNote("mesh.incomplete", text))
+        except (ValueError, IndexError) as error:
+            raise MeshError(self._file, f"line {number}: '{' '.join(words)}': {error}") from error
+
+    def _face(self, words: list[str]) -> None:
+        corners = [self._corner(word) for word in words]
+        if len(corners) < 3:
+            raise ValueError("a face needs at least three corners")
+        group = self._groups.setdefault(
+            (self._name, self._material), _Group(self._name, self._material)
+        )
+        for index in range(1, len(corners) - 1):
+            group.corners += (corners[0], corners[index], corners[index + 1])
+
+    def _corner(self, word: str) -> Corner:
+        parts = word.split("/")
+        tables = (self._tables["v"], self._tables["vt"], self._tables["vn"])
+        found = [-1, -1, -1]
+        for slot, (part, table) in enumerate(zip(parts, tables, strict=False)):
+            if part:
+                index = int(part)
+                found[slot] = index - 1 if index > 0 else len(table) + index
+                if not 0 <= found[slot] < len(table):
+                    kind = ("vertices", "texture coordinates", "normals")[slot]
+                    raise IndexError(f"index {index} is outside the {len(table)} {kind} so far")
+        if found[0] < 0:
+            raise ValueError("a corner without a vertex index")
+        return (found[0], found[1], found[2])
+
+    def _library(self, name: str) -> None:
+        path = self._file.parent / name
+        try:
+            text = path.read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            note = f"material library '{name}' not found; looked for {path}"
+            self._notes[MeshNote("mesh.missing-material", note)] = None
+            return
+        materials, notes = read_mtl(text, path)
+        self._materials.update(materials)
+        self._notes.update(dict.fromkeys(notes))
+
+    def mesh(self) -> Mesh:
+        parts = tuple(self._part(group) for group in self._groups.values())
+        if not parts:
+            raise MeshError(self._file, "the OBJ has no faces")
+        return Mesh(parts, self._file, tuple(self._notes))
+
+    def _part(self, group: _Group) -> MeshPart:
+        index = np.array(group.corners, np.intp)
+        material = self._materials.get(group.material)
+        if group.material and material is None and self._materials:
+            text = f"material '{group.material}' is in no library"
+            self._notes[MeshNote("mesh.missing-material", text)] = None
+        return part_from_corners(
+            self._column("v", index[:, 0], 3),
+            index[:, 0],
+            normals=self._normals(index[:, 2]),
+            uv=None if (index[:, 1] < 0).any() else self._column("vt", index[:, 1], 2),
+            name=group.name,
+            material=material,
+        )
+
+    def _column(self, key: str, index: NDArray[np.intp], width: int) -> NDArray[np.float64]:
+        try:
+            table = np.array([row[:width] for row in self._tables[key]], np.float64)
+        except ValueError as error:
+            raise MeshError(self._file, f"a '{key}' line has fewer than {width} numbers") from error
+        chosen: NDArray[np.float64] = table.reshape(-1, width)[index]
+        if not np.isfinite(chosen).all():
+            raise MeshError(self._file, f"a '{key}' line has a value that is not a finite number")
+        return chosen
+
+    def _normals(self, index: NDArray[np.intp]) -> NDArray[np.float64] | None:
+        if (index < 0).any():
+            return None
+        normals = self._column("vn", index, 3)
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        return None if (lengths < 1e-9).any() else normals / lengths
