@@ -145,7 +145,7 @@ def _query(
     if options.files:
         print("\n".join(dict.fromkeys(config.files)))
     elif options.nodes:
-        print("\n".join(sorted(node.full_name for node in _all_nodes(config))))
+        print("\n".join(node.full_name for node in _all_nodes(config)))
     elif options.dump_params:
         print(dump_text(config))
     elif options.find_node:

@@ -1,0 +1,151 @@
+"""``joint_state_publisher``: states for every joint of a robot that nothing else moves.
+
+Parameters (wiki: joint_state_publisher):
+
+| name | default | meaning |
+| --- | --- | --- |
+| robot_description | – | the robot, searched upwards from the node's namespace |
+| ~rate | 10 | Hz |
+| ~source_list | [] | topics of JointState whose values are passed on |
+| ~zeros | {} | value for a joint where nothing moves it |
+| ~dependent_joints | {} | {joint: {parent, factor, offset}} |
+| ~use_mimic_tags | true | follow ``<mimic>`` |
+| ~publish_default_positions | true | send positions |
+| ~publish_default_velocities | false | send zero velocities |
+| ~publish_default_efforts | false | send zero efforts |
+
+Unlike ROS's, it leaves out joints that another publisher of the same topic owns: two publishers
+for one wheel make its tf frame jump between two poses.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.description.model import Joint, JointType, Model
+from gazelle.errors import GraphError
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.tree import read_description
+
+__all__ = ["default_position", "run"]
+
+_MOVING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC})
+
+
+@dataclass(frozen=True, slots=True)
+class _Dependent:
+    parent: str
+    factor: float
+    offset: float
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Publish ``joint_states`` until told to stop."""
+    node = start_node(arguments, graph)
+    name = node.parameters.search("robot_description", node.namespace) or "/robot_description"
+    try:
+        text = node.parameters.get(name)
+    except (GraphError, KeyError):
+        node.log("error", f"Parameter {name} is not set; set robot_description before this node")
+        return 1
+    publisher = _Publisher(node, arguments, read_description(str(text)))
+    period_ns = int(1e9 / float(private(node, arguments, "rate", 10)))
+    while node.clock.sleep(period_ns, stop):
+        publisher.publish()
+    node.shutdown()
+    return 0
+
+
+def default_position(joint: Joint, zeros: Mapping[str, float]) -> float:
+    """Return where a joint stands when nothing moves it: 0, or mid-range when 0 is forbidden."""
+    if joint.name in zeros:
+        return float(zeros[joint.name])
+    if joint.axis is None or joint.axis.lower <= 0 <= joint.axis.upper:
+        return 0.0
+    return (joint.axis.lower + joint.axis.upper) / 2
+
+
+class _Publisher:
+    def __init__(self, node: Node, arguments: NodeArguments, model: Model) -> None:
+        self._node = node
+        self._type = message_type("sensor_msgs/msg/JointState")
+        self._out = node.create_publisher("joint_states", self._type, queue_size=5)
+        zeros = private(node, arguments, "zeros", {})
+        self._dependents = _dependents(node, arguments, model)
+        self._positions = {
+            joint.name: default_position(joint, zeros)
+            for joint in model.joints
+            if joint.type in _MOVING and joint.name not in self._dependents
+        }
+        self._names = [
+            joint.name
+            for joint in model.joints
+            if joint.name in self._positions or joint.name in self._dependents
+        ]
+        self._with = {
+            word: bool(private(node, arguments, f"publish_default_{word}", word == "positions"))
+            for word in ("positions", "velocities", "efforts")
+        }
+        self._sent: Any = None
+        self._foreign: set[str] = set()
+        node.create_subscription("joint_states", self._type, self._on_others)
+        for topic in private(node, arguments, "source_list", []):
+            node.create_subscription(topic, self._type, self._on_source)
+
+    def publish(self) -> None:
+        names = [name for name in self._names if name not in self._foreign]
+        if not names:
+            return
+        message = self._type(name=names)
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(
+            self._node.clock.now_ns(), 1_000_000_000
+        )
+        if self._with["positions"]:
+            message.position = [self._position(name) for name in names]
+        if self._with["velocities"]:
+            message.velocity = [0.0] * len(names)
+        if self._with["efforts"]:
+            message.effort = [0.0] * len(names)
+        self._sent = message
+        self._out.publish(message)
+
+    def _position(self, name: str) -> float:
+        dependent = self._dependents.get(name)
+        if dependent is None:
+            return self._positions[name]
+        if dependent.parent not in self._positions and dependent.parent not in self._dependents:
+            return dependent.offset
+        return dependent.factor * self._position(dependent.parent) + dependent.offset
+
+    def _on_others(self, message: Any) -> None:
+        if message is self._sent:
+            return
+        new = set(message.name) & set(self._names) - self._foreign
+        if new:
+            self._foreign |= new
+            joints = ", ".join(sorted(new))
+            self._node.log("info", f"joints that another node publishes are left to it: {joints}")
+
+    def _on_source(self, message: Any) -> None:
+        for name, position in zip(message.name, message.position, strict=False):
+            if name in self._positions:
+                self._positions[name] = float(position)
+
+
+def _dependents(node: Node, arguments: NodeArguments, model: Model) -> dict[str, _Dependent]:
+    found = {
+        name: _Dependent(item["parent"], float(item.get("factor", 1)), float(item.get("offset", 0)))
+        for name, item in private(node, arguments, "dependent_joints", {}).items()
+    }
+    if private(node, arguments, "use_mimic_tags", True):
+        for joint in model.joints:
+            if joint.mimic is not None and joint.name not in found:
+                mimic = joint.mimic
+                found[joint.name] = _Dependent(mimic.joint, mimic.multiplier, mimic.offset)
+    return found

@@ -1,0 +1,133 @@
+"""``robot_state_publisher``: joint states and a robot description become tf.
+
+Parameters (wiki: robot_state_publisher):
+
+| name | default | meaning |
+| --- | --- | --- |
+| robot_description | – | the robot, searched upwards from the node's namespace |
+| ~publish_frequency | 50 | Hz, the most that one joint is published |
+| ~use_tf_static | true | fixed joints go to /tf_static, once and latched |
+| ~ignore_timestamp | false | publish every message, however fast |
+| ~tf_prefix | "" | put before every frame |
+"""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from gazelle.errors import GraphError
+from gazelle.geometry import Pose
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.tree import TreeJoint, joint_tree, read_description
+
+__all__ = ["StateToTf", "run"]
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Publish tf until told to stop."""
+    node = start_node(arguments, graph)
+    name = node.parameters.search("robot_description", node.namespace) or "/robot_description"
+    try:
+        text = str(node.parameters.get(name))
+    except (GraphError, KeyError):
+        node.log("error", f"Could not find parameter {name} on parameter server")
+        return 1
+    model = read_description(text)
+    states = StateToTf(
+        joint_tree(model),
+        prefix=str(private(node, arguments, "tf_prefix", "")),
+        period_ns=int(1e9 / float(private(node, arguments, "publish_frequency", 50.0))),
+        ignore_timestamp=bool(private(node, arguments, "ignore_timestamp", False)),
+    )
+    _connect(node, states, bool(private(node, arguments, "use_tf_static", True)))
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+class StateToTf:
+    """Turns joint states into transforms, no joint more often than the frequency allows."""
+
+    def __init__(
+        self,
+        joints: tuple[TreeJoint, ...],
+        *,
+        prefix: str = "",
+        period_ns: int = 20_000_000,
+        ignore_timestamp: bool = False,
+    ) -> None:
+        self._moving = {item.joint.name: item for item in joints if not item.is_fixed}
+        self._fixed = [item for item in joints if item.is_fixed]
+        self._mimics = {
+            name: item.joint.mimic for name, item in self._moving.items() if item.joint.mimic
+        }
+        self._prefix = prefix.strip("/")
+        self._period_ns = period_ns
+        self._ignore_timestamp = ignore_timestamp
+        self._last_ns: dict[str, int] = {}
+        self._latest_ns = 0
+        self._type = message_type("geometry_msgs/msg/TransformStamped")
+
+    def fixed(self, stamp_ns: int) -> list[Any]:
+        """Return the transforms of the fixed joints."""
+        return [self._transform(item, item.T_parent_joint, stamp_ns) for item in self._fixed]
+
+    def moving(self, message: Any) -> list[Any]:
+        """Return the transforms that a JointState is due for; empty when it comes too soon."""
+        stamp = message.header.stamp
+        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        if stamp_ns < self._latest_ns:
+            # Time has jumped back: a bag started again, or the simulation was reset.
+            self._last_ns.clear()
+        self._latest_ns = stamp_ns
+        names = [name for name in message.name if name in self._moving]
+        last_ns = min((self._last_ns.get(name, -self._period_ns) for name in names), default=0)
+        if not names or not (self._ignore_timestamp or stamp_ns >= last_ns + self._period_ns):
+            return []
+        positions = dict(zip(message.name, map(float, message.position), strict=False))
+        for name, mimic in self._mimics.items():
+            if name not in positions and mimic.joint in positions:
+                positions[name] = positions[mimic.joint] * mimic.multiplier + mimic.offset
+        self._last_ns.update(dict.fromkeys(names, stamp_ns))
+        return [
+            self._transform(item, item.T_parent_child(positions[name]), stamp_ns)
+            for name, item in self._moving.items()
+            if name in positions
+        ]
+
+    def _transform(self, item: TreeJoint, pose: Pose, stamp_ns: int) -> Any:
+        message = self._type()
+        message.header.frame_id = self._frame(item.joint.parent)
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+        message.child_frame_id = self._frame(item.joint.child)
+        translation, rotation = message.transform.translation, message.transform.rotation
+        translation.x, translation.y, translation.z = pose.position_m
+        rotation.x, rotation.y, rotation.z, rotation.w = pose.quat_xyzw
+        return message
+
+    def _frame(self, name: str) -> str:
+        return f"{self._prefix}/{name}" if self._prefix else name
+
+
+def _connect(node: Node, states: StateToTf, use_tf_static: bool) -> None:
+    tf_message = message_type("tf2_msgs/msg/TFMessage")
+    tf = node.create_publisher("/tf", tf_message, queue_size=100)
+    static = node.create_publisher("/tf_static", tf_message, latch=True) if use_tf_static else None
+    if static is not None:
+        static.publish(tf_message(transforms=states.fixed(node.clock.now_ns())))
+
+    def on_joint_states(message: Any) -> None:
+        transforms = states.moving(message)
+        if transforms and static is None:
+            stamp = message.header.stamp
+            transforms += states.fixed(stamp.sec * 1_000_000_000 + stamp.nanosec)
+        if transforms:
+            tf.publish(tf_message(transforms=transforms))
+
+    node.create_subscription(
+        "joint_states", message_type("sensor_msgs/msg/JointState"), on_joint_states
+    )

@@ -1,0 +1,94 @@
+"""``static_transform_publisher`` of the packages tf (again and again) and tf2_ros (latched)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from gazelle.errors import LaunchError
+from gazelle.geometry import Pose
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node
+
+__all__ = ["StaticTransform", "parse_arguments", "run_tf", "run_tf2"]
+
+_USAGE = (
+    "usage: static_transform_publisher x y z yaw pitch roll frame_id child_frame_id {period}\n"
+    "   or: static_transform_publisher x y z qx qy qz qw frame_id child_frame_id {period}"
+)
+
+
+class StaticTransform(NamedTuple):
+    """What the command line says."""
+
+    T_parent_child: Pose
+    frame_id: str
+    child_frame_id: str
+    period_ms: float
+
+
+def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransform:
+    """Return the transform of a command line; yaw comes before pitch and roll.
+
+    Raises:
+        LaunchError: the number of words or a number is wrong.
+    """
+    usage = _USAGE.format(period="period(milliseconds)" if with_period else "")
+    counts = {8: 6, 9: 7} if not with_period else {9: 6, 10: 7}
+    if len(words) not in counts:
+        raise LaunchError(f"static_transform_publisher got {len(words)} arguments\n{usage}")
+    count = counts[len(words)]
+    try:
+        numbers = [float(word) for word in words[:count]]
+        period_ms = float(words[-1]) if with_period else 0.0
+    except ValueError as error:
+        raise LaunchError(f"static_transform_publisher: {error}\n{usage}") from error
+    x, y, z = numbers[:3]
+    if count == 6:
+        yaw, pitch, roll = numbers[3:]
+        pose = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+    else:
+        qx, qy, qz, qw = numbers[3:]
+        pose = Pose((x, y, z), (qx, qy, qz, qw))
+    return StaticTransform(pose, words[count], words[count + 1], period_ms)
+
+
+def run_tf(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Publish on /tf at the period given, stamped that far ahead as tf's own does."""
+    transform = parse_arguments(arguments.rest, with_period=True)
+    node = start_node(arguments, graph)
+    type_ = message_type("tf2_msgs/msg/TFMessage")
+    publisher = node.create_publisher("/tf", type_, queue_size=100)
+    period_ns = int(transform.period_ms * 1_000_000)
+    while node.clock.sleep(period_ns, stop):
+        stamp_ns = node.clock.now_ns() + period_ns
+        publisher.publish(type_(transforms=[_message(transform, stamp_ns)]))
+    node.shutdown()
+    return 0
+
+
+def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Publish once on /tf_static, latched."""
+    transform = parse_arguments(arguments.rest, with_period=False)
+    node = start_node(arguments, graph)
+    type_ = message_type("tf2_msgs/msg/TFMessage")
+    publisher = node.create_publisher("/tf_static", type_, latch=True)
+    publisher.publish(type_(transforms=[_message(transform, node.clock.now_ns())]))
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+def _message(transform: StaticTransform, stamp_ns: int) -> Any:
+    message = message_type("geometry_msgs/msg/TransformStamped")()
+    message.header.frame_id = transform.frame_id.lstrip("/")
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    message.child_frame_id = transform.child_frame_id.lstrip("/")
+    translation, rotation = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = transform.T_parent_child.position_m
+    quat = transform.T_parent_child.quat_xyzw
+    rotation.x, rotation.y, rotation.z, rotation.w = quat
+    return message

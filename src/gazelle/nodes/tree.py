@@ -1,0 +1,70 @@
+"""The link tree of a robot description, as the state publishers need it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import Joint, JointType, Model
+from gazelle.description.urdf import read_urdf
+from gazelle.diagnostics import Diagnostics
+from gazelle.errors import UserFileError
+from gazelle.geometry import Pose
+
+__all__ = ["TreeJoint", "joint_tree", "read_description"]
+
+_TURNING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS})
+
+
+@dataclass(frozen=True, slots=True)
+class TreeJoint:
+    """A joint with its pose from parent to child link at zero.
+
+    Attributes:
+        T_parent_joint: pose of the joint's frame, which is the child link's in URDF.
+    """
+
+    joint: Joint
+    T_parent_joint: Pose
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether nothing moves it."""
+        return self.joint.type is JointType.FIXED
+
+    def T_parent_child(self, position: float) -> Pose:  # noqa: N802 - the field's notation
+        """Return the child link's pose in the parent link at a joint position (rad or m)."""
+        axis = self.joint.axis.xyz if self.joint.axis is not None else (1.0, 0.0, 0.0)
+        if self.joint.type in _TURNING:
+            half = position / 2
+            x, y, z = (part * math.sin(half) for part in axis)
+            return self.T_parent_joint @ Pose((0.0, 0.0, 0.0), (x, y, z, math.cos(half)))
+        if self.joint.type is JointType.PRISMATIC:
+            x, y, z = (part * position for part in axis)
+            return self.T_parent_joint @ Pose((x, y, z))
+        return self.T_parent_joint
+
+
+def read_description(text: str) -> Model:
+    """Read a ``robot_description`` for its links and joints only; meshes are not looked for.
+
+    Raises:
+        UserFileError: the text is no usable robot.
+    """
+    diagnostics = Diagnostics()
+    context = ReadContext(None, diagnostics, "<robot_description>", None)
+    model = read_urdf(text, context=context)
+    if model is None:
+        raise UserFileError(tuple(diagnostics))
+    return model
+
+
+def joint_tree(model: Model) -> tuple[TreeJoint, ...]:
+    """Return all joints with their poses relative to the parent link."""
+    poses = {link.name: link.T_model_link for link in model.links}
+    return tuple(
+        TreeJoint(joint, poses[joint.parent].inverse() @ joint.T_model_joint)
+        for joint in model.joints
+        if joint.parent in poses
+    )
