@@ -1,0 +1,93 @@
+"""Depth pictures and point clouds from a camera's depth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.sensors.bands import default_threads, each_band, row_bands
+from gazelle.sensors.intrinsics import Intrinsics
+
+__all__ = ["POINT_DTYPE", "PointCloud", "depth_image", "point_cloud"]
+
+POINT_DTYPE = np.dtype(
+    {
+        "names": ["x", "y", "z", "rgb"],
+        "formats": ["<f4", "<f4", "<f4", "<f4"],
+        "offsets": [0, 4, 8, 16],
+        "itemsize": 32,
+    }
+)
+"""One point as gazebo_ros lays it out: 32 bytes, colour packed into a FLOAT32."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PointCloud:
+    """An organised cloud in the optical frame: x right, y down, z forward, metres.
+
+    Attributes:
+        points: (H, W) of `POINT_DTYPE`; x, y, z are NaN where there is no depth. The bytes of
+            `rgb` are 0x00RRGGBB as a little-endian word, as PCL and RViz read them.
+        is_dense: no point is NaN.
+    """
+
+    points: NDArray[np.void]
+    is_dense: bool
+
+
+def depth_image(
+    depth_m: NDArray[np.float32], *, near_m: float = 0.0, far_m: float = math.inf
+) -> NDArray[np.float32]:
+    """Return (H, W) float32 metres along the viewing axis (``32FC1``), NaN outside (near, far).
+
+    Args:
+        depth_m: as rendered, inf for nothing.
+        near_m: the plug-in's cut-off (``pointCloudCutoff``), itself excluded.
+        far_m: its upper one (``pointCloudCutoffMax``), itself excluded.
+    """
+    seen = (depth_m > near_m) & (depth_m < far_m)
+    return np.where(seen, depth_m, np.float32(np.nan))
+
+
+def point_cloud(
+    depth_m: NDArray[np.float32],
+    rgb: NDArray[np.uint8] | None,
+    intrinsics: Intrinsics,
+    *,
+    near_m: float = 0.0,
+    far_m: float = math.inf,
+    threads: int | None = None,
+) -> PointCloud:
+    """Back-project a depth picture.
+
+    Args:
+        depth_m: (H, W) metres along the viewing axis; inf and NaN are nothing.
+        rgb: (H, W, 3) uint8, None for no colour; colours are kept where there is no depth.
+        intrinsics: of the ``rendering`` convention.
+        near_m: see `depth_image`.
+        far_m: see `depth_image`.
+        threads: None for `default_threads`.
+    """
+    from gazelle.sensors.pixel_kernels import fill_cloud
+
+    height, width = depth_m.shape
+    words = np.zeros((height, width, 8), np.uint32)
+    floats = words.view(np.float32)
+    lens = np.array(
+        [intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy, intrinsics.skew], np.float32
+    )
+    colours = np.zeros((1, 1, 3), np.uint8) if rgb is None else np.ascontiguousarray(rgb)
+    depth = np.ascontiguousarray(depth_m, np.float32)
+    limits = np.array([near_m, far_m], np.float32)
+
+    def band(first: int, last: int) -> bool:
+        return bool(
+            fill_cloud(depth, colours, rgb is not None, lens, limits, first, last, floats, words)
+        )
+
+    count = default_threads() if threads is None else threads
+    dense = all(each_band(count, row_bands(height, count), band))
+    return PointCloud(words.view(np.uint8).view(POINT_DTYPE).reshape(height, width), dense)

@@ -1,0 +1,65 @@
+# mypy: ignore-errors
+# ruff: noqa: ANN001, ANN201, PLR0917
+"""Compiled loops over the pixels of finished pictures."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+__all__ = ["fill_cloud", "mark_edges"]
+
+
+@njit(nogil=True, cache=True)
+def mark_edges(rgb, tiles, first_row, last_row, threshold):
+    """Mark the tiles with a step of colour inside or at their border."""
+    height, width = rgb.shape[0], rgb.shape[1]
+    for tile_y in range(first_row // 4, (last_row + 3) // 4):
+        for tile_x in range(tiles.shape[1]):
+            edge = 0
+            for y in range(tile_y * 4, min(tile_y * 4 + 4, height)):
+                for x in range(tile_x * 4, min(tile_x * 4 + 4, width)):
+                    right = min(x + 1, width - 1)
+                    below = min(y + 1, height - 1)
+                    left = max(x - 1, 0)
+                    above = max(y - 1, 0)
+                    for c in range(3):
+                        here = int(rgb[y, x, c])
+                        step = max(
+                            abs(here - rgb[y, right, c]),
+                            abs(here - rgb[y, left, c]),
+                            abs(here - rgb[below, x, c]),
+                            abs(here - rgb[above, x, c]),
+                        )
+                        if step > threshold:
+                            edge = 1
+            tiles[tile_y, tile_x] = edge
+
+
+@njit(nogil=True, cache=True)
+def fill_cloud(depth, rgb, with_rgb, lens, limits, first_row, last_row, points, colours):
+    """Write rows of an organised cloud: x y z at floats 0–2, packed colour at word 4."""
+    width = depth.shape[1]
+    nothing = np.float32(np.nan)
+    dense = True
+    for v in range(first_row, last_row):
+        y_over_z = (np.float32(v) - lens[3]) / lens[1]
+        for u in range(width):
+            z = depth[v, u]
+            # A NaN fails both comparisons.
+            if z > limits[0] and z < limits[1]:
+                points[v, u, 0] = (np.float32(u) - lens[2] - lens[4] * y_over_z) / lens[0] * z
+                points[v, u, 1] = y_over_z * z
+                points[v, u, 2] = z
+            else:
+                points[v, u, 0] = nothing
+                points[v, u, 1] = nothing
+                points[v, u, 2] = nothing
+                dense = False
+            if with_rgb:
+                colours[v, u, 4] = (
+                    (np.uint32(rgb[v, u, 0]) << np.uint32(16))
+                    | (np.uint32(rgb[v, u, 1]) << np.uint32(8))
+                    | np.uint32(rgb[v, u, 2])
+                )
+    return dense
