@@ -1,0 +1,190 @@
+"""How a class's attributes lie in the bytes: one tree per class and wire.
+
+A class of either generation can be written in the layout of either, so a ROS 1 program's
+`LaserScan` becomes the same CDR bytes as a ROS 2 program's.
+"""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.errors import InterfaceError
+from gazelle.interfaces.definition import (
+    FORMATS,
+    Array,
+    Definition,
+    Field,
+    Generation,
+    attribute_name,
+)
+from gazelle.interfaces.lookup import definition
+from gazelle.interfaces.message import Message, message_type
+from gazelle.interfaces.naming import wire_definition, wire_field
+from gazelle.interfaces.ros1_message import Ros1Message, ros1_class
+from gazelle.interfaces.ros1_time import Duration, Time
+
+__all__ = ["Layout", "Slot", "Wire", "bind"]
+
+_TIME_NAMES = {
+    "time": "builtin_interfaces/msg/Time",
+    "duration": "builtin_interfaces/msg/Duration",
+}
+
+
+class Wire(enum.Enum):
+    """Which bytes: CDR (ROS 2's layout) or ROS 1's own serialisation."""
+
+    CDR = "cdr"
+    ROS1 = "ros1"
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """One field of the bytes.
+
+    Attributes:
+        attribute: name in the object; None when the class has no such field.
+        default: what is written when the class has no such field.
+        letter: `struct` letter; empty of strings and messages.
+        base: the wire's base type.
+        array: how often.
+        size: length of a fixed array or bound of a sequence.
+        string_bound: bound of a string.
+        child: the layout of a message.
+        as_bytes: whether the object holds a sequence of bytes as `bytes` (ROS 1).
+    """
+
+    attribute: str | None
+    default: Any
+    letter: str
+    base: str
+    array: Array
+    size: int
+    string_bound: int
+    child: Layout | None
+    as_bytes: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """A class and the order of its attributes in the bytes.
+
+    Attributes:
+        name: full type name, for messages of errors.
+        cls: the class.
+        generation: whose form the class has.
+        slots: in the order of the bytes.
+        missing: attributes that the bytes do not hold.
+    """
+
+    name: str
+    cls: type[Any]
+    generation: Generation
+    slots: tuple[Slot, ...]
+    missing: tuple[str, ...]
+
+
+def bind(name: str, generation: Generation, wire: Wire) -> Layout:
+    """Return the layout of a class in the bytes of a wire.
+
+    Args:
+        name: full type name.
+        generation: form of the class.
+        wire: which bytes.
+
+    Raises:
+        NotFoundError: nothing defines the type.
+        InterfaceError: the two definitions give one field two kinds of values.
+    """
+    own = definition(name, generation)
+    target = _wire_definition(name, generation, wire)
+    own_fields = {item.name: item for item in own.fields}
+    used, slots = set(), []
+    for item in target.fields:
+        mine = wire_field(target, item, own_fields)
+        if mine is not None:
+            _check_kinds(name, mine, item)
+            used.add(mine.name)
+        slots.append(_slot(name, item, mine, generation, wire))
+    missing = tuple(attribute_name(key) for key in own_fields if key not in used)
+    return Layout(name, _class(name, generation), generation, tuple(slots), missing)
+
+
+def _wire_definition(name: str, generation: Generation, wire: Wire) -> Definition:
+    if wire is Wire.ROS1:
+        return definition(name, Generation.ROS1)
+    if generation is Generation.ROS1:
+        return wire_definition(name)
+    return definition(name, Generation.ROS2)
+
+
+def _class(name: str, generation: Generation) -> type[Message] | type[Ros1Message]:
+    return ros1_class(name) if generation is Generation.ROS1 else message_type(name)
+
+
+def _slot(name: str, item: Field, mine: Field | None, generation: Generation, wire: Wire) -> Slot:
+    kind = item.type
+    base = _TIME_NAMES.get(kind.base, kind.base)
+    wire_generation = Generation.ROS1 if wire is Wire.ROS1 else Generation.ROS2
+    child_generation = generation if mine is not None else wire_generation
+    child = None
+    if base in _TIME_NAMES.values():
+        child = _time_layout(base, child_generation, wire)
+    elif "/" in base:
+        child = bind(base, child_generation, wire)
+    byte_like = mine is not None and generation is Generation.ROS1
+    letter = FORMATS.get(base if mine is None else mine.type.base, "")
+    if byte_like and mine is not None and mine.type.base == "byte":
+        letter = "b"  # ROS 1's byte is an int8
+    return Slot(
+        attribute=attribute_name(mine.name) if mine is not None else None,
+        default=_wire_default(name, item, wire_generation) if mine is None else None,
+        letter=letter,
+        base=base,
+        array=kind.array,
+        size=kind.size,
+        string_bound=kind.string_bound,
+        child=child,
+        as_bytes=byte_like and mine is not None and mine.type.base in ("uint8", "char"),
+    )
+
+
+def _wire_default(name: str, item: Field, generation: Generation) -> Any:
+    """Return the default of a field that the class lacks, from the other form's class."""
+    return getattr(_class(name, generation)(), attribute_name(item.name))
+
+
+def _time_layout(base: str, generation: Generation, wire: Wire) -> Layout:
+    is_time = base.endswith("Time")
+    if wire is Wire.CDR:
+        letters = ("i", "I")
+    else:
+        letters = ("I", "I") if is_time else ("i", "i")
+    if generation is Generation.ROS1:
+        cls: type[Any] = Time if is_time else Duration
+        names = ("secs", "nsecs")
+    else:
+        cls, names = message_type(base), ("sec", "nanosec")
+    slots = tuple(
+        Slot(name, None, letter, "int32", Array.ONE, 0, 0, None, False)
+        for name, letter in zip(names, letters, strict=True)
+    )
+    return Layout(base, cls, generation, slots, ())
+
+
+def _check_kinds(name: str, mine: Field, theirs: Field) -> None:
+    if mine.type.array is not theirs.type.array or _kind(mine) != _kind(theirs):
+        raise InterfaceError(
+            f"'{name}': field '{mine.name}' is {mine.type.text(Generation.ROS1)} in one ROS and "
+            f"{theirs.type.text(Generation.ROS1)} in the other; they cannot be converted"
+        )
+
+
+def _kind(item: Field) -> str:
+    base = _TIME_NAMES.get(item.type.base, item.type.base)
+    if base in ("string", "wstring"):
+        return "string"
+    letter = FORMATS.get(base, base)
+    return "B" if letter == "b" else letter

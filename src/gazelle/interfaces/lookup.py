@@ -1,0 +1,250 @@
+"""Name → definition, for messages, services and actions of both generations."""
+
+from __future__ import annotations
+
+import re
+import threading
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
+from gazelle.errors import NotFoundError
+from gazelle.interfaces import library
+from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
+from gazelle.interfaces.parser import parse_message, split_parts
+from gazelle.interfaces.translate import as_generation, definition_text
+
+__all__ = ["definition", "exists", "known_types", "split_name"]
+
+_SERVICE_PARTS = ("_Request", "_Response")
+_ACTION_PARTS = ("_Goal", "_Result", "_Feedback")
+_UUID = FieldType("unique_identifier_msgs/msg/UUID")
+_TIME = FieldType("builtin_interfaces/msg/Time")
+_lock = threading.RLock()
+_cache: dict[tuple[str, Generation], Definition] = {}
+_cache_revision = 0
+
+
+def split_name(name: str, part: str = "msg") -> tuple[str, str, str]:
+    """Return package, part and bare name of ``pkg/Name`` or ``pkg/part/Name``.
+
+    Raises:
+        NotFoundError: the text is not written as a type's name.
+    """
+    words = name.strip("/").split("/")
+    if len(words) == 2 and all(words):
+        return words[0], part, words[1]
+    if len(words) == 3 and all(words) and words[1] in ("msg", "srv", "action"):
+        return words[0], words[1], words[2]
+    raise NotFoundError(
+        "type", name, hint="a type is written package/Name or package/msg/Name (srv, action)"
+    )
+
+
+def definition(name: str, generation: Generation) -> Definition:
+    """Return a message's definition by the rules of one generation.
+
+    One written for that generation comes first; else the other generation's is translated.
+
+    Args:
+        name: full name; parts of services and actions are ``pkg/srv/Name_Request`` and so on.
+        generation: whose rules.
+
+    Raises:
+        NotFoundError: nothing defines it.
+        UserFileError: its text has errors.
+    """
+    global _cache_revision
+    with _lock:
+        if _cache_revision != library.revision():
+            _cache.clear()
+            _cache_revision = library.revision()
+        key = (name, generation)
+        if key not in _cache:
+            _cache[key] = _lookup(name, generation)
+        return _cache[key]
+
+
+def exists(name: str) -> bool:
+    """Return whether something defines this message, without reading its text."""
+    package, part, bare = split_name(name)
+    return any(_where(package, part, bare, one) is not None for one in Generation)
+
+
+def known_types(part: str = "msg", package: str = "") -> tuple[str, ...]:
+    """Return the full names of all types of a part (``msg``, ``srv``, ``action``), sorted.
+
+    Messages that ROS 1 makes from actions (``FibonacciActionGoal`` …) are in the list too.
+    """
+    names = set()
+    for generation in Generation:
+        for owner, its_part, bare in library.block_names(generation):
+            if package and owner != package:
+                continue
+            if its_part == part:
+                names.add(f"{owner}/{part}/{bare}")
+            if its_part == "action" and part == "msg" and generation is Generation.ROS1:
+                names |= {f"{owner}/msg/{bare}{suffix}" for suffix in _DERIVED}
+    return tuple(sorted(names))
+
+
+def _lookup(name: str, generation: Generation) -> Definition:
+    package, part, bare = split_name(name)
+    other = Generation.ROS1 if generation is Generation.ROS2 else Generation.ROS2
+    for candidate in (generation, other):
+        where = _where(package, part, bare, candidate)
+        if where is not None:
+            return as_generation(_read(package, part, bare, where, candidate), generation)
+    raise _not_found(name, part, bare)
+
+
+def _where(package: str, part: str, bare: str, generation: Generation) -> tuple[str, str] | None:
+    """Return part and name of the file that defines a message, None when there is none."""
+    if part == "msg":
+        if library.find_source(package, "msg", bare, generation):
+            return "msg", bare
+        if generation is Generation.ROS1:
+            for suffix in _DERIVED:
+                base = bare.removesuffix(suffix)
+                if base != bare and library.find_source(package, "action", base, generation):
+                    return "action", base
+        return None
+    pattern = _SRV_NAME if part == "srv" else _ACTION_NAME
+    match = pattern.fullmatch(bare)
+    if match and library.find_source(package, part, match[1], generation):
+        return part, match[1]
+    return None
+
+
+def _read(
+    package: str, part: str, bare: str, where: tuple[str, str], generation: Generation
+) -> Definition:
+    file_part, file_name = where
+    source = library.find_source(package, file_part, file_name, generation)
+    if source is None:
+        raise NotFoundError("type", f"{package}/{part}/{bare}")
+    diagnostics = Diagnostics()
+    name = f"{package}/{part}/{bare}"
+    if file_part == "msg":
+        found = parse_message(
+            source.text, name, generation, diagnostics=diagnostics, file=source.file
+        )
+        _check_references(found, source.file, 1, diagnostics)
+        diagnostics.raise_if_errors()
+        return found
+    suffixes = _SERVICE_PARTS if file_part == "srv" else _ACTION_PARTS
+    pieces = split_parts(source.text, len(suffixes), file=source.file, diagnostics=diagnostics)
+    found_parts: dict[str, Definition] = {}
+    for suffix, (text, line) in zip(suffixes, pieces or (), strict=False):
+        piece = f"{package}/{file_part}/{file_name}{suffix}"
+        found_parts[suffix] = parse_message(
+            text, piece, generation, diagnostics=diagnostics, file=source.file, first_line=line
+        )
+        _check_references(found_parts[suffix], source.file, line, diagnostics)
+    diagnostics.raise_if_errors()
+    suffix = bare[len(file_name) :]
+    if part == "msg":
+        return _ros1_action_message(package, file_name, suffix, found_parts)
+    if suffix in found_parts:
+        return found_parts[suffix]
+    fields = _implied_fields(package, part, file_name)[suffix]
+    return Definition(name, generation, (), fields, definition_text((), fields, generation))
+
+
+def _ros1_action_message(
+    package: str, name: str, suffix: str, parts: dict[str, Definition]
+) -> Definition:
+    """Messages that genaction writes for an action; actionlib's documented layout."""
+    full = f"{package}/msg/{name}{suffix}"
+    if f"_{suffix}" in parts:
+        part = parts[f"_{suffix}"]
+        return Definition(full, Generation.ROS1, part.constants, part.fields, part.text)
+    own = f"{package}/msg/{name}"
+    header = Field("header", FieldType("std_msgs/msg/Header"))
+    status = Field("status", FieldType("actionlib_msgs/msg/GoalStatus"))
+    fields = {
+        "ActionGoal": (
+            header,
+            Field("goal_id", FieldType("actionlib_msgs/msg/GoalID")),
+            Field("goal", FieldType(f"{own}Goal")),
+        ),
+        "ActionResult": (header, status, Field("result", FieldType(f"{own}Result"))),
+        "ActionFeedback": (header, status, Field("feedback", FieldType(f"{own}Feedback"))),
+        "Action": (
+            Field("action_goal", FieldType(f"{own}ActionGoal")),
+            Field("action_result", FieldType(f"{own}ActionResult")),
+            Field("action_feedback", FieldType(f"{own}ActionFeedback")),
+        ),
+    }[suffix]
+    text = "\n".join(
+        f"{item.type.text(Generation.ROS1).removeprefix(package + '/')} {item.name}"
+        for item in fields
+    ).replace("std_msgs/Header header", "Header header")
+    return Definition(full, Generation.ROS1, (), fields, text)
+
+
+def _implied_fields(package: str, part: str, name: str) -> dict[str, tuple[Field, ...]]:
+    """Messages that rosidl adds to services and actions (REP-2012, ROS 2 actions design)."""
+    own = f"{package}/{part}/{name}"
+    stamp = Field("stamp", _TIME)
+    goal_id = Field("goal_id", _UUID)
+    status = Field("status", FieldType("int8"))
+    return {
+        "_SendGoal_Request": (goal_id, Field("goal", FieldType(f"{own}_Goal"))),
+        "_SendGoal_Response": (Field("accepted", FieldType("bool")), stamp),
+        "_GetResult_Request": (goal_id,),
+        "_GetResult_Response": (status, Field("result", FieldType(f"{own}_Result"))),
+        "_FeedbackMessage": (goal_id, Field("feedback", FieldType(f"{own}_Feedback"))),
+    }
+
+
+def _check_references(
+    found: Definition, file: str, first_line: int, diagnostics: Diagnostics
+) -> None:
+    if file.startswith("<"):
+        return
+    for item in found.fields:
+        if not item.type.is_message or exists(item.type.base):
+            continue
+        short = item.type.base.replace("/msg/", "/")
+        line, column = _place(found.text, item.name, first_line)
+        near = did_you_mean(item.type.base, known_types())
+        span = SourceSpan(file, line, column)
+        diagnostics.report("interfaces.unknown-type", f"type '{short}' is not known", span, fix=near)
+
+
+def _place(text: str, field_name: str, first_line: int) -> tuple[int, int]:
+    for number, line in enumerate(text.splitlines(), first_line):
+        if match := re.match(rf"(\s*)\S+\s+{field_name}\b", line):
+            return number, len(match[1]) + 1
+    return first_line, 0
+
+
+def _not_found(name: str, part: str, bare: str) -> NotFoundError:
+    shown = name.replace("/msg/", "/")
+    kind = {"msg": "message type", "srv": "service type", "action": "action type"}[part]
+    everything = known_types(part)
+    base = bare.partition("_")[0] if part != "msg" else bare
+    same_name = tuple(item for item in everything if item.rsplit("/", 1)[1] == base)
+    near = same_name[:3] or nearest_names(name, everything)
+    return NotFoundError(
+        kind,
+        shown,
+        nearest=near,
+        hint="a package's own types are found when the package is in the workspace "
+        "(ROS: Unable to load msg)",
+    )
+
+
+_DERIVED = (
+    "ActionGoal",
+    "ActionResult",
+    "ActionFeedback",
+    "Action",
+    "Goal",
+    "Result",
+    "Feedback",
+)
+_SRV_NAME = re.compile(r"(\w+?)_(?:Request|Response)")
+_ACTION_NAME = re.compile(
+    r"(\w+?)_(?:Goal|Result|Feedback|SendGoal_Request|SendGoal_Response"
+    r"|GetResult_Request|GetResult_Response|FeedbackMessage)"
+)

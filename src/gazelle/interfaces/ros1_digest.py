@@ -1,0 +1,113 @@
+"""MD5 sums and full texts of ROS 1 types, and the listing that ``rosmsg show`` prints.
+
+The algorithm is documented at http://wiki.ros.org/ROS/Technical%20Overview (message
+serialization and msg MD5 sums): constants first, no comments, nested messages by their sum.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+
+from gazelle.interfaces.definition import Definition, Generation
+from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.naming import ros1_name
+
+__all__ = ["md5sum", "ros1_definition", "service_md5sum", "show_message", "show_service"]
+
+_RULE = "=" * 80
+
+
+def md5sum(name: str) -> str:
+    """Return the MD5 sum of a message in ROS 1.
+
+    Args:
+        name: ``sensor_msgs/LaserScan`` or the full name.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
+    return _md5(_md5_text(_definition(name)))
+
+
+def service_md5sum(name: str) -> str:
+    """Return the MD5 sum of a service in ROS 1: of request and response, one after the other.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
+    full = "/".join(split_name(name, "srv"))
+    parts = (_definition(f"{full}{suffix}") for suffix in ("_Request", "_Response"))
+    return _md5("".join(_md5_text(part) for part in parts))
+
+
+def ros1_definition(name: str) -> str:
+    """Return a message's text and, behind rules of ``=``, those of all it contains.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
+    root = _definition(name)
+    text = root.text + "\n"
+    for item in _contained(root, []):
+        text += f"\n{_RULE}\nMSG: {ros1_name(item)}\n{_definition(item).text}\n"
+    return text
+
+
+def show_message(name: str, indent: str = "") -> str:
+    """Return the fields of a message, nested ones indented, as ``rosmsg show`` prints them.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
+    return "".join(f"{line}\n" for line in _shown(_definition(name), indent))
+
+
+def show_service(name: str) -> str:
+    """Return request and response of a service, as ``rossrv show`` prints them.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
+    full = "/".join(split_name(name, "srv"))
+    return f"{show_message(f'{full}_Request')}---\n{show_message(f'{full}_Response')}"
+
+
+def _definition(name: str) -> Definition:
+    return definition("/".join(split_name(name)), Generation.ROS1)
+
+
+def _md5(text: str) -> str:
+    return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
+
+
+def _md5_text(source: Definition) -> str:
+    lines = [f"{item.type} {item.name}={item.text}" for item in source.constants]
+    for item in source.fields:
+        kind = item.type
+        word = md5sum(kind.base) if kind.is_message else kind.text(Generation.ROS1)
+        lines.append(f"{word} {item.name}")
+    return "\n".join(lines)
+
+
+def _contained(source: Definition, found: list[str]) -> list[str]:
+    """All messages inside, each once, in the order of genmsg: depth first."""
+    for item in source.fields:
+        base = item.type.base
+        if item.type.is_message and base not in found:
+            found.append(base)
+            _contained(_definition(base), found)
+    return found
+
+
+def _shown(source: Definition, indent: str) -> Iterator[str]:
+    for constant in source.constants:
+        yield f"{indent}{constant.type} {constant.name}={_constant(constant.value, constant.text)}"
+    for item in source.fields:
+        yield f"{indent}{item.type.text(Generation.ROS1)} {item.name}"
+        if item.type.is_message:
+            yield from _shown(_definition(item.type.base), indent + "  ")
+
+
+def _constant(value: object, text: str) -> str:
+    return text if isinstance(value, str) else str(value)

@@ -1,0 +1,117 @@
+"""A message as the YAML-like text that ``print(msg)`` shows in ROS 1 (and ``rostopic echo``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy as np
+
+from gazelle.interfaces.ros1_message import Ros1Message
+from gazelle.interfaces.ros1_time import Time, TVal
+
+__all__ = ["strify"]
+
+
+def strify(
+    value: Any,
+    indent: str = "",
+    *,
+    time_offset: Time | None = None,
+    field_filter: Callable[[Any], Iterable[str]] | None = None,
+    width: int | None = None,
+) -> str:
+    """Return a ROS 1 message or one of its values as text.
+
+    Args:
+        value: what to show.
+        indent: white space in front of each line; with it the text starts with a line break.
+        time_offset: times are shown relative to it.
+        field_filter: gives the fields of a message that are shown.
+        width: numbers are cut or filled to so many characters.
+    """
+    return _Printer(time_offset, field_filter, width).text(value, indent)
+
+
+class _Printer:
+    def __init__(
+        self,
+        time_offset: Time | None,
+        field_filter: Callable[[Any], Iterable[str]] | None,
+        width: int | None,
+    ) -> None:
+        self._offset = time_offset
+        self._filter = field_filter
+        self._width = width
+
+    def text(self, value: Any, indent: str) -> str:
+        if isinstance(value, bool):
+            return str(value)
+        if isinstance(value, int | float):
+            return self._number(value)
+        if isinstance(value, str):
+            return _quoted(value) if value else "''"
+        if isinstance(value, TVal):
+            return self._time(value, indent)
+        if isinstance(value, Ros1Message):
+            return self._message(value, indent)
+        if isinstance(value, np.ndarray):
+            return self._sequence(value.tolist(), indent)
+        if isinstance(value, np.generic):
+            return self.text(value.item(), indent)
+        if isinstance(value, list | tuple):
+            return self._sequence(value, indent)
+        return str(value)
+
+    def _number(self, value: float) -> str:
+        if self._width is None:
+            return str(value)
+        if isinstance(value, float):
+            text = f"{value:.{self._width}f}"
+            return text[: max(text.find("."), self._width)]
+        return f"{value:{self._width}d}"
+
+    def _time(self, value: TVal, indent: str) -> str:
+        if self._offset is not None and isinstance(value, Time):
+            value = value - self._offset
+        seconds = str(value.secs) if self._width is None else f"{value.secs:{self._width}d}"
+        return f"\n{indent}secs: {seconds}\n{indent}nsecs: {value.nsecs:{self._width or 9}d}"
+
+    def _message(self, value: Ros1Message, indent: str) -> str:
+        shown = value._names if self._filter is None else tuple(self._filter(value))
+        lines = []
+        for name, kind in zip(value._names, value._slot_types, strict=True):
+            if name in shown:
+                inner = getattr(value, name)
+                if isinstance(inner, bytes) and "uint8[" in kind:
+                    inner = list(inner)
+                lines.append(f"{indent}{name}: {self.text(inner, '  ' + indent)}")
+        return ("\n" if indent else "") + "\n".join(lines)
+
+    def _sequence(self, values: list[Any] | tuple[Any, ...], indent: str) -> str:
+        if not len(values):
+            return "[]"
+        first = values[0]
+        if isinstance(first, str):
+            return _string_list(values, indent)
+        if isinstance(first, int | float):
+            if self._width is None or isinstance(first, bool):
+                return str(list(values))
+            return "[" + ", ".join(self.text(item, indent) for item in values) + "]"
+        lines = (f"{indent}- {self.text(item, indent + '  ')}" for item in values)
+        return "\n" + "\n".join(lines)
+
+
+def _quoted(text: str) -> str:
+    import yaml
+
+    return yaml.dump(text, default_style='"').rstrip("\n")
+
+
+def _string_list(values: Iterable[Any], indent: str) -> str:
+    import yaml
+
+    text = yaml.dump(list(values)).rstrip("\n")
+    if text.startswith("["):
+        return text
+    return "\n" + "\n".join(indent + line for line in text.splitlines())
