@@ -1,0 +1,116 @@
+"""Commands from topics and services wait here and are applied between steps."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from gazelle.errors import GazelleError
+
+__all__ = ["CommandQueue"]
+
+_Result = TypeVar("_Result")
+
+
+class _Call:
+    """A command whose caller waits for the result."""
+
+    __slots__ = ("command", "done", "error", "result")
+
+    def __init__(self, command: Callable[[], Any]) -> None:
+        self.command = command
+        self.done = threading.Event()
+        self.result: Any = None
+        self.error: BaseException | None = None
+
+    def __call__(self) -> None:
+        try:
+            self.result = self.command()
+        except Exception as error:  # noqa: BLE001 - it is raised again in the caller's thread
+            self.error = error
+        self.done.set()
+
+
+class CommandQueue:
+    """Hands work from transport threads to the one thread that owns the world.
+
+    While a loop runs, `post` and `call` only queue; otherwise, and in the loop's own thread,
+    they act at once (under a lock, so that one thread at a time touches the world).
+    """
+
+    def __init__(self) -> None:
+        self._queue: deque[Callable[[], Any]] = deque()
+        self._arrived = threading.Event()
+        self._owner: int | None = None
+        self._lock = threading.RLock()
+
+    def post(self, command: Callable[[], Any]) -> None:
+        """Have a command applied between steps; does not wait."""
+        if self._acts_now():
+            with self._lock:
+                command()
+            return
+        self._enqueue(command)
+
+    def call(self, command: Callable[[], _Result], *, timeout_s: float = 60.0) -> _Result:
+        """Have a command applied between steps, wait for it and return its result.
+
+        Raises:
+            GazelleError: the world server was closed or did not answer in time.
+            Exception: whatever `command` raised.
+        """
+        if self._acts_now():
+            with self._lock:
+                return command()
+        waiting = _Call(command)
+        self._enqueue(waiting)
+        if not waiting.done.wait(timeout_s):
+            raise GazelleError(f"the simulation did not take a command within {timeout_s:g} s")
+        if waiting.error is not None:
+            raise waiting.error
+        result: _Result = waiting.result
+        return result
+
+    def apply(self) -> None:
+        """Run everything queued; the owner of the world calls this between steps."""
+        if not self._queue:
+            return
+        self._arrived.clear()
+        while self._queue:
+            self._queue.popleft()()
+
+    def wait(self, timeout_s: float | None) -> bool:
+        """Sleep until a command arrives or the time is over; True when one arrived."""
+        return self._arrived.wait(timeout_s)
+
+    def wake(self) -> None:
+        """End a `wait` early."""
+        self._arrived.set()
+
+    def clear_wake(self) -> None:
+        """Forget a wake-up that had no command."""
+        if not self._queue:
+            self._arrived.clear()
+
+    def own(self) -> None:
+        """The calling thread runs the loop from now on."""
+        self._lock.acquire()
+        self._owner = threading.get_ident()
+
+    def disown(self) -> None:
+        """The loop has ended; what is still queued is applied."""
+        self.apply()
+        self._owner = None
+        self._lock.release()
+
+    def _enqueue(self, command: Callable[[], Any]) -> None:
+        self._queue.append(command)
+        self._arrived.set()
+        if self._owner is None:  # the loop ended between the question and the answer
+            with self._lock:
+                self.apply()
+
+    def _acts_now(self) -> bool:
+        return self._owner is None or self._owner == threading.get_ident()

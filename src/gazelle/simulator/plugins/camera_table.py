@@ -1,0 +1,175 @@
+"""Names, keys and topics of the camera and depth camera plug-ins."""
+
+from __future__ import annotations
+
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+
+__all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE"]
+
+_COMMON = (
+    Parameter("robotNamespace", "text", "", "namespace of all topics"),
+    Parameter("cameraName", "text", "", "namespace within it", "", ("camera_name",)),
+    Parameter("frameName", "text", "/world", "frame of the data", "", ("frame_name",)),
+    Parameter(
+        "updateRate",
+        "number",
+        0.0,
+        "largest publish rate, 0 for the sensor's",
+        "Hz",
+        ("update_rate",),
+    ),
+    Parameter("hackBaseline", "number", 0.0, "stereo baseline in P[3]", "m", ("hack_baseline",)),
+    Parameter("focalLength", "number", 0.0, "fx = fy of camera_info, 0 computes it", "px"),
+    Parameter("Cx", "number", 0.0, "principal point, 0 is (width + 1)/2", "px"),
+    Parameter("Cy", "number", 0.0, "principal point, 0 is (height + 1)/2", "px"),
+    Parameter("distortionK1", "number", 0.0, "camera_info only, as in Gazebo"),
+    Parameter("distortionK2", "number", 0.0, "camera_info only, as in Gazebo"),
+    Parameter("distortionK3", "number", 0.0, "camera_info only, as in Gazebo"),
+    Parameter("distortionT1", "number", 0.0, "camera_info only, as in Gazebo"),
+    Parameter("distortionT2", "number", 0.0, "camera_info only, as in Gazebo"),
+    Parameter("autoDistortion", "flag", False, "camera_info's D from the sensor's <distortion>"),
+    Parameter("CxPrime", "none", "", "no release of the plug-in publishes it"),
+    Parameter("borderCrop", "none", "", "the renderer distorts the whole picture"),
+    Parameter("alwaysOn", "none", "", "pictures are rendered while somebody subscribes"),
+    Parameter("baseline", "none", "", "no release of the plug-in reads it"),
+    Parameter("triggerTopicName", "none", "", "only the triggered camera reads it"),
+    Parameter("rightFrameName", "none", "", "no release of the plug-in reads it"),
+)
+_DEPTH = (
+    Parameter("imageTopicName", "text", "ir/image_raw", "colour picture"),
+    Parameter("cameraInfoTopicName", "text", "ir/camera_info", "its camera_info"),
+    Parameter("depthImageTopicName", "text", "depth/image_raw", "depth picture"),
+    Parameter("depthImageCameraInfoTopicName", "text", "depth/camera_info", "its camera_info"),
+    Parameter("pointCloudTopicName", "text", "points", "cloud"),
+    Parameter("pointCloudCutoff", "number", 0.4, "nearest depth that is kept", "m", ("min_depth",)),
+    Parameter("useDepth16UC1Format", "flag", False, "depth as 16UC1 millimetres"),
+)
+_RECONFIGURE = Service("{cameraName}/set_parameters", "dynamic_reconfigure/srv/Reconfigure")
+_SET_INFO = Service("{cameraName}/set_camera_info", "sensor_msgs/srv/SetCameraInfo")
+_DEPTH_TOPICS = (
+    Topic(
+        "{cameraName}/{imageTopicName}",
+        "sensor_msgs/msg/Image",
+        "sensor's `update_rate`",
+        "`frameName`",
+    ),
+    Topic(
+        "{cameraName}/{cameraInfoTopicName}",
+        "sensor_msgs/msg/CameraInfo",
+        "sensor's `update_rate`",
+        "`frameName`",
+    ),
+    Topic(
+        "{cameraName}/{depthImageTopicName}",
+        "sensor_msgs/msg/Image",
+        "sensor's `update_rate`",
+        "`frameName`",
+    ),
+    Topic(
+        "{cameraName}/{depthImageCameraInfoTopicName}",
+        "sensor_msgs/msg/CameraInfo",
+        "sensor's `update_rate`",
+        "`frameName`",
+    ),
+    Topic(
+        "{cameraName}/{pointCloudTopicName}",
+        "sensor_msgs/msg/PointCloud2",
+        "sensor's `update_rate`",
+        "`frameName`",
+    ),
+    Topic("{cameraName}/parameter_updates", "dynamic_reconfigure/msg/Config", "latched"),
+    Topic(
+        "{cameraName}/parameter_descriptions",
+        "dynamic_reconfigure/msg/ConfigDescription",
+        "latched",
+    ),
+)
+_CLOUD = (
+    "Depth is 32FC1, planar z in metres, NaN outside the cutoffs; the cloud is x y z at 0, 4, 8"
+    " and rgb at 16 of 32 bytes, with the colour bytes in the order readers expect (B, G, R).",
+)
+
+CAMERA_TABLE = PluginTable(
+    family="camera",
+    summary="Publishes the pictures of the camera it stands in; in ROS 2 of depth cameras too.",
+    filenames=("gazebo_ros_camera",),
+    behaviour=(
+        "`compressed` is JPEG or PNG; `compressedDepth` encodes depth pictures; `theora` is listed"
+        " as image_transport does and sends nothing.",
+        "The sensor's `update_rate` governs; the plug-in's can only lower it.",
+        "camera_info has the principal point at (size + 1)/2 as Gazebo's; the picture's is at"
+        " (size - 1)/2.",
+    ),
+    topics=(
+        Topic(
+            "{cameraName}/{imageTopicName}",
+            "sensor_msgs/msg/Image",
+            "sensor's `update_rate`",
+            "`frameName`",
+        ),
+        Topic(
+            "{cameraName}/{imageTopicName}/compressed",
+            "sensor_msgs/msg/CompressedImage",
+            "sensor's `update_rate`",
+            "`frameName`",
+        ),
+        Topic(
+            "{cameraName}/{imageTopicName}/compressedDepth",
+            "sensor_msgs/msg/CompressedImage",
+            "depth pictures only",
+            "`frameName`",
+        ),
+        Topic("{cameraName}/{imageTopicName}/theora", "theora_image_transport/msg/Packet", "never"),
+        Topic(
+            "{cameraName}/{cameraInfoTopicName}",
+            "sensor_msgs/msg/CameraInfo",
+            "sensor's `update_rate`",
+            "`frameName`",
+        ),
+        *_DEPTH_TOPICS[5:],
+    ),
+    services=(_SET_INFO, _RECONFIGURE),
+    parameters=(
+        *_COMMON,
+        Parameter("imageTopicName", "text", "image_raw", "picture"),
+        Parameter("cameraInfoTopicName", "text", "camera_info", "camera_info"),
+        Parameter("min_depth", "number", 0.4, "nearest depth that is kept (ROS 2)", "m"),
+        Parameter("max_depth", "number", 5.0, "farthest depth that is kept (ROS 2)", "m"),
+        Parameter("triggered", "none", "", "pictures are never triggered"),
+    ),
+)
+
+OPENNI_TABLE = PluginTable(
+    family="openni_kinect",
+    summary="Colour, depth and cloud of the depth camera it stands in.",
+    filenames=("gazebo_ros_openni_kinect",),
+    behaviour=(
+        *_CLOUD,
+        "The sensor's `update_rate` governs; the plug-in's `updateRate` has no effect, as in"
+        " Gazebo.",
+        "camera_info is published even when it is the only topic subscribed.",
+    ),
+    topics=_DEPTH_TOPICS,
+    services=(_SET_INFO, _RECONFIGURE),
+    parameters=(
+        *_COMMON,
+        *_DEPTH,
+        Parameter("pointCloudCutoffMax", "number", 5.0, "farthest depth that is kept", "m"),
+    ),
+)
+
+DEPTH_TABLE = PluginTable(
+    family="depth_camera",
+    summary="As openni_kinect, without a farthest depth.",
+    filenames=("gazebo_ros_depth_camera",),
+    behaviour=_CLOUD,
+    topics=_DEPTH_TOPICS,
+    services=(_SET_INFO, _RECONFIGURE),
+    parameters=(
+        *_COMMON,
+        *_DEPTH,
+        Parameter("reflectanceTopicName", "none", "", "not published"),
+        Parameter("normalsTopicName", "none", "", "not published"),
+        Parameter("reduceNormals", "none", "", "normals are not published"),
+    ),
+)

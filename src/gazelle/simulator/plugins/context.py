@@ -1,0 +1,207 @@
+"""What a plug-in gets when it is loaded, and what it leaves behind when it is closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Protocol
+
+from gazelle.description.model import Model, PluginTag, Sensor
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.simulator.messages import message_class, service_class
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.ports import NodePort, PublisherPort
+from gazelle.simulator.scheduler import ORDER_CONTROL, Scheduler, Task
+
+if TYPE_CHECKING:
+    from gazelle.engine import Engine
+    from gazelle.simulator.commands import CommandQueue
+    from gazelle.simulator.frames import FrameWorker
+    from gazelle.simulator.sensor_set import SensorSet
+
+__all__ = ["Host", "PluginContext", "Resources", "SensorPlace", "join_names"]
+
+
+class Host(Protocol):
+    """The world server as plug-ins see it."""
+
+    engine: Engine
+    node: NodePort
+    scheduler: Scheduler
+    commands: CommandQueue
+    diagnostics: Diagnostics
+    sensors: SensorSet
+    frames: FrameWorker
+    seed: int
+
+    @property
+    def lockstep(self) -> bool:
+        """True when every camera frame is finished before time goes on."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class SensorPlace:
+    """A sensor and the link it sits on.
+
+    Attributes:
+        name: ``model::link::sensor``.
+        link_name: ``model::link``.
+    """
+
+    name: str
+    link_name: str
+    sensor: Sensor
+
+
+class Resources:
+    """Publishers, subscriptions, services and tasks of one model; released together."""
+
+    def __init__(self, host: Host) -> None:
+        self._host = host
+        self._closers: list[Callable[[], None]] = []
+        self._reset_actions: list[Callable[[], None]] = []
+
+    def publisher(
+        self, topic: str, type_name: str, *, latch: bool = False, reliable: bool = True
+    ) -> PublisherPort:
+        """Offer a topic."""
+        made = self._host.node.create_publisher(
+            topic, message_class(type_name), latch=latch, reliable=reliable
+        )
+        self._closers.append(made.unregister)
+        return made
+
+    def subscription(self, topic: str, type_name: str, callback: Callable[[Any], None]) -> None:
+        """Listen; `callback` runs between two steps, in the thread that owns the world."""
+
+        def queue(message: Any) -> None:
+            self._host.commands.post(lambda: callback(message))
+
+        made = self._host.node.create_subscription(topic, message_class(type_name), queue)
+        self._closers.append(made.unregister)
+
+    def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:
+        """Answer a service; `handler(request, response)` fills the response between two steps."""
+        service = service_class(type_name)
+
+        def answer(request: Any) -> Any:
+            response = service.Response()
+            self._host.commands.call(lambda: handler(request, response))
+            return response
+
+        made = self._host.node.create_service(name, service, answer)
+        self._closers.append(made.unregister)
+
+    def task(
+        self,
+        name: str,
+        period_steps: Fraction,
+        action: Callable[[], None],
+        *,
+        order: int = ORDER_CONTROL,
+        wanted: Callable[[], bool] | None = None,
+    ) -> Task:
+        """Have something done every so many steps."""
+        task = self._host.scheduler.add(Task(name, period_steps, action, order, wanted))
+        self._closers.append(lambda: self._host.scheduler.remove(task))
+        return task
+
+    def on_reset(self, action: Callable[[], None]) -> None:
+        """Have something done after the world was reset."""
+        self._reset_actions.append(action)
+
+    def on_close(self, action: Callable[[], None]) -> None:
+        """Have something done when the model goes."""
+        self._closers.append(action)
+
+    def reset(self) -> None:
+        """Run the reset actions."""
+        for action in self._reset_actions:
+            action()
+
+    def close(self) -> None:
+        """Release everything, last first; closing twice does nothing."""
+        while self._closers:
+            self._closers.pop()()
+        self._reset_actions.clear()
+
+
+@dataclass(frozen=True, slots=True)
+class PluginContext:
+    """One plug-in about to be loaded.
+
+    Attributes:
+        model: the model in the world, under its name there; None for a world plug-in.
+        place: the sensor it stands in, None for a model plug-in.
+        default_namespace: namespace for plug-ins that name none (``-robot_namespace``).
+    """
+
+    host: Host
+    model: Model
+    plugin: PluginTag
+    resources: Resources
+    place: SensorPlace | None = None
+    default_namespace: str = ""
+
+    def reader(self, table: PluginTable) -> ParameterReader:
+        """Return the reader of this plug-in's keys."""
+        return ParameterReader(self.plugin, table, self.host.diagnostics)
+
+    def report(self, code: str, message: str, *, fix: str = "") -> None:
+        """Report something about this plug-in at its place."""
+        self.host.diagnostics.report(code, message, self.plugin.span, fix=fix)
+
+    def namespace(self, parameters: ParameterReader) -> str:
+        """Return the namespace of the plug-in's topics, absolute."""
+        if parameters.ros.present:
+            return join_names("/", parameters.ros.namespace or self.default_namespace)
+        name = parameters.text("robotNamespace", self.default_namespace)
+        return join_names("/", name)
+
+    def topic(self, parameters: ParameterReader, name: str, *within: str) -> str:
+        """Return the absolute name of a topic of this plug-in.
+
+        ROS 2 remappings of the ``<ros>`` block apply; ``~/x`` is below the plug-in's name.
+        """
+        namespace = join_names(self.namespace(parameters), *within)
+        wanted = parameters.ros.remapped(name)
+        if wanted.startswith("~/"):
+            return join_names(namespace, self.plugin.name, wanted[2:])
+        return join_names(namespace, wanted)
+
+    def joint_name(self, name: str) -> str | None:
+        """Return ``model::joint``; reports a joint that is not there and returns None."""
+        names = [joint.name for joint in self.model.joints]
+        if name in names:
+            return f"{self.model.name}::{name}"
+        text = f"plug-in '{self.plugin.name}' needs joint '{name}', which model "
+        text += f"'{self.model.name}' does not have; the plug-in is left out"
+        self.report("plugin.missing-joint", text, fix=did_you_mean(name, names))
+        return None
+
+    def link_name(self, name: str) -> str | None:
+        """Return ``model::link``; reports a link that is not there and returns None."""
+        names = [link.name for link in self.model.links]
+        wanted = name.removeprefix(f"{self.model.name}::")
+        if wanted in names:
+            return f"{self.model.name}::{wanted}"
+        text = f"plug-in '{self.plugin.name}' needs link '{name}', which model "
+        text += f"'{self.model.name}' does not have; the plug-in is left out"
+        self.report("plugin.missing-link", text, fix=did_you_mean(name, names))
+        return None
+
+    def tf_prefix(self, namespace: str) -> str:
+        """Return the ``tf_prefix`` parameter of a namespace, empty when there is none."""
+        name = join_names(namespace, "tf_prefix")
+        return str(self.host.node.parameters.get(name, ""))
+
+
+def join_names(namespace: str, *names: str) -> str:
+    """Join ROS names; an absolute one starts anew, doubled slashes collapse."""
+    result = namespace
+    for name in names:
+        result = name if name.startswith("/") else f"{result}/{name}"
+    return "/" + "/".join(word for word in result.split("/") if word)

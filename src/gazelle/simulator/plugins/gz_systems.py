@@ -1,0 +1,54 @@
+"""gz-sim systems that are always there, and server plug-ins of gazebo_ros."""
+
+from __future__ import annotations
+
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.table import PluginTable
+
+__all__ = ["BUILT_IN", "SERVER_TABLE", "TABLE", "load"]
+
+BUILT_IN = (
+    "physics",
+    "user-commands",
+    "scene-broadcaster",
+    "sensors",
+    "imu",
+    "contact",
+    "forcetorque",
+    "navsat",
+    "altimeter",
+    "magnetometer",
+    "air-pressure",
+    "log",
+    "log-record",
+)
+
+TABLE = PluginTable(
+    family="gz-sim systems",
+    summary="Systems a gz-sim world names and Gazelle always has.",
+    filenames=(
+        *(f"gz-sim-{name}-system" for name in BUILT_IN),
+        *(f"ignition-gazebo-{name}-system" for name in BUILT_IN),
+    ),
+    behaviour=("Their parameters have no effect; a notice says so once.",),
+)
+
+SERVER_TABLE = PluginTable(
+    family="gazebo_ros server plug-ins",
+    summary="The services and topics under /gazebo and the spawning services: always offered.",
+    filenames=(
+        "gazebo_ros_api_plugin",
+        "gazebo_ros_paths_plugin",
+        "gazebo_ros_init",
+        "gazebo_ros_factory",
+        "gazebo_ros_state",
+        "gazebo_ros_force_system",
+        "gazebo_ros_properties",
+    ),
+)
+
+
+def load(context: PluginContext) -> None:
+    """Say that the plug-in is built in."""
+    text = f"plug-in '{context.plugin.name}' ({context.plugin.filename}) is part of Gazelle"
+    context.report("plugin.built-in", text)

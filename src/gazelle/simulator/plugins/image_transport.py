@@ -1,0 +1,96 @@
+"""The topics that image_transport puts beside a picture's: compressed, compressedDepth, theora."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from gazelle.simulator.plugins.camera_stream import CameraStream
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.image_encoding import compressed_depth_message, compressed_message
+from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from gazelle.sensors import CameraRecord
+
+__all__ = ["add_transports"]
+
+_COMPRESSED = (
+    DynamicParameter("format", "str", "jpeg", "Compression: jpeg or png."),
+    DynamicParameter("jpeg_quality", "int", 80, "JPEG quality in per cent.", 1, 100),
+    DynamicParameter("png_level", "int", 9, "PNG compression level.", 1, 9),
+)
+_COMPRESSED_DEPTH = (
+    DynamicParameter("depth_max", "double", 10.0, "Largest depth, m.", 1.0, 100.0),
+    DynamicParameter("depth_quantization", "double", 100.0, "Quantisation.", 1.0, 150.0),
+    DynamicParameter("png_level", "int", 9, "PNG compression level.", 1, 9),
+)
+_THEORA = (
+    DynamicParameter("optimize_for", "int", 1, "0 bitrate, 1 quality.", 0, 1),
+    DynamicParameter("target_bitrate", "int", 800000, "Bits per second.", 0, 99200000),
+    DynamicParameter("quality", "int", 31, "Quality.", 0, 63),
+    DynamicParameter("keyframe_frequency", "int", 64, "Frames between key frames.", 1, 64),
+)
+DepthOf = Callable[["CameraRecord"], "NDArray[np.float32]"]
+
+
+def add_transports(
+    context: PluginContext, stream: CameraStream, topic: str, *, depth_of: DepthOf | None = None
+) -> None:
+    """Offer the transports of one picture.
+
+    Args:
+        context: the plug-in's.
+        stream: the camera.
+        topic: of the raw picture, remappings applied: transports go by the final name.
+        depth_of: None for a colour picture, else what depth to encode.
+    """
+    frame = stream.calibration.frame
+    store = context.host.node.parameters
+
+    def parameters(kind: str, rows: tuple[DynamicParameter, ...]) -> DynamicParameters:
+        return DynamicParameters(
+            context.resources, store, join_names(topic, kind), rows, changed=lambda values: None
+        )
+
+    jpeg = parameters("compressed", _COMPRESSED)
+    deep = parameters("compressedDepth", _COMPRESSED_DEPTH)
+    parameters("theora", _THEORA)
+
+    def compressed(time_ns: int, record: CameraRecord) -> object:
+        assert record.rgb is not None
+        return compressed_message(
+            time_ns,
+            frame,
+            record.rgb,
+            kind=str(jpeg.values["format"]),
+            quality=int(jpeg.values["jpeg_quality"]),
+            png_level=int(jpeg.values["png_level"]),
+        )
+
+    def compressed_depth(time_ns: int, record: CameraRecord) -> object:
+        assert depth_of is not None
+        return compressed_depth_message(
+            time_ns,
+            frame,
+            depth_of(record),
+            depth_max_m=float(deep.values["depth_max"]),
+            quantization=float(deep.values["depth_quantization"]),
+            png_level=int(deep.values["png_level"]),
+        )
+
+    compressed_type = "sensor_msgs/CompressedImage"
+    if depth_of is None:
+        stream.add(join_names(topic, "compressed"), compressed_type, compressed, rgb=True)
+        context.resources.publisher(join_names(topic, "compressedDepth"), compressed_type)
+    else:
+        context.resources.publisher(join_names(topic, "compressed"), compressed_type)
+        depth_topic = join_names(topic, "compressedDepth")
+        stream.add(depth_topic, compressed_type, compressed_depth, depth=True)
+    context.resources.publisher(join_names(topic, "theora"), "theora_image_transport/Packet")
+    idle = "compressedDepth and theora send" if depth_of is None else "compressed and theora send"
+    text = f"'{topic}' is listed with its image transports; {idle} nothing"
+    context.report("plugin.no-encoder", text)

@@ -1,0 +1,259 @@
+"""IMUs: ``libgazebo_ros_imu``, ``libgazebo_ros_imu_sensor`` and ``libhector_gazebo_ros_imu``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.description.model import ImuSpec, Noise
+from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.simulator.messages import (
+    header,
+    message_class,
+    vector_message,
+)
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, sensor_period_in_steps
+
+if TYPE_CHECKING:
+    from gazelle.sensors import ImuRecord
+
+__all__ = ["HECTOR_TABLE", "SENSOR_TABLE", "TABLE", "load", "load_hector", "load_sensor"]
+
+_OFFSETS = (
+    Parameter("xyzOffset", "vector", (0.0, 0.0, 0.0), "mounting position", "m", ("xyzOffsets",)),
+    Parameter("rpyOffset", "vector", (0.0, 0.0, 0.0), "mounting turn", "rad", ("rpyOffsets",)),
+)
+_GRAVITY = "At rest the acceleration reads +g along the upward axis, as a real IMU's does."
+
+TABLE = PluginTable(
+    family="imu",
+    summary="A model plug-in that measures the motion of a link.",
+    filenames=("gazebo_ros_imu",),
+    behaviour=(_GRAVITY,),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/Imu",
+            "`updateRate`, 0 is every step",
+            "`frameName`, else `bodyName`",
+        ),
+    ),
+    services=(Service("{serviceName}", "std_srvs/srv/Empty"),),
+    parameters=(
+        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("bodyName", "text", "", "the link"),
+        Parameter("frameName", "text", "", "frame of the data"),
+        Parameter("topicName", "text", "/default_imu", "topic"),
+        Parameter("serviceName", "text", "/default_imu", "calibration service, does nothing"),
+        Parameter(
+            "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
+        ),
+        Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
+        *_OFFSETS,
+        Parameter("imu", "none", "", "no release of this plug-in reads it"),
+        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
+    ),
+)
+
+SENSOR_TABLE = PluginTable(
+    family="imu_sensor",
+    summary="Publishes the readings of the imu sensor it stands in.",
+    filenames=("gazebo_ros_imu_sensor",),
+    behaviour=(_GRAVITY,),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/Imu",
+            "`updateRateHZ`, else the sensor's",
+            "`frameName`, else the link",
+        ),
+    ),
+    parameters=(
+        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("topicName", "text", "imu_data", "topic (ROS 1)"),
+        Parameter("frameName", "text", "", "frame of the data", "", ("frame_name",)),
+        Parameter("bodyName", "text", "", "frame of the data when frameName is absent"),
+        Parameter("updateRateHZ", "number", 0.0, "publish rate, 0 for the sensor's", "Hz"),
+        Parameter(
+            "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
+        ),
+        Parameter("initialOrientationAsReference", "none", "", "orientations are in the world"),
+        Parameter("initial_orientation_as_reference", "none", "", "orientations are in the world"),
+        *_OFFSETS,
+    ),
+)
+
+HECTOR_TABLE = PluginTable(
+    family="hector imu",
+    summary="The IMU of hector_gazebo_plugins.",
+    filenames=("hector_gazebo_ros_imu",),
+    behaviour=(_GRAVITY,),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/Imu",
+            "`updateRate`, 0 is every step",
+            "`frameId`, else `bodyName`",
+        ),
+    ),
+    parameters=(
+        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("bodyName", "text", "", "the link"),
+        Parameter("frameId", "text", "", "frame of the data", "", ("frameName",)),
+        Parameter("topicName", "text", "imu", "topic"),
+        Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
+        Parameter("accelGaussianNoise", "vector", (0.0, 0.0, 0.0), "sigma", "m/s²"),
+        Parameter("rateGaussianNoise", "vector", (0.0, 0.0, 0.0), "sigma", "rad/s"),
+        Parameter("accelOffset", "vector", (0.0, 0.0, 0.0), "constant error", "m/s²"),
+        Parameter("rateOffset", "vector", (0.0, 0.0, 0.0), "constant error", "rad/s"),
+        *_OFFSETS,
+        *(
+            Parameter(key, "none", "", "not simulated")
+            for key in (
+                "accelDrift",
+                "accelDriftFrequency",
+                "rateDrift",
+                "rateDriftFrequency",
+                "yawOffset",
+                "yawDrift",
+                "yawDriftFrequency",
+                "yawGaussianNoise",
+                "headingDrift",
+                "headingGaussianNoise",
+                "serviceName",
+                "alwaysOn",
+                "gaussianNoise",
+            )
+        ),
+    ),
+)
+
+
+def load(context: PluginContext) -> None:
+    """Start the model plug-in."""
+    parameters = context.reader(TABLE)
+    link_name = context.link_name(parameters.text("bodyName"))
+    sigma = parameters.number("gaussianNoise")
+    if link_name is not None:
+        frame = parameters.text("frameName") or parameters.text("bodyName")
+        spec = _spec((sigma,) * 3, (sigma,) * 3)
+        _start_own(context, parameters, link_name, frame, spec)
+        name = context.topic(parameters, parameters.text("serviceName"))
+        context.resources.service(name, "std_srvs/Empty", lambda request, response: None)
+    parameters.report_unread()
+
+
+def load_hector(context: PluginContext) -> None:
+    """Start hector's plug-in."""
+    parameters = context.reader(HECTOR_TABLE)
+    link_name = context.link_name(parameters.text("bodyName"))
+    if link_name is not None:
+        spec = _spec(
+            parameters.vector("rateGaussianNoise"),
+            parameters.vector("accelGaussianNoise"),
+            parameters.vector("rateOffset"),
+            parameters.vector("accelOffset"),
+        )
+        frame = parameters.text("frameId") or parameters.text("bodyName")
+        _start_own(context, parameters, link_name, frame, spec)
+    parameters.report_unread()
+
+
+def load_sensor(context: PluginContext) -> None:
+    """Start the sensor plug-in of ROS 1 or ROS 2."""
+    parameters = context.reader(SENSOR_TABLE)
+    place = context.place
+    if place is None or not isinstance(place.sensor.spec, ImuSpec):
+        text = f"plug-in '{context.plugin.name}' needs an imu sensor around it; it is left out"
+        context.report("plugin.wrong-place", text)
+    else:
+        host = context.host
+        sensor = place.sensor
+        link = place.link_name.split("::")[-1]
+        frame = parameters.text("frameName") or parameters.text("bodyName") or link
+        ros2 = parameters.ros.present
+        topic = context.topic(parameters, "~/out" if ros2 else parameters.text("topicName"))
+        rate = parameters.number("updateRateHZ")
+        period = sensor_period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
+        offset = _offset(parameters)
+        sigma = parameters.number("gaussianNoise")
+        spec = sensor.spec
+        if sigma > 0 or not isinstance(spec, ImuSpec):
+            spec = _spec((sigma,) * 3, (sigma,) * 3)
+        T_link_imu = sensor.T_link_sensor @ offset
+        _publish_readings(
+            context,
+            topic,
+            frame,
+            period,
+            lambda: host.sensors.imu_at(place.name, place.link_name, T_link_imu, spec),
+        )
+    parameters.report_unread()
+
+
+def _start_own(
+    context: PluginContext, parameters: ParameterReader, link_name: str, frame: str, spec: ImuSpec
+) -> None:
+    host, offset = context.host, _offset(parameters)
+    topic = context.topic(parameters, parameters.text("topicName"))
+    period = period_in_steps(parameters.number("updateRate"), host.engine.step_ns)
+    name = f"{context.model.name}::{context.plugin.name}"
+    _publish_readings(
+        context, topic, frame, period, lambda: host.sensors.imu_at(name, link_name, offset, spec)
+    )
+
+
+def _publish_readings(
+    context: PluginContext, topic: str, frame: str, period: Any, read: Callable[[], ImuRecord]
+) -> None:
+    engine = context.host.engine
+    publisher = context.resources.publisher(topic, "sensor_msgs/Imu")
+
+    def publish() -> None:
+        publisher.publish(imu_message(engine.time_ns, frame, read()))
+
+    name = f"{context.plugin.name} imu"
+    context.resources.task(
+        name, period, publish, order=ORDER_SENSOR, wanted=lambda: publisher.matched
+    )
+
+
+def imu_message(time_ns: int, frame: str, record: ImuRecord) -> Any:
+    """Return a ``sensor_msgs/Imu``; variances are the squares of the noise's sigma."""
+    x, y, z, w = record.orientation_xyzw
+    quaternion = message_class("geometry_msgs/Quaternion")
+    return message_class("sensor_msgs/Imu")(
+        header=header(time_ns, frame),
+        orientation=quaternion(x=float(x), y=float(y), z=float(z), w=float(w)),
+        angular_velocity=vector_message(record.angular_velocity_rad_s),
+        linear_acceleration=vector_message(record.linear_acceleration_m_s2),
+        orientation_covariance=np.zeros(9),
+        angular_velocity_covariance=np.zeros(9),
+        linear_acceleration_covariance=np.zeros(9),
+    )
+
+
+def _offset(parameters: ParameterReader) -> Pose:
+    xyz, rpy = parameters.vector("xyzOffset"), parameters.vector("rpyOffset")
+    return Pose.from_xyz_rpy(xyz, rpy) if any((*xyz, *rpy)) else IDENTITY_POSE
+
+
+def _spec(
+    rate: tuple[float, ...],
+    acceleration: tuple[float, ...],
+    rate_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
+    acceleration_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
+) -> ImuSpec:
+    def noises(sigmas: tuple[float, ...], means: tuple[float, ...]) -> tuple[Noise, Noise, Noise]:
+        made = [
+            Noise("gaussian" if sigma > 0 or mean else "none", mean, sigma)
+            for sigma, mean in zip(sigmas, means, strict=True)
+        ]
+        return (made[0], made[1], made[2])
+
+    return ImuSpec(noises(rate, rate_offset), noises(acceleration, acceleration_offset))

@@ -1,0 +1,160 @@
+"""Reads the parameters of a ``<plugin>`` element; keys that nobody asked for are reported."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gazelle.description.model import PluginTag
+from gazelle.description.xml import Tag
+from gazelle.description.xml.numbers import bool_from, floats_from
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.simulator.plugins.table import Parameter, PluginTable
+
+__all__ = ["ParameterReader", "RosBlock"]
+
+
+@dataclass(frozen=True, slots=True)
+class RosBlock:
+    """The ``<ros>`` element of a ROS 2 plug-in.
+
+    Attributes:
+        namespace: absolute namespace, empty when the element is absent.
+        remappings: names to use instead, by name as the plug-in knows it.
+        present: False when there is no ``<ros>`` element.
+    """
+
+    namespace: str = ""
+    remappings: tuple[tuple[str, str], ...] = ()
+    present: bool = False
+
+    def remapped(self, name: str) -> str:
+        """Return the name to use for a topic of the plug-in."""
+        wanted = name.removeprefix("~/")
+        for source, target in self.remappings:
+            if source.removeprefix("~/") == wanted:
+                return target
+        return name
+
+
+class ParameterReader:
+    """Typed access to a plug-in's keys, defaults from its table.
+
+    Args:
+        plugin: the ``<plugin>`` element.
+        table: known keys with defaults and other spellings.
+        diagnostics: receives bad numbers and, from `report_unread`, unknown keys.
+    """
+
+    def __init__(self, plugin: PluginTag, table: PluginTable, diagnostics: Diagnostics) -> None:
+        self.plugin = plugin
+        self._table = table
+        self._diagnostics = diagnostics
+        self._read: set[str] = {"ros"}
+        self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
+
+    def has(self, key: str) -> bool:
+        """Tell whether a key stands in the file, under any of its spellings."""
+        return self.tag(key) is not None
+
+    def tag(self, key: str) -> Tag | None:
+        """Return the first element of a key, None when it is absent."""
+        row = self._row(key)
+        for name in (row.key, *row.aliases):
+            found = self.plugin.parameters.find(name)
+            if found is not None:
+                return found
+        return None
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return the texts of all elements of a key."""
+        row = self._row(key)
+        names = (row.key, *row.aliases)
+        return tuple(tag.text for tag in self.plugin.parameters.children if tag.name in names)
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """Return a text; `default` instead of the table's when given."""
+        tag = self.tag(key)
+        if tag is not None and tag.text:
+            return tag.text
+        return str(self._row(key).default) if default is None else default
+
+    def flag(self, key: str) -> bool:
+        """Return a truth value."""
+        default = bool(self._row(key).default)
+        return bool_from(self.tag(key), default, self._diagnostics)
+
+    def number(self, key: str, default: float | None = None) -> float:
+        """Return a number; `default` instead of the table's when given."""
+        fallback = self._row(key).default if default is None else default
+        return self._floats(key, (float(str(fallback)),))[0]
+
+    def vector(self, key: str) -> tuple[float, float, float]:
+        """Return three numbers."""
+        default = self._row(key).default
+        assert isinstance(default, tuple)
+        x, y, z = self._floats(key, default)
+        return (x, y, z)
+
+    def report_unread(self) -> None:
+        """Report the keys that have no effect and, one by one, those that are not known."""
+        known = [name for row in self._table.parameters for name in (row.key, *row.aliases)]
+        idle = []
+        for tag in self.plugin.parameters.children:
+            row = self._known_row(tag.name)
+            if row is None:
+                self._report_unknown(tag, known)
+            elif row.kind == "none":
+                idle.append(f"<{tag.name}> ({row.meaning})")
+            elif tag.name not in self._read:
+                idle.append(f"<{tag.name}>")
+        if idle:
+            text = f"plug-in '{self.plugin.name}': these keys change nothing: {', '.join(idle)}"
+            self._diagnostics.report("plugin.idle-parameter", text, self.plugin.span)
+
+    def _report_unknown(self, tag: Tag, known: list[str]) -> None:
+        hint = did_you_mean(tag.name, known)
+        text = f"plug-in '{self.plugin.name}' ({self.plugin.filename}) has no key <{tag.name}>"
+        text += "; it has no effect"
+        self._diagnostics.report("plugin.unknown-parameter", text, tag.span, fix=hint)
+
+    def _known_row(self, name: str) -> Parameter | None:
+        if name == "ros":
+            return Parameter("ros", "text", "", "")
+        try:
+            return self._table.parameter(name)
+        except KeyError:
+            return None
+
+    def _row(self, key: str) -> Parameter:
+        row = self._table.parameter(key)
+        self._read.update((row.key, *row.aliases))
+        return row
+
+    def _floats(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        tag = self.tag(key)
+        if tag is None or not tag.text:
+            return default
+        return floats_from(
+            tag.text,
+            len(default),
+            default,
+            what=f"<{tag.name}>",
+            span=tag.span,
+            diagnostics=self._diagnostics,
+        )
+
+
+def _read_ros_block(tag: Tag | None, diagnostics: Diagnostics) -> RosBlock:
+    if tag is None:
+        return RosBlock()
+    remappings: list[tuple[str, str]] = []
+    for child in tag.children:
+        words = child.text.removeprefix("--ros-args").replace("-r ", "").strip()
+        if child.name == "remapping" or (child.name == "argument" and ":=" in words):
+            source, _, target = words.partition(":=")
+            remappings.append((source.strip(), target.strip()))
+        elif child.name not in {"namespace", "parameter"}:
+            text = f"<ros> has no element <{child.name}>; it has no effect"
+            hint = did_you_mean(child.name, ("namespace", "remapping", "argument", "parameter"))
+            diagnostics.report("plugin.unknown-parameter", text, child.span, fix=hint)
+    return RosBlock(tag.text_of("namespace"), tuple(remappings), True)

@@ -1,0 +1,95 @@
+"""Which plug-in a library or system name means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+
+from gazelle.diagnostics import did_you_mean
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.table import PluginTable
+
+__all__ = ["all_tables", "known_names", "load_plugin", "plain_name"]
+
+Load = Callable[[PluginContext], None]
+
+# Module, table, load function; imported when a robot names one of them.
+_FAMILIES = (
+    ("diff_drive", "TABLE", "load"),
+    ("laser", "TABLE", "load"),
+    ("laser", "ROS2_TABLE", "load_ray_sensor"),
+    ("camera", "CAMERA_TABLE", "load"),
+    ("depth_camera", "OPENNI_TABLE", "load_openni"),
+    ("depth_camera", "DEPTH_TABLE", "load"),
+    ("imu", "TABLE", "load"),
+    ("imu", "SENSOR_TABLE", "load_sensor"),
+    ("imu", "HECTOR_TABLE", "load_hector"),
+    ("joint_state_publisher", "TABLE", "load"),
+    ("p3d", "TABLE", "load"),
+    ("gz_diff_drive", "GZ_TABLE", "load"),
+    ("joint_state_publisher", "GZ_TABLE", "load_gz"),
+    ("gz_systems", "TABLE", "load"),
+    ("gz_systems", "SERVER_TABLE", "load"),
+)
+# Compiled plug-ins people meet often, and where their behaviour comes from instead.
+_ELSEWHERE = {
+    "gazebo_ros_control": "controllers of ros_control do not run; joints move freely",
+    "gazebo_ros2_control": "controllers of ros2_control do not run; joints move freely",
+    "gz_ros2_control-system": "controllers of ros2_control do not run; joints move freely",
+    "gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the plug-in is not needed",
+    "roboticsgroup_upatras_gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the "
+    "plug-in is not needed",
+}
+
+
+@cache
+def _by_name() -> dict[str, tuple[PluginTable, Load]]:
+    found: dict[str, tuple[PluginTable, Load]] = {}
+    for module_name, table_name, load_name in _FAMILIES:
+        module = import_module(f"gazelle.simulator.plugins.{module_name}")
+        table: PluginTable = getattr(module, table_name)
+        load: Load = getattr(module, load_name)
+        for name in table.filenames:
+            found[plain_name(name)] = (table, load)
+    return found
+
+
+def plain_name(filename: str) -> str:
+    """Return a library's name without folder, ``lib`` and ``.so``, in lower case."""
+    name = filename.strip().rsplit("/", 1)[-1]
+    for ending in (".so", ".dylib", ".dll"):
+        name = name.removesuffix(ending)
+    return name.removeprefix("lib").lower()
+
+
+def all_tables() -> tuple[PluginTable, ...]:
+    """Return every table, in the order of the documentation."""
+    tables: dict[str, PluginTable] = {}
+    for table, _ in _by_name().values():
+        tables.setdefault(table.family, table)
+    return tuple(tables.values())
+
+
+def known_names() -> tuple[str, ...]:
+    """Return every name that means a plug-in Gazelle has."""
+    return tuple(sorted(_by_name()))
+
+
+def load_plugin(context: PluginContext) -> bool:
+    """Start a plug-in; an unknown one is reported by name and place, and False is returned.
+
+    A gz-sim plug-in is looked up by its ``filename``, then by its ``name``, the system's class.
+    """
+    plugin = context.plugin
+    for name in (plugin.filename, plugin.name):
+        found = _by_name().get(plain_name(name))
+        if found is not None:
+            found[1](context)
+            return True
+    name = plain_name(plugin.filename)
+    meaning = _ELSEWHERE.get(name, "what it does in Gazebo does not happen here")
+    text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of model '{context.model.name}' is "
+    text += f"compiled code that Gazelle does not have: {meaning}"
+    context.report("plugin.unknown", text, fix=did_you_mean(name, known_names()))
+    return False

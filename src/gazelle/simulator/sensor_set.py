@@ -1,0 +1,184 @@
+"""Reads the sensors of a world: keeps the ray scenes and noise sources, computes on demand."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, Model, World
+from gazelle.geometry import Pose
+from gazelle.simulator.plugins.context import SensorPlace
+
+if TYPE_CHECKING:
+    from gazelle.engine import Engine, Snapshot
+    from gazelle.sensors import (
+        CameraRecord,
+        ImuNoise,
+        ImuRecord,
+        LidarRecord,
+        NoiseSource,
+        RayScene,
+    )
+
+__all__ = ["SensorSet", "View", "sensor_places"]
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """The world at one moment, safe to read from another thread.
+
+    Attributes:
+        world: its description at that moment.
+        snapshot: poses of all links.
+    """
+
+    world: World
+    snapshot: Snapshot
+
+    def link_pose(self, name: str) -> Pose:
+        """Return ``T_world_link`` of a ``model::link``; links of static models never move."""
+        names = self.snapshot.link_names
+        if name in names:
+            row = self.snapshot.T[names.index(name)].tolist()
+            return Pose((row[0], row[1], row[2]), (row[3], row[4], row[5], row[6]))
+        model_name, link_name = name.split("::", 1)
+        model = self.world.model(model_name)
+        link = model.link(link_name) if model is not None else None
+        assert model is not None
+        assert link is not None
+        return model.T_world_model @ link.T_model_link
+
+
+def sensor_places(model: Model) -> Iterator[SensorPlace]:
+    """Yield the sensors on a model's links, in the order of the file."""
+    for link in model.links:
+        link_name = f"{model.name}::{link.name}"
+        for sensor in link.sensors:
+            yield SensorPlace(f"{link_name}::{sensor.name}", link_name, sensor)
+
+
+class SensorSet:
+    """Computes sensor readings from views of the world.
+
+    Scenes are built when first needed and again when the world has changed. One thread at a time
+    uses a scene.
+    """
+
+    def __init__(self, engine: Engine, seed: int) -> None:
+        self._engine = engine
+        self._seed = seed
+        self._scenes: dict[str, tuple[RayScene, World]] = {}
+        self._noises: dict[str, NoiseSource] = {}
+        self._imus: dict[str, ImuNoise] = {}
+        self._lock = threading.Lock()
+        self.computed = 0
+
+    def view(self) -> View:
+        """Return the world as it stands now; for the thread that owns it."""
+        return View(self._engine.world, self._engine.snapshot())
+
+    def restart(self) -> None:
+        """Start all noise over, as after a reset."""
+        self._noises.clear()
+        self._imus.clear()
+
+    def scan(self, place: SensorPlace, view: View | None = None) -> LidarRecord:
+        """Take a scan with a ``ray``, ``gpu_ray`` or ``lidar`` sensor."""
+        from gazelle.sensors import scan, scene_kind
+
+        spec = place.sensor.spec
+        assert isinstance(spec, LidarSpec)
+        view = view or self.view()
+        pose = view.link_pose(place.link_name) @ place.sensor.T_link_sensor
+        with self._lock:
+            self.computed += 1
+            scene = self._scene(scene_kind(spec), view)
+            return scan(scene, spec, pose, noise=self._noise(place, spec))
+
+    def render(
+        self,
+        place: SensorPlace,
+        view: View | None = None,
+        *,
+        want_rgb: bool = True,
+        want_depth: bool = False,
+    ) -> CameraRecord:
+        """Take a picture with a camera of any kind."""
+        from gazelle.sensors import render
+
+        spec = place.sensor.spec
+        assert isinstance(spec, CameraSpec)
+        view = view or self.view()
+        pose = view.link_pose(place.link_name) @ place.sensor.T_link_sensor @ spec.T_sensor_camera
+        with self._lock:
+            self.computed += 1
+            scene = self._scene("visuals", view)
+            return render(
+                scene,
+                spec,
+                pose,
+                want_rgb=want_rgb,
+                want_depth=want_depth,
+                noise=self._noise(place, spec),
+            )
+
+    def imu(self, place: SensorPlace) -> ImuRecord:
+        """Read an IMU; for the thread that owns the world."""
+        spec = place.sensor.spec
+        assert isinstance(spec, ImuSpec)
+        return self.imu_at(place.name, place.link_name, place.sensor.T_link_sensor, spec)
+
+    def imu_at(self, name: str, link_name: str, T_link_sensor: Pose, spec: ImuSpec) -> ImuRecord:
+        """Read an IMU that need not be in the model: some plug-ins describe their own."""
+        from gazelle.sensors import ImuNoise, LinkMotion, imu_reading
+
+        link = self._engine.link(link_name)
+        linear, angular = link.acceleration_world()
+        motion = LinkMotion(
+            T_world_link=link.T_world_link(),
+            angular_velocity_rad_s=_array(link.velocity_world()[1]),
+            linear_acceleration_m_s2=_array(linear),
+            angular_acceleration_rad_s2=_array(angular),
+        )
+        if name not in self._imus:
+            self._imus[name] = ImuNoise(spec, self._seed, name)
+        self.computed += 1
+        return imu_reading(
+            motion,
+            spec,
+            self._engine.world.gravity_m_s2,
+            T_link_sensor=T_link_sensor,
+            noise=self._imus[name],
+        )
+
+    def _scene(self, kind: str, view: View) -> RayScene:
+        from gazelle.sensors import RayScene
+
+        found = self._scenes.get(kind)
+        if found is None:
+            scene = RayScene(view.world, kind="collisions" if kind == "collisions" else "visuals")
+        else:
+            scene = found[0]
+            if found[1] is not view.world:
+                scene.rebuild(view.world)
+        self._scenes[kind] = (scene, view.world)
+        scene.update(view.snapshot)
+        return scene
+
+    def _noise(self, place: SensorPlace, spec: LidarSpec | CameraSpec) -> NoiseSource | None:
+        from gazelle.sensors import NoiseSource
+
+        if spec.noise.type == "none":
+            return None
+        if place.name not in self._noises:
+            self._noises[place.name] = NoiseSource(spec.noise, self._seed, place.name)
+        return self._noises[place.name]
+
+
+def _array(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(vector, np.float64)
