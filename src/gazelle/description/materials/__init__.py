@@ -5,8 +5,8 @@ from __future__ import annotations
 from gazelle.description.materials.gazebo import (
     GAZEBO_MATERIAL_NAMES,
     gazebo_material,
-    has_picture,
+    picture_colour,
 )
 from gazelle.description.materials.scripts import material_from_scripts
 
-__all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "has_picture", "material_from_scripts"]
+__all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "material_from_scripts", "picture_colour"]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gazelle.description.model import Material, Rgba
 
-__all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "has_picture"]
+__all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "picture_colour"]
 
 Rgb = tuple[float, float, float]
 _BLACK: Rgb = (0.0, 0.0, 0.0)
@@ -151,7 +151,7 @@ def gazebo_material(name: str) -> Material | None:
     """Return one of Gazebo's own materials, None when it has no such name.
 
     Ambient, diffuse and specular colours are those of Gazebo's ``gazebo.material``. Materials
-    with a picture have the picture's mean colour instead (`has_picture`), measured by eye.
+    with a picture have the picture's mean colour instead (`picture_colour`), chosen by eye.
 
     Args:
         name: such as ``Gazebo/Red``; the case counts, as in Gazebo.
@@ -171,10 +171,13 @@ def gazebo_material(name: str) -> Material | None:
     )
 
 
-def has_picture(name: str) -> bool:
-    """Tell whether this material of Gazebo's has a picture, shown here in its mean colour."""
+def picture_colour(name: str) -> Rgb | None:
+    """Return the mean colour of this material's picture in Gazebo, None when it has none.
+
+    It stands for the picture: other colours of the surface are multiplied with it.
+    """
     look = _LOOKS.get(name.removeprefix(_PREFIX))
-    return look is not None and look.mean is not None
+    return look.mean if look is not None else None
 
 
 def _tinted(colour: Rgb, mean: Rgb, alpha: float) -> Rgba:

@@ -9,7 +9,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.materials.gazebo import (
     GAZEBO_MATERIAL_NAMES,
     gazebo_material,
-    has_picture,
+    picture_colour,
 )
 from gazelle.description.materials.ogre import OgreMaterial, parse_material_script
 from gazelle.description.model import Material, Rgba
@@ -44,7 +44,7 @@ def material_from_scripts(
     own = gazebo_material(wanted)
     if own is None:
         _report_unknown(wanted, materials, context, span)
-    elif has_picture(wanted):
+    elif picture_colour(wanted):
         message = f"'{wanted}' has a picture in Gazebo; it is shown in the picture's mean colour"
         context.diagnostics.report("material.plain-colour", message, span)
     return own

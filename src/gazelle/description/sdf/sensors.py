@@ -26,7 +26,7 @@ from gazelle.description.sdf.noises import read_axis_noises, read_noise, read_no
 from gazelle.description.sdf.plugins import read_plugins
 from gazelle.description.sdf.poses import pose_of
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3, name_of
-from gazelle.description.xml import Tag, bool_from
+from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 

@@ -1,0 +1,123 @@
+"""``<inertial auto="true">`` of SDF 1.11: mass properties from the collisions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Inertial,
+    MeshShape,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from gazelle.description.sdf.values import child_float, optional_float
+from gazelle.description.xml import Tag
+from gazelle.errors import GazelleError
+from gazelle.geometry import Pose
+from gazelle.geometry.mass import MassProperties, combined_mass_properties
+from gazelle.geometry.solids import (
+    box_mass_properties,
+    capsule_mass_properties,
+    cone_mass_properties,
+    cylinder_mass_properties,
+    ellipsoid_mass_properties,
+    sphere_mass_properties,
+)
+
+__all__ = ["computed_inertial"]
+
+_WATER_KG_M3 = 1000.0
+
+
+def computed_inertial(
+    link: Tag, tag: Tag, collisions: Sequence[Collision], context: ReadContext
+) -> Inertial:
+    """Return mass properties of a link from its collisions' volumes.
+
+    The density is the collision's, else the ``<inertial>``'s, else water's. A ``<mass>`` beside
+    ``auto`` scales the result (SDF 1.11 and later).
+
+    Args:
+        link: the ``<link>``.
+        tag: its ``<inertial auto="true">``.
+        collisions: its collisions as read.
+        context: where problems are reported.
+    """
+    usual = child_float(tag, "density", _WATER_KG_M3, context)
+    densities = {
+        child.attributes.get("name", ""): child_float(child, "density", usual, context)
+        for child in link.find_all("collision")
+    }
+    bodies = []
+    for item in collisions:
+        body = _body(item.shape, densities.get(item.name, usual), item, context)
+        if body is not None:
+            bodies.append(body.transformed(item.T_link_collision))
+    if not bodies:
+        name = link.attributes.get("name", "")
+        message = f"link '{name}' has no collision with a volume to compute its inertia from"
+        context.diagnostics.report("sdf.auto-inertia", message, tag.span)
+        return Inertial(1.0, span=tag.span)
+    whole = combined_mass_properties(bodies)
+    mass_kg = optional_float(tag, "mass", context)
+    if mass_kg is not None and mass_kg > 0.0:
+        whole = whole.with_mass(mass_kg)
+    return Inertial(
+        whole.mass_kg, Pose(whole.center_m), whole.inertia_kg_m2, estimated=True, span=tag.span
+    )
+
+
+def _body(
+    shape: Shape, density: float, collision: Collision, context: ReadContext
+) -> MassProperties | None:
+    """Return one shape of even density; None when it has no volume."""
+    match shape:
+        case Box():
+            return box_mass_properties(density * math.prod(shape.size_m), shape.size_m)
+        case Sphere(radius_m=r):
+            return sphere_mass_properties(density * 4 / 3 * math.pi * r**3, r)
+        case Cylinder(radius_m=r, length_m=length):
+            return cylinder_mass_properties(density * math.pi * r**2 * length, r, length)
+        case Cone(radius_m=r, length_m=length):
+            return cone_mass_properties(density * math.pi * r**2 * length / 3, r, length)
+        case Capsule(radius_m=r, length_m=length):
+            volume = math.pi * r**2 * (length + 4 / 3 * r)
+            return capsule_mass_properties(density * volume, r, length)
+        case Ellipsoid(radii_m=radii):
+            volume = 4 / 3 * math.pi * math.prod(radii)
+            return ellipsoid_mass_properties(density * volume, radii)
+        case MeshShape() | Polyline():
+            return _mesh_body(shape, density, collision, context)
+    return None  # planes and terrain
+
+
+def _mesh_body(
+    shape: MeshShape | Polyline, density: float, collision: Collision, context: ReadContext
+) -> MassProperties | None:
+    from gazelle.geometry import load_mesh_reported, mesh_mass_properties, polyline_mesh
+
+    try:
+        if isinstance(shape, Polyline):
+            part = polyline_mesh(shape.outlines_m, shape.height_m)
+            return mesh_mass_properties(part, density_kg_m3=density)
+        if shape.path is None:
+            return None
+        mesh = load_mesh_reported(shape.path, context.diagnostics, shape.span)
+        if mesh is not None and shape.submesh:
+            mesh = mesh.submesh(shape.submesh, shape.center_submesh)
+        if mesh is None:
+            return None
+        return mesh_mass_properties(mesh.scaled(shape.scale), density_kg_m3=density)
+    except (ValueError, GazelleError) as error:
+        message = f"collision '{collision.name}' has no volume: {error}"
+        context.diagnostics.report("sdf.auto-inertia", message, collision.span)
+        return None

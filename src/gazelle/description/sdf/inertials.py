@@ -1,0 +1,88 @@
+"""SDF ``<inertial>``: as written, or computed from the collisions (SDF 1.11)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import Collision, Inertial
+from gazelle.description.sdf.automatic_inertia import computed_inertial
+from gazelle.description.sdf.poses import pose_of
+from gazelle.description.sdf.values import child_float
+from gazelle.description.xml import Tag
+from gazelle.diagnostics import Severity
+
+__all__ = ["read_inertial"]
+
+Inertia6 = tuple[float, float, float, float, float, float]
+_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_DEFAULTS: Inertia6 = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+_TRUE = ("1", "true")
+
+
+def read_inertial(
+    link: Tag, collisions: Sequence[Collision], context: ReadContext, *, static: bool
+) -> Inertial:
+    """Return a link's mass properties; SDF's default is 1 kg with moments of 1 kg·m².
+
+    Args:
+        link: the ``<link>``.
+        collisions: its collisions, for ``auto="true"``.
+        context: where problems are reported.
+        static: the model never moves; impossible values do no harm then.
+    """
+    tag = link.find("inertial")
+    if tag is None:
+        return Inertial(1.0, span=link.span)
+    if tag.attributes.get("auto", "").strip().lower() in _TRUE:
+        return computed_inertial(link, tag, collisions, context)
+    inertial = Inertial(
+        mass_kg=child_float(tag, "mass", 1.0, context),
+        T_link_com=pose_of(tag, context),
+        inertia_kg_m2=_tensor(tag.find("inertia"), context),
+        span=tag.span,
+    )
+    if not static:
+        _check(inertial, link, tag, context)
+    return inertial
+
+
+def _tensor(tag: Tag | None, context: ReadContext) -> Inertia6:
+    if tag is None:
+        return _DEFAULTS
+    ixx, ixy, ixz, iyy, iyz, izz = (
+        child_float(tag, word, default, context)
+        for word, default in zip(_WORDS, _DEFAULTS, strict=True)
+    )
+    return ixx, ixy, ixz, iyy, iyz, izz
+
+
+def _check(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> None:
+    """Report a mass or tensor that no body can have."""
+    import numpy as np
+
+    name = link.attributes.get("name", "")
+    if inertial.mass_kg <= 0.0:
+        place = tag.find("mass") or tag
+        message = f"link '{name}' has the mass {inertial.mass_kg:g} kg; it must be positive"
+        context.diagnostics.report("sdf.bad-inertia", message, place.span)
+        return
+    ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia_kg_m2
+    moments = np.linalg.eigvalsh([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+    least, middle, most = (float(value) for value in moments)
+    shown = f"{least:.3g}, {middle:.3g}, {most:.3g} kg·m²"
+    place = tag.find("inertia") or tag
+    if least <= 0.0:
+        message = f"the inertia of link '{name}' is not positive: principal moments {shown}"
+        context.diagnostics.report("sdf.bad-inertia", message, place.span)
+    elif least + middle < most * (1.0 - _TOLERANCE):
+        message = (
+            f"no body has the inertia of link '{name}': of its principal moments {shown} the "
+            "largest is more than the sum of the others; the nearest possible ones are used"
+        )
+        context.diagnostics.report(
+            "sdf.bad-inertia", message, place.span, severity=Severity.WARNING
+        )
+
+
+_TOLERANCE = 1e-6

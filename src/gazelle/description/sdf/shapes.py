@@ -1,0 +1,192 @@
+"""SDF ``<geometry>``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import cast
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Heightmap,
+    MeshShape,
+    Plane,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from gazelle.description.sdf.values import child_bool, child_float, child_vector3
+from gazelle.description.xml import Tag, floats_from
+
+__all__ = ["read_shape"]
+
+_ReadShape = Callable[[Tag, ReadContext], Shape | None]
+_ONE = (1.0, 1.0, 1.0)
+_ZERO = (0.0, 0.0, 0.0)
+
+
+def read_shape(tag: Tag | None, context: ReadContext, *, owner: Tag) -> Shape | None:
+    """Return the shape of a ``<geometry>`` element.
+
+    Args:
+        tag: the element; None when the collision or visual has none.
+        context: where problems are reported.
+        owner: the collision or visual, for messages.
+
+    Returns:
+        The shape; None for ``<empty>``, and (with a reported reason) for what cannot be used.
+    """
+    if tag is None:
+        _refuse(owner, "has no <geometry>", owner, context)
+        return None
+    for child in tag.children:
+        if child.name == "polyline":
+            return _polyline(tag, owner, context)
+        if child.name in _READERS:
+            shape = _READERS[child.name](child, context)
+            return shape if shape is None or _has_size(shape, child, owner, context) else None
+        if child.name == "image":
+            _refuse(owner, "is an extruded <image>, which is not simulated", child, context)
+            return None
+    if tag.find("empty") is None:
+        _refuse(owner, "has a <geometry> without a shape", tag, context)
+    return None
+
+
+def _refuse(owner: Tag, reason: str, place: Tag, context: ReadContext) -> None:
+    name = owner.attributes.get("name", "")
+    message = f"{owner.name} '{name}' {reason}; it is left out"
+    context.diagnostics.report("sdf.bad-geometry", message, place.span)
+
+
+def _has_size(shape: Shape, tag: Tag, owner: Tag, context: ReadContext) -> bool:
+    """Tell whether every length is positive; report when not."""
+    lengths: dict[str, float] = {}
+    if isinstance(shape, Box):
+        lengths = {"size": min(shape.size_m)}
+    elif isinstance(shape, Ellipsoid):
+        lengths = {"radii": min(shape.radii_m)}
+    elif isinstance(shape, Sphere):
+        lengths = {"radius": shape.radius_m}
+    elif isinstance(shape, Cylinder | Capsule | Cone):
+        lengths = {"radius": shape.radius_m, "length": shape.length_m}
+    for name, value in lengths.items():
+        if value <= 0.0:
+            reason = f"has a <{tag.name}> whose <{name}> is not positive ({value:g})"
+            _refuse(owner, reason, tag.find(name) or tag, context)
+            return False
+    return True
+
+
+def _box(tag: Tag, context: ReadContext) -> Shape:
+    return Box(child_vector3(tag, "size", _ONE, context))
+
+
+def _sphere(tag: Tag, context: ReadContext) -> Shape:
+    return Sphere(child_float(tag, "radius", 1.0, context))
+
+
+def _round(
+    kind: type[Cylinder] | type[Capsule] | type[Cone], radius_m: float
+) -> Callable[[Tag, ReadContext], Shape]:
+    """Return the reader of a shape with radius and length; `radius_m` is SDF's default."""
+    return lambda tag, context: kind(
+        child_float(tag, "radius", radius_m, context), child_float(tag, "length", 1.0, context)
+    )
+
+
+def _ellipsoid(tag: Tag, context: ReadContext) -> Shape:
+    return Ellipsoid(child_vector3(tag, "radii", _ONE, context))
+
+
+def _plane(tag: Tag, context: ReadContext) -> Shape:
+    normal = child_vector3(tag, "normal", (0.0, 0.0, 1.0), context)
+    if not any(normal):
+        found = tag.find("normal") or tag
+        message = "the <normal> of a plane has length 0; 0 0 1 is used"
+        context.diagnostics.report("sdf.bad-value", message, found.span)
+        normal = (0.0, 0.0, 1.0)
+    return Plane(normal, _pair(tag.find("size"), (1.0, 1.0), context))
+
+
+def _pair(
+    tag: Tag | None, default: tuple[float, float], context: ReadContext
+) -> tuple[float, float]:
+    if tag is None or not tag.text:
+        return default
+    found = floats_from(
+        tag.text, 2, default, what=f"<{tag.name}>", span=tag.span, diagnostics=context.diagnostics
+    )
+    return cast(tuple[float, float], found)
+
+
+def _polyline(geometry: Tag, owner: Tag, context: ReadContext) -> Shape | None:
+    outlines = tuple(
+        tuple(_pair(point, (0.0, 0.0), context) for point in line.find_all("point"))
+        for line in geometry.find_all("polyline")
+    )
+    usable = tuple(outline for outline in outlines if len(outline) >= 3)
+    if len(usable) < len(outlines):
+        _refuse(owner, "has a <polyline> with fewer than 3 points", geometry, context)
+    height_m = child_float(geometry.find_all("polyline")[0], "height", 1.0, context)
+    return Polyline(usable, height_m) if usable else None
+
+
+def _mesh(tag: Tag, context: ReadContext) -> Shape:
+    uri = tag.text_of("uri") or tag.text_of("filename")
+    submesh = tag.find("submesh")
+    return MeshShape(
+        uri=uri,
+        path=_file(uri, tag, context),
+        scale=child_vector3(tag, "scale", _ONE, context),
+        submesh=submesh.text_of("name") if submesh else "",
+        center_submesh=child_bool(submesh, "center", False, context) if submesh else False,
+        span=(tag.find("uri") or tag).span,
+    )
+
+
+def _heightmap(tag: Tag, context: ReadContext) -> Shape:
+    uri = tag.text_of("uri")
+    return Heightmap(
+        uri=uri,
+        path=_file(uri, tag, context),
+        size_m=child_vector3(tag, "size", _ONE, context),
+        position_m=child_vector3(tag, "pos", _ZERO, context),
+        span=(tag.find("uri") or tag).span,
+    )
+
+
+def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
+    """Return the file a ``<uri>`` means, None (reported) when there is none."""
+    place = tag.find("uri") or tag
+    if not uri:
+        context.diagnostics.report(
+            "sdf.missing-file", f"<{tag.name}> names no file in <uri>", place.span
+        )
+        return None
+    found = context.resolve(uri)
+    if found.path is None or found.path.is_dir():
+        context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
+        return None
+    if found.note:
+        message = f"'{uri}': {found.note}"
+        context.diagnostics.report("sdf.bad-value", message, place.span)
+    return found.path
+
+
+_READERS: dict[str, _ReadShape] = {
+    "box": _box,
+    "sphere": _sphere,
+    "cylinder": _round(Cylinder, 1.0),
+    "capsule": _round(Capsule, 0.5),
+    "cone": _round(Cone, 0.5),
+    "ellipsoid": _ellipsoid,
+    "plane": _plane,
+    "mesh": _mesh,
+    "heightmap": _heightmap,
+}
