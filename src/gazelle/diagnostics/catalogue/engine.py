@@ -1,0 +1,93 @@
+"""Codes of the physics engine: what it maps, clips or ignores."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+ENTRIES = (
+    Entry(
+        "engine.illegal-inertia",
+        "warning",
+        "A link has an inertia that no body can have",
+        "Principal moments must be positive and none larger than the sum of the other two; such"
+        " a tensor makes a simulation explode. It is replaced by a sphere's with the same trace.",
+        "compute the inertia from the link's shape and mass",
+        "The inertia of link is not physically valid",
+    ),
+    Entry(
+        "engine.massless-link",
+        "warning",
+        "A link moves and has no mass",
+        "Nothing without mass can be accelerated. It gets a gram, so that it stays in the model.",
+        "add an <inertial> block, or make its joint fixed",
+        "link has no inertia; will not be simulated",
+    ),
+    Entry(
+        "engine.moving-plane",
+        "warning",
+        "A plane collision is on a link that moves",
+        "Only resting planes can be infinite; the engine uses a thin box of the plane's size.",
+        "use a box, or make the model static",
+    ),
+    Entry(
+        "engine.moving-terrain",
+        "warning",
+        "A heightmap collision is on a link that moves",
+        "Height fields must rest; this one does not collide.",
+        "make the model static",
+    ),
+    Entry(
+        "engine.unreadable-terrain",
+        "error",
+        "The image of a heightmap cannot be read",
+        "Without heights there is no terrain; it does not collide.",
+        "use a greyscale PNG",
+        "Unable to load heightmap",
+    ),
+    Entry(
+        "engine.flat-shape",
+        "warning",
+        "A collision shape has a size of zero or less",
+        "It encloses nothing and does not collide.",
+        "give it a positive size",
+    ),
+    Entry(
+        "engine.friction-direction",
+        "info",
+        "A friction direction (fdir1) cannot follow the body",
+        "The engine's friction directions belong to the contact, not to the body: mu and mu2 act"
+        " along the contact's own tangents.",
+        "use equal mu and mu2 where the direction does not matter",
+    ),
+    Entry(
+        "engine.slip",
+        "info",
+        "Force-dependent slip has no effect",
+        "The engine's friction is Coulomb's; slip1 and slip2 of ODE have no counterpart.",
+        "lower mu to make the surface slippery",
+    ),
+    Entry(
+        "engine.max-contacts",
+        "info",
+        "A limit on contact points has no effect",
+        "The engine finds few contact points per pair and keeps them all.",
+        "nothing needs to be done",
+    ),
+    Entry(
+        "engine.loop-joint",
+        "warning",
+        "A joint that closes a loop is approximated",
+        "Loops are closed by constraints, which exist for fixed, revolute and ball joints.",
+        "close the loop with a fixed, revolute or ball joint",
+    ),
+    Entry(
+        "engine.gearbox",
+        "warning",
+        "A gearbox has no effect",
+        "It couples two revolute joints between its reference body and its two links; one of them"
+        " does not exist.",
+        "name the body both links turn on in <gearbox_reference_body>",
+    ),
+)

@@ -1,0 +1,20 @@
+"""The physics engine: `World` values in, motion out; MuJoCo does the work."""
+
+from __future__ import annotations
+
+from gazelle.engine.engine import Engine, EngineState
+from gazelle.engine.joint_handles import JointHandle
+from gazelle.engine.links import LinkHandle
+from gazelle.engine.records import Acceleration, Contact, Snapshot, Velocity, Wrench
+
+__all__ = [
+    "Acceleration",
+    "Contact",
+    "Engine",
+    "EngineState",
+    "JointHandle",
+    "LinkHandle",
+    "Snapshot",
+    "Velocity",
+    "Wrench",
+]

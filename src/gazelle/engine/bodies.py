@@ -1,0 +1,221 @@
+"""Models of the description as bodies, joints and geoms of a MuJoCo spec."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from gazelle.description.model import Collision, JointType, Link, Model, World
+from gazelle.diagnostics import Diagnostics
+from gazelle.engine.inertia import (
+    MASSLESS_LEAF_INERTIA_KG_M2,
+    MASSLESS_LEAF_KG,
+    BodyInertia,
+    body_inertia,
+)
+from gazelle.engine.joints import add_joint, add_mimic, add_root_joint
+from gazelle.engine.library import mujoco
+from gazelle.engine.names import part_of, scoped
+from gazelle.engine.shapes import add_geom, geom_shapes
+from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
+from gazelle.geometry import IDENTITY_POSE
+
+__all__ = ["BuiltGeom", "SpecBuilder"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BuiltGeom:
+    """A geom of the spec with what decides its contacts.
+
+    Attributes:
+        element: MuJoCo's spec element.
+        name: its name.
+        collision_name: ``model::link::collision``.
+        link_name: ``model::link``.
+        collision: the description.
+        model: the model it belongs to.
+        link: the link it belongs to.
+        static: it never moves.
+        heaviest_kg: mass of the whole model, the most that can rest on it; infinite if static.
+    """
+
+    element: Any
+    name: str
+    collision_name: str
+    link_name: str
+    collision: Collision
+    model: Model
+    link: Link
+    static: bool
+    heaviest_kg: float
+
+
+@dataclass(slots=True)
+class SpecBuilder:
+    """Collects what is built; one per compile.
+
+    Attributes:
+        world: what to build.
+        spec: MuJoCo's spec.
+        diagnostics: takes what is mapped, clipped or ignored.
+        step_s: length of a step.
+    """
+
+    world: World
+    spec: Any
+    diagnostics: Diagnostics
+    step_s: float
+    geoms: list[BuiltGeom] = field(default_factory=list)
+    trees: dict[str, KinematicTree] = field(default_factory=dict)
+    used_names: set[str] = field(default_factory=set)
+
+    def add_model(self, model: Model) -> None:
+        """Add a model's links, joints, mimics and collisions."""
+        tree = kinematic_tree(model)
+        self.trees[model.name] = tree
+        bodies: dict[str, Any] = {}
+        fixed = _fixed_links(model, tree)
+        inertias = {
+            entry.link.name: body_inertia(
+                entry.link, scoped(model.name, entry.link.name), self.diagnostics
+            )
+            for entry in tree.links
+        }
+        moved = _moved_masses(tree, inertias)
+        mass = sum(item.mass_kg for item in inertias.values() if item is not None)
+        for entry in tree.links:
+            body = self._add_body(model, entry, bodies)
+            bodies[entry.link.name] = body
+            static = entry.link.name in fixed
+            if not static:
+                is_root = entry.parent is None or entry.parent in fixed
+                self._add_motion(model, entry, body, is_root=is_root)
+                self._add_mass(model, entry, body, inertias[entry.link.name], moved)
+            for collision in entry.link.collisions:
+                self._add_collision(model, entry.link, collision, body, static, mass)
+        for joint in model.joints:
+            if joint.mimic is not None and not model.static:
+                add_mimic(self.spec, joint, model.name, self.step_s)
+
+    def _add_body(self, model: Model, entry: TreeLink, bodies: dict[str, Any]) -> Any:
+        link = entry.link
+        parent = bodies[entry.parent] if entry.parent is not None else self.spec.worldbody
+        if entry.parent is None:
+            pose = model.T_world_model @ link.T_model_link
+        else:
+            parent_link = model.link(entry.parent)
+            base = parent_link.T_model_link if parent_link else IDENTITY_POSE
+            pose = base.inverse() @ link.T_model_link
+        body = parent.add_body(name=scoped(model.name, link.name))
+        body.pos = list(pose.position_m)
+        body.quat = list(pose.quat_wxyz)
+        body.gravcomp = 0.0 if link.gravity else 1.0
+        return body
+
+    def _add_motion(self, model: Model, entry: TreeLink, body: Any, *, is_root: bool) -> None:
+        joint = entry.joint
+        name = scoped(model.name, entry.link.name)
+        if joint is None or (joint.type is JointType.FLOATING and entry.parent is None):
+            add_root_joint(body, name)
+        else:
+            T_link_joint = entry.link.T_model_link.inverse() @ joint.T_model_joint
+            add_joint(self.spec, body, joint, model.name, T_link_joint, self.step_s)
+        if is_root:
+            policy = mujoco.mjtSleepPolicy
+            allowed = model.allow_auto_disable
+            body.sleep = policy.mjSLEEP_ALLOWED if allowed else policy.mjSLEEP_NEVER
+
+    def _add_mass(
+        self,
+        model: Model,
+        entry: TreeLink,
+        body: Any,
+        inertia: BodyInertia | None,
+        moved: dict[str, float],
+    ) -> None:
+        body.explicitinertial = True
+        if inertia is not None:
+            body.mass = inertia.mass_kg
+            body.ipos = list(inertia.center_m)
+            i = inertia.inertia_kg_m2
+            body.fullinertia = [i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]]
+            return
+        body.mass, body.inertia = 0.0, [0.0, 0.0, 0.0]
+        moves = entry.joint is None or entry.joint.type is not JointType.FIXED
+        if moves and moved[entry.link.name] <= 0:
+            self._report_massless(model, entry)
+            body.mass = MASSLESS_LEAF_KG
+            body.inertia = [MASSLESS_LEAF_INERTIA_KG_M2] * 3
+
+    def _report_massless(self, model: Model, entry: TreeLink) -> None:
+        self.diagnostics.report(
+            "engine.massless-link",
+            f"link '{scoped(model.name, entry.link.name)}' moves and has no mass; the engine"
+            f" gives it {MASSLESS_LEAF_KG * 1000:g} g and {MASSLESS_LEAF_INERTIA_KG_M2:g} kg·m²"
+            " (Gazebo drops such a link and its joint)",
+            entry.link.span,
+        )
+
+    def _add_collision(
+        self,
+        model: Model,
+        link: Link,
+        collision: Collision,
+        body: Any,
+        static: bool,
+        mass_kg: float,
+    ) -> None:
+        link_name = scoped(model.name, link.name)
+        collision_name = self._unique(scoped(link_name, collision.name))
+        shapes = geom_shapes(collision, collision_name, static=static, diagnostics=self.diagnostics)
+        for index, shape in enumerate(shapes):
+            name = part_of(collision_name, index)
+            pose = collision.T_link_collision @ shape.T_collision_geom
+            element = add_geom(self.spec, body, name, shape, pose)
+            heaviest = float("inf") if static else max(mass_kg, MASSLESS_LEAF_KG)
+            self.geoms.append(
+                BuiltGeom(
+                    element,
+                    name,
+                    collision_name,
+                    link_name,
+                    collision,
+                    model,
+                    link,
+                    static,
+                    heaviest,
+                )
+            )
+
+    def _unique(self, name: str) -> str:
+        """Return the name, numbered when a file uses it twice."""
+        chosen, number = name, 2
+        while chosen in self.used_names:
+            chosen, number = f"{name}#{number}", number + 1
+        self.used_names.add(chosen)
+        return chosen
+
+
+def _fixed_links(model: Model, tree: KinematicTree) -> frozenset[str]:
+    """Names of links that never move: of static models, or fixed to the world."""
+    if model.static:
+        return frozenset(link.name for link in model.links)
+    fixed: set[str] = set()
+    for entry in tree.links:
+        welded = entry.joint is not None and entry.joint.type is JointType.FIXED
+        if welded and (entry.parent is None or entry.parent in fixed):
+            fixed.add(entry.link.name)
+    return frozenset(fixed)
+
+
+def _moved_masses(tree: KinematicTree, inertias: dict[str, BodyInertia | None]) -> dict[str, float]:
+    """Mass of each link and all links fixed to it below: what its joint moves rigidly."""
+    masses: dict[str, float] = {}
+    for entry in reversed(tree.links):
+        name = entry.link.name
+        own = inertias[name]
+        masses[name] = masses.get(name, 0.0) + (own.mass_kg if own is not None else 0.0)
+        fixed = entry.joint is not None and entry.joint.type is JointType.FIXED
+        if fixed and entry.parent is not None:
+            masses[entry.parent] = masses.get(entry.parent, 0.0) + masses[name]
+    return masses

@@ -1,0 +1,139 @@
+"""`World` to MuJoCo model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import World
+from gazelle.diagnostics import Diagnostics
+from gazelle.engine.bodies import SpecBuilder
+from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
+from gazelle.engine.library import mujoco
+from gazelle.engine.loops import add_loop, add_world_joint
+from gazelle.engine.motors import add_motor, flywheel_inertia
+from gazelle.engine.names import rotor_joint, scoped
+from gazelle.errors import EngineError
+
+__all__ = ["Compiled", "compile_world"]
+
+SLEEP_TOLERANCE_M_S = 2e-5
+"""Below this speed for 10 steps a body rests (1 mm in 50 s)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Compiled:
+    """A compiled world.
+
+    Attributes:
+        model: MuJoCo's model.
+        link_names: ``model::link`` in the order of the world.
+        body_ids: body of each link, same order.
+        collision_names: ``model::link::collision`` by geom.
+        pairs: explicit contact pairs.
+        motors: joints that have a motor.
+    """
+
+    model: Any
+    link_names: tuple[str, ...]
+    body_ids: NDArray[np.intp]
+    collision_names: tuple[str, ...]
+    pairs: tuple[ExplicitPair, ...]
+    motors: tuple[str, ...]
+
+    def retime(self, step_s: float) -> None:
+        """Write what depends on the effective masses for a step length."""
+        ids = [self.model.pair(pair.name).id for pair in self.pairs]
+        apply_pair_springs(self.model, self.pairs, ids, step_s)
+
+
+def compile_world(
+    world: World, motors: Sequence[str] = (), *, step_s: float, diagnostics: Diagnostics
+) -> Compiled:
+    """Compile a world.
+
+    Args:
+        world: everything there is.
+        motors: full names of the joints that get a motor.
+        step_s: length of a step.
+        diagnostics: takes what is mapped, clipped or ignored.
+
+    Raises:
+        EngineError: MuJoCo refuses the model; its words are part of the message.
+        NotFoundError: a joint names a link that is not there.
+    """
+    spec = _new_spec(world, step_s)
+    builder = SpecBuilder(world, spec, diagnostics, step_s)
+    for model in world.models:
+        builder.add_model(model)
+    for model in world.models:
+        tree = builder.trees[model.name]
+        for joint in () if model.static else tree.loops:
+            add_loop(spec, joint, model, tree, step_s, diagnostics)
+    _add_world_joints(builder)
+    pairs = set_up_contacts(builder)
+    for motor in motors:
+        add_motor(spec, motor, step_s)
+    compiled = _finish(builder, _compile(spec), pairs, tuple(motors))
+    compiled.retime(step_s)
+    return compiled
+
+
+def _new_spec(world: World, step_s: float) -> Any:
+    spec = mujoco.MjSpec()
+    spec.modelname = world.name
+    spec.compiler.autolimits = False
+    spec.compiler.degree = False
+    spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    spec.compiler.usethread = False
+    option = spec.option
+    option.timestep = step_s
+    option.gravity = list(world.gravity_m_s2)
+    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    option.impratio = 10.0
+    option.tolerance = 1e-12
+    option.sleep_tolerance = SLEEP_TOLERANCE_M_S
+    option.magnetic = list(world.magnetic_field_t)
+    option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    return spec
+
+
+def _add_world_joints(builder: SpecBuilder) -> None:
+    poses = {
+        scoped(model.name, link.name): model.T_world_model @ link.T_model_link
+        for model in builder.world.models
+        for link in model.links
+    }
+    for joint in builder.world.joints:
+        add_world_joint(builder.spec, joint, poses, builder.step_s, builder.diagnostics)
+
+
+def _compile(spec: Any) -> Any:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise EngineError(f"MuJoCo cannot build the world: {error}") from error
+
+
+def _finish(
+    builder: SpecBuilder, model: Any, pairs: tuple[ExplicitPair, ...], motors: tuple[str, ...]
+) -> Compiled:
+    names = tuple(
+        scoped(item.name, link.name) for item in builder.world.models for link in item.links
+    )
+    ids = np.array([model.body(name).id for name in names], dtype=np.intp)
+    collisions = [""] * model.ngeom
+    for geom in builder.geoms:
+        collisions[model.geom(geom.name).id] = geom.collision_name
+    for motor in motors:
+        inertia = 1.0 / max(float(model.dof_invweight0[model.joint(motor).dofadr[0]]), 1e-12)
+        model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
+    if motors:
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+    return Compiled(model, names, ids, tuple(collisions), pairs, motors)

@@ -1,0 +1,183 @@
+"""Handles of joints: state, effort, motors."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gazelle.description.model import Joint, JointAxis, JointType
+from gazelle.engine.motors import MotorCommand
+from gazelle.engine.records import Wrench
+from gazelle.errors import EngineError
+
+if TYPE_CHECKING:
+    from gazelle.engine.engine import Engine
+
+__all__ = ["JointHandle"]
+
+_WITHOUT_POSITION = {JointType.FIXED, JointType.BALL, JointType.GEARBOX}
+
+
+class JointHandle:
+    """A joint of a running world; stays valid while the joint exists, whatever is spawned.
+
+    Position, velocity and effort are those of the first axis: rad, rad/s, N·m for turning
+    joints, m, m/s, N for sliding ones. Joints without a single coordinate (fixed, ball,
+    floating) read as 0 and cannot be driven.
+    """
+
+    __slots__ = ("_dof", "_element", "_engine", "_qpos", "_revision", "axis_index", "name")
+
+    def __init__(self, engine: Engine, name: str, axis_index: int = 0) -> None:
+        self.name = name
+        self.axis_index = axis_index
+        self._engine = engine
+        self._revision = -1
+        self._element, self._qpos, self._dof = name, -1, -1
+        self._index()
+
+    def __repr__(self) -> str:
+        return f"JointHandle({self.name!r})"
+
+    @property
+    def joint(self) -> Joint:
+        """The description."""
+        return self._engine.description_of_joint(self.name)
+
+    @property
+    def type(self) -> JointType:
+        """Its type."""
+        return self.joint.type
+
+    @property
+    def axis(self) -> JointAxis:
+        """The axis this handle drives, with its limits."""
+        joint = self.joint
+        return (joint.axis2 if self.axis_index else joint.axis) or JointAxis()
+
+    @property
+    def lower(self) -> float:
+        """Lower position limit, −infinity for none."""
+        return -math.inf if self.type is JointType.CONTINUOUS else self.axis.lower
+
+    @property
+    def upper(self) -> float:
+        """Upper position limit, infinity for none."""
+        return math.inf if self.type is JointType.CONTINUOUS else self.axis.upper
+
+    @property
+    def effort_limit(self) -> float:
+        """Largest effort, infinity for none."""
+        return self.axis.effort
+
+    @property
+    def velocity_limit(self) -> float:
+        """Velocity limit; controllers apply it, the engine does not (as Gazebo)."""
+        return self.axis.velocity
+
+    @property
+    def is_driveable(self) -> bool:
+        """Whether it has a coordinate in the engine: not fixed, ball, static or closing a loop."""
+        return self._index() >= 0
+
+    @property
+    def position(self) -> float:
+        """Position, not wrapped."""
+        self._index()
+        return float(self._engine.data.qpos[self._qpos]) if self._qpos >= 0 else 0.0
+
+    @property
+    def velocity(self) -> float:
+        """Velocity."""
+        dof = self._index()
+        return float(self._engine.data.qvel[dof]) if dof >= 0 else 0.0
+
+    @property
+    def effort(self) -> float:
+        """Effort applied: what `set_effort` asks for plus what the motor delivered last."""
+        dof = self._index()
+        if dof < 0:
+            return 0.0
+        applied = float(self._engine.data.qfrc_applied[dof])
+        return applied + self._engine.motor_effort(self._element)
+
+    def set_effort(self, effort: float) -> None:
+        """Apply an effort until it is set again, at most the effort limit.
+
+        Raises:
+            EngineError: the joint has no coordinate, or the value is not finite.
+        """
+        self._engine.set_joint_effort(self._element, self._driven(), self._clamped(effort))
+
+    def set_velocity_target(self, velocity: float, max_effort: float = math.inf) -> None:
+        """Drive towards a velocity with at most an effort, as ODE's ``vel`` and ``fmax``.
+
+        Args:
+            velocity: rad/s or m/s.
+            max_effort: largest effort; the joint's own limit applies as well. 0 releases.
+        """
+        self._driven()
+        limit = min(abs(max_effort), self.effort_limit)
+        command = MotorCommand("velocity", _finite(velocity, self.name), limit)
+        self._engine.command_motor(self._element, command)
+
+    def set_position_target(
+        self,
+        position: float,
+        max_effort: float = math.inf,
+        *,
+        max_velocity: float = math.inf,
+    ) -> None:
+        """Drive to a position and hold it there, stiffly, with at most an effort."""
+        self._driven()
+        limit = min(abs(max_effort), self.effort_limit)
+        command = MotorCommand("position", _finite(position, self.name), limit, abs(max_velocity))
+        self._engine.command_motor(self._element, command)
+
+    def release(self) -> None:
+        """Stop motor and effort: the joint moves freely."""
+        dof = self._driven()
+        self._engine.command_motor(self._element, None)
+        self._engine.set_joint_effort(self._element, dof, 0.0)
+
+    def set_state(self, position: float | None = None, velocity: float | None = None) -> None:
+        """Put the joint to a position and velocity at once, whatever holds it."""
+        dof = self._driven()
+        if position is not None:
+            self._engine.data.qpos[self._qpos] = _finite(position, self.name)
+        if velocity is not None:
+            self._engine.data.qvel[dof] = _finite(velocity, self.name)
+        self._engine.state_changed()
+
+    def reaction_wrench(self) -> Wrench:
+        """Return what the parent exerts on the child through the joint in the last step.
+
+        Force and torque are in the world frame, the torque about the joint's origin.
+        """
+        return self._engine.reaction_wrench(self.name)
+
+    def _clamped(self, effort: float) -> float:
+        limit = self.effort_limit
+        return float(np.clip(_finite(effort, self.name), -limit, limit))
+
+    def _driven(self) -> int:
+        dof = self._index()
+        if dof < 0:
+            why = self.type.value if self.type in _WITHOUT_POSITION else "static or closes a loop"
+            raise EngineError(f"joint '{self.name}' ({why}) has no single coordinate to drive")
+        return dof
+
+    def _index(self) -> int:
+        if self._revision != self._engine.revision:
+            element, qpos, dof = self._engine.joint_address(self.name, self.axis_index)
+            self._element, self._qpos, self._dof = element, qpos, dof
+            self._revision = self._engine.revision
+        return self._dof
+
+
+def _finite(value: float, name: str) -> float:
+    if not math.isfinite(value):
+        raise EngineError(f"joint '{name}' was given {value}: a finite number is needed")
+    return float(value)

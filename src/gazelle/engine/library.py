@@ -1,0 +1,51 @@
+"""The one place that imports MuJoCo, and refuses releases that compute wrong results."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.errors import EngineError
+
+__all__ = ["check_version", "mujoco"]
+
+_OLDEST = (4, 0, 1)
+
+
+def check_version(version: str) -> None:
+    """Refuse a MuJoCo release that is too old or known to be wrong.
+
+    MuJoCo 4.0.0 factorises sparse matrices wrongly (its issue 3767, fixed in 4.0.1), which gives
+    wrong accelerations with more than 60 degrees of freedom.
+
+    Raises:
+        EngineError: the release cannot be used; the message says what to install.
+    """
+    if version.startswith("4.0.0"):
+        raise EngineError(
+            "MuJoCo 4.0.0 computes wrong accelerations (a sparse factorisation error, fixed in"
+            " 4.0.1); install a correct release: pip install 'mujoco-core>=4.0.1'"
+        )
+    if _numbers(version) < _OLDEST:
+        raise EngineError(
+            f"MuJoCo {version} is too old, at least 4.0.1 is needed:"
+            " pip uninstall -y mujoco && pip install 'mujoco-core>=4.0.1'"
+        )
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    parts = version.split(".")[:3]
+    return tuple(int("".join(c for c in part if c.isdigit()) or 0) for part in parts)
+
+
+def _load() -> Any:
+    try:
+        import mujoco as library
+    except ImportError as error:
+        raise EngineError(
+            f"MuJoCo cannot be imported ({error}); install it: pip install 'mujoco-core>=4.0.1'"
+        ) from error
+    check_version(str(library.__version__))
+    return library
+
+
+mujoco: Any = _load()

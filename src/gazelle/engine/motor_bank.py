@@ -1,0 +1,123 @@
+"""Commands of all motors, and writing them into MuJoCo's state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gazelle.engine.compiler import Compiled
+from gazelle.engine.library import mujoco
+from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
+from gazelle.engine.names import rotor_joint, tendon
+
+__all__ = ["POSITION_STEPS", "MotorBank"]
+
+POSITION_STEPS = 10
+"""Position motors are steered again after at most so many steps."""
+
+
+@dataclass(slots=True)
+class _Slot:
+    dof: int
+    qpos: int
+    rotor: int
+    tendon: int
+
+
+@dataclass(slots=True)
+class MotorBank:
+    """All motors: which joints have one, and what it is asked for.
+
+    Attributes:
+        commands: by joint; survives recompiles.
+        installed: joints with a motor, in the order of their first command.
+    """
+
+    commands: dict[str, MotorCommand] = field(default_factory=dict)
+    installed: list[str] = field(default_factory=list)
+    _slots: dict[str, _Slot] = field(default_factory=dict)
+    _changed: bool = False
+
+    @property
+    def has_positions(self) -> bool:
+        """Whether a motor holds a position."""
+        return any(command.mode == "position" for command in self.commands.values())
+
+    def command(self, joint: str, command: MotorCommand | None) -> bool:
+        """Set or release a motor; returns whether the joint needs one built first."""
+        self._changed = True
+        if command is None or command.max_effort <= 0:
+            self.commands.pop(joint, None)
+            return False
+        self.commands[joint] = command
+        if joint in self.installed:
+            return False
+        self.installed.append(joint)
+        return True
+
+    def forget(self, prefix: str) -> None:
+        """Drop the motors of a deleted model."""
+        self.installed = [name for name in self.installed if not name.startswith(prefix)]
+        for name in [name for name in self.commands if name.startswith(prefix)]:
+            del self.commands[name]
+
+    def bind(self, compiled: Compiled) -> None:
+        """Find the motors in a newly compiled model."""
+        model = compiled.model
+        self._slots = {}
+        for joint in compiled.motors:
+            index = model.joint(joint).id
+            self._slots[joint] = _Slot(
+                int(model.jnt_dofadr[index]),
+                int(model.jnt_qposadr[index]),
+                int(model.jnt_dofadr[model.joint(rotor_joint(joint)).id]),
+                int(model.tendon(tendon(joint)).id),
+            )
+        self._changed = True
+
+    def drive(self, model: Any, data: Any, step_s: float, steps: int) -> None:
+        """Write flywheel speeds and clutch torques for the next steps."""
+        if not self._slots:
+            return
+        for joint, slot in self._slots.items():
+            command = self.commands.get(joint)
+            if command is None:
+                if self._changed:
+                    self._release(model, data, slot)
+                continue
+            speed = command.target
+            if command.mode == "position":
+                gap = command.target - float(data.qpos[slot.qpos])
+                speed = gap / (max(steps, 2) * step_s)
+                speed = min(max(speed, -command.max_velocity), command.max_velocity)
+            if data.qvel[slot.rotor] != speed:
+                data.qvel[slot.rotor] = speed
+            limit = min(command.max_effort, UNLIMITED_EFFORT)
+            if model.tendon_frictionloss[slot.tendon] != limit:
+                model.tendon_frictionloss[slot.tendon] = limit
+                _wake(data, slot)
+        self._changed = False
+
+    def effort(self, joint: str, data: Any) -> float:
+        """Return what a motor delivered in the last step."""
+        slot = self._slots.get(joint)
+        if slot is None or joint not in self.commands:
+            return 0.0
+        kind = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON)
+        rows = np.flatnonzero((data.efc_type == kind) & (data.efc_id == slot.tendon))
+        return float(data.efc_force[rows[0]]) if len(rows) else 0.0
+
+    @staticmethod
+    def _release(model: Any, data: Any, slot: _Slot) -> None:
+        if model.tendon_frictionloss[slot.tendon] != 0:
+            model.tendon_frictionloss[slot.tendon] = 0.0
+            data.qvel[slot.rotor] = 0.0
+            _wake(data, slot)
+
+
+def _wake(data: Any, slot: _Slot) -> None:
+    """Wake a sleeping tree: MuJoCo looks for bytes that are not 0, minus zero is one."""
+    if data.qvel[slot.dof] == 0:
+        data.qvel[slot.dof] = -0.0

@@ -1,0 +1,70 @@
+"""Velocity motors with a torque limit, as ODE's joint motors are.
+
+ODE solves a motor as one more constraint: reach this velocity with at most this torque. MuJoCo
+has exactly one constraint with a bounded force, dry friction, and it brakes towards rest. So a
+motor is built as a flywheel that turns at the wanted speed and a clutch (a fixed tendon with
+dry friction) between flywheel and joint: the clutch brakes the difference of both speeds to
+zero with at most the wanted torque. It cannot overshoot, whatever the joint's inertia, and costs
+nothing while released (no friction, no constraint). The flywheel has no weight and belongs to
+nothing, so its reaction disappears as that of a motor fixed to the parent link would not; the
+reaction on the parent comes from the joint's own generalised coordinate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.engine.library import mujoco
+from gazelle.engine.names import rotor_body, rotor_joint, tendon
+
+__all__ = ["UNLIMITED_EFFORT", "MotorCommand", "add_motor", "flywheel_inertia"]
+
+UNLIMITED_EFFORT = 1e9
+"""Stands for an infinite torque limit, N·m or N."""
+
+_SMALLEST_FLYWHEEL = 1e5
+_FLYWHEEL_RATIO = 1e6
+
+
+@dataclass(frozen=True, slots=True)
+class MotorCommand:
+    """What a motor is asked for.
+
+    Attributes:
+        mode: ``velocity`` or ``position``.
+        target: rad/s, m/s, rad or m.
+        max_effort: torque or force limit.
+        max_velocity: speed limit on the way to a position.
+    """
+
+    mode: str
+    target: float
+    max_effort: float
+    max_velocity: float = float("inf")
+
+
+def add_motor(spec: Any, joint: str, step_s: float) -> None:
+    """Add flywheel and clutch for a joint; they stay idle until commanded."""
+    body = spec.worldbody.add_body(name=rotor_body(joint))
+    body.explicitinertial = True
+    body.mass = 1.0
+    body.inertia = [1.0, 1.0, 1.0]
+    body.gravcomp = 1.0
+    body.sleep = mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED
+    body.add_joint(
+        name=rotor_joint(joint),
+        type=mujoco.mjtJoint.mjJNT_HINGE,
+        axis=[0.0, 0.0, 1.0],
+        armature=_SMALLEST_FLYWHEEL,
+    )
+    clutch = spec.add_tendon(name=tendon(joint))
+    clutch.wrap_joint(joint, 1.0)
+    clutch.wrap_joint(rotor_joint(joint), -1.0)
+    clutch.solref_friction = [2.0 * step_s, 1.0]
+    clutch.solimp_friction = [0.9999, 0.9999, 0.001, 0.5, 2.0]
+
+
+def flywheel_inertia(joint_inertia: float) -> float:
+    """Return a flywheel's inertia: so large that a load cannot slow it."""
+    return max(_SMALLEST_FLYWHEEL, _FLYWHEEL_RATIO * joint_inertia)

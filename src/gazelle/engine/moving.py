@@ -1,0 +1,58 @@
+"""Moving whole robots: their free joint is the only one that places them in the world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engine.library import mujoco
+from gazelle.geometry import Pose
+
+__all__ = ["move_root", "set_root_velocity"]
+
+Array = NDArray[np.float64]
+
+
+def move_root(model: Any, data: Any, bodies: Iterable[int], T_world_world: Pose) -> bool:
+    """Move all free roots above some bodies by a transform of the world; False if there is none.
+
+    Velocities turn with the robot.
+    """
+    joints = {joint for body in bodies if (joint := _root_joint(model, body)) is not None}
+    for joint in sorted(joints):
+        address, dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
+        x, y, z, qw, qx, qy, qz = data.qpos[address : address + 7].tolist()
+        pose = T_world_world @ Pose((x, y, z), (qx, qy, qz, qw))
+        data.qpos[address : address + 7] = [*pose.position_m, *pose.quat_wxyz]
+        velocity = tuple(data.qvel[dof : dof + 3].tolist())
+        if any(velocity):
+            data.qvel[dof : dof + 3] = T_world_world.rotate(velocity)
+    return bool(joints)
+
+
+def set_root_velocity(
+    model: Any, data: Any, body: int, point_m: Array, change: tuple[Array, Array]
+) -> bool:
+    """Add a rigid velocity (linear at a point, angular; world frame) to a body's free root."""
+    joint = _root_joint(model, body)
+    if joint is None:
+        return False
+    linear, angular = change
+    dof = int(model.jnt_dofadr[joint])
+    root = int(model.jnt_bodyid[joint])
+    rotation = data.xmat[root].reshape(3, 3)
+    data.qvel[dof : dof + 3] += linear + np.cross(angular, data.xpos[root] - point_m)
+    data.qvel[dof + 3 : dof + 6] += rotation.T @ angular
+    return True
+
+
+def _root_joint(model: Any, body: int) -> int | None:
+    """Return the free joint at the top of a body's tree."""
+    root = int(model.body_rootid[body])
+    if model.body_jntnum[root] == 0:
+        return None
+    joint = int(model.body_jntadr[root])
+    return joint if model.jnt_type[joint] == int(mujoco.mjtJoint.mjJNT_FREE) else None

@@ -1,0 +1,42 @@
+"""Names inside the compiled model: everything is ``model::name``, extras end in ``//what``."""
+
+from __future__ import annotations
+
+__all__ = ["joint_part", "part_of", "root_joint", "rotor_body", "rotor_joint", "scoped", "tendon"]
+
+_MARK = "//"
+
+
+def scoped(model: str, name: str) -> str:
+    """Return ``model::name``."""
+    return f"{model}::{name}"
+
+
+def joint_part(joint: str, part: str) -> str:
+    """Return the name of a further degree of freedom of a joint, such as a screw's slide."""
+    return f"{joint}{_MARK}{part}"
+
+
+def root_joint(link: str) -> str:
+    """Return the name of the free joint that carries a root link."""
+    return f"{link}{_MARK}root"
+
+
+def rotor_body(joint: str) -> str:
+    """Return the name of the flywheel body of a motor."""
+    return f"{joint}{_MARK}rotor"
+
+
+def rotor_joint(joint: str) -> str:
+    """Return the name of the flywheel's degree of freedom."""
+    return f"{joint}{_MARK}rotor-angle"
+
+
+def tendon(joint: str) -> str:
+    """Return the name of the clutch between a motor's flywheel and its joint."""
+    return f"{joint}{_MARK}clutch"
+
+
+def part_of(name: str, index: int) -> str:
+    """Return the name of one convex part of a collision."""
+    return name if index == 0 else f"{name}{_MARK}part-{index}"

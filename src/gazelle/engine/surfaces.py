@@ -1,0 +1,200 @@
+"""Gazebo's contact parameters as MuJoCo's: the formulas, derived in docs/contact.md."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gazelle.description.model import Surface
+
+__all__ = [
+    "DEFAULT_KD",
+    "DEFAULT_KP",
+    "HARD_SOLIMP",
+    "ContactSpring",
+    "PairSurface",
+    "combine",
+    "contact_spring",
+    "hard_spring",
+    "is_plain",
+    "restitution_of",
+    "surface_key",
+]
+
+DEFAULT_KP = 1e12
+"""SDF's contact stiffness, N/m."""
+
+DEFAULT_KD = 1.0
+"""SDF's contact damping, N·s/m."""
+
+MAX_MU = 1000.0
+"""Larger friction coefficients mean 'never slides' and only spoil the solver's conditioning."""
+
+MIN_MU = 1e-5
+"""Below this a contact is frictionless (MuJoCo's own smallest coefficient)."""
+
+RESOLVED = 0.25
+"""Largest h² kp / m that one step of length h resolves as a spring; harder ones saturate."""
+
+HARD_IMPEDANCE = 0.99
+HARD_ERP = 0.05
+BOUNCE_STEPS = 24.0
+HARD_SOLIMP = (HARD_IMPEDANCE, HARD_IMPEDANCE, 0.001, 0.5, 2.0)
+
+_NEVER_BOUNCES_M_S = 1000.0
+
+SolRef = tuple[float, float]
+SolImp = tuple[float, float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class PairSurface:
+    """What two surfaces make together, by the rules of Gazebo with ODE.
+
+    Attributes:
+        mu1, mu2: Coulomb friction along the two tangents.
+        torsional_m: torsional friction torque per newton of normal force, metres.
+        rolling_m: rolling friction torque per newton of normal force, metres.
+        kp: stiffness of one contact point, N/m.
+        kd: damping of one contact point, N·s/m.
+        restitution: bounce coefficient 0…1.
+    """
+
+    mu1: float
+    mu2: float
+    torsional_m: float
+    rolling_m: float
+    kp: float
+    kd: float
+    restitution: float
+
+    @property
+    def condim(self) -> int:
+        """Dimensions of MuJoCo's contact: 1 normal, 3 with sliding, 4 spin, 6 rolling friction."""
+        if self.rolling_m > 0:
+            return 6
+        if self.torsional_m > 0:
+            return 4
+        return 3 if max(self.mu1, self.mu2) > MIN_MU else 1
+
+
+@dataclass(frozen=True, slots=True)
+class ContactSpring:
+    """MuJoCo's ``solref`` (direct form: −stiffness, −damping), ``solreffriction``, ``solimp``."""
+
+    solref: SolRef
+    solreffriction: SolRef
+    solimp: SolImp
+
+
+def combine(first: Surface, second: Surface) -> PairSurface:
+    """Combine two surfaces as Gazebo Classic does with ODE.
+
+    Friction, torsional friction and bounce are the smaller of the two, the springs act in
+    series, the dampers add (``ODEPhysics::Collide``); the contact patch is the larger one.
+    """
+    kp = 1.0 / (1.0 / stiffness_of(first) + 1.0 / stiffness_of(second))
+    mu1, mu2 = _friction(first), _friction(second)
+    return PairSurface(
+        min(mu1[0], mu2[0]),
+        min(mu1[1], mu2[1]),
+        _torsional_length(first, second),
+        min(first.rolling_mu or 0.0, second.rolling_mu or 0.0),
+        kp,
+        _damping(first) + _damping(second),
+        min(restitution_of(first), restitution_of(second)),
+    )
+
+
+def is_plain(pair: PairSurface) -> bool:
+    """Whether isotropic sliding friction and a hard contact describe the pair in full."""
+    extras = pair.torsional_m > 0 or pair.rolling_m > 0 or pair.restitution > 0
+    return not extras and pair.mu1 == pair.mu2
+
+
+def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> ContactSpring:
+    """Return the MuJoCo parameters of one contact point.
+
+    With c = 1 + h (kd + h kp) / m the implicit step of ODE is reproduced exactly by impedance
+    d = 1 − 1/c, stiffness kp/(m c) and damping (kd + h kp)/(m c); see docs/contact.md.
+
+    Args:
+        pair: the combined surface.
+        inverse_mass: MuJoCo's inverse weight of both bodies together, 1/kg.
+        step_s: length h of a step.
+    """
+    if pair.restitution > 0:
+        return _bouncing(pair.restitution, step_s)
+    if step_s * step_s * pair.kp * inverse_mass > RESOLVED:
+        return hard_spring(step_s)
+    drag = (pair.kd + step_s * pair.kp) * inverse_mass
+    c = 1.0 + step_s * drag
+    impedance = min(max(1.0 - 1.0 / c, 1e-4), 0.9999)
+    return ContactSpring(
+        (-pair.kp * inverse_mass / c, -drag / c),
+        (-impedance / step_s, -impedance / step_s),
+        (impedance, impedance, 0.001, 0.5, 2.0),
+    )
+
+
+def hard_spring(step_s: float) -> ContactSpring:
+    """Return the saturated contact: velocity stops in a step, depth fades within 20 steps."""
+    solref = (-HARD_ERP / (step_s * step_s), -1.0 / step_s)
+    return ContactSpring(solref, solref, HARD_SOLIMP)
+
+
+def _bouncing(restitution: float, step_s: float) -> ContactSpring:
+    """Return a spring whose half period spans many steps and that returns e of the speed.
+
+    A mass on a spring with damping ratio ζ leaves with e = exp(−π ζ / √(1 − ζ²)) of its speed.
+    """
+    log = math.log(max(restitution, 1e-3))
+    ratio = -log / math.hypot(math.pi, log)
+    omega = math.pi / (BOUNCE_STEPS * step_s)
+    solref = (-omega * omega, -2.0 * ratio * omega)
+    return ContactSpring(solref, (-1.0 / step_s, -1.0 / step_s), HARD_SOLIMP)
+
+
+def restitution_of(surface: Surface) -> float:
+    """Return the bounce of one surface; a threshold no speed reaches switches it off (SDF)."""
+    threshold = surface.bounce_threshold_m_s
+    if threshold is None or threshold >= _NEVER_BOUNCES_M_S:
+        return 0.0
+    return min(max(surface.restitution or 0.0, 0.0), 1.0)
+
+
+def stiffness_of(surface: Surface) -> float:
+    """Return a surface's stiffness in N/m, SDF's default where it has no positive one."""
+    return surface.kp if surface.kp is not None and surface.kp > 0 else DEFAULT_KP
+
+
+def surface_key(surface: Surface) -> tuple[object, ...]:
+    """Return what decides a contact; collisions with equal keys behave the same."""
+    return (
+        *_friction(surface),
+        surface.torsional_mu,
+        surface.torsional_patch_radius_m,
+        surface.rolling_mu,
+        stiffness_of(surface),
+        _damping(surface),
+        restitution_of(surface),
+    )
+
+
+def _friction(surface: Surface) -> tuple[float, float]:
+    mu1 = 1.0 if surface.mu1 is None else surface.mu1
+    mu2 = 1.0 if surface.mu2 is None else surface.mu2
+    return (min(max(mu1, 0.0), MAX_MU), min(max(mu2, 0.0), MAX_MU))
+
+
+def _damping(surface: Surface) -> float:
+    return DEFAULT_KD if surface.kd is None else max(surface.kd, 0.0)
+
+
+def _torsional_length(first: Surface, second: Surface) -> float:
+    """Torque per normal force of a flat round patch, 3π/16 · a · μ (SDF ``patch_radius``)."""
+    radius = max(first.torsional_patch_radius_m or 0.0, second.torsional_patch_radius_m or 0.0)
+    mu = min(
+        1.0 if surface.torsional_mu is None else surface.torsional_mu for surface in (first, second)
+    )
+    return 3.0 * math.pi / 16.0 * radius * max(mu, 0.0)
