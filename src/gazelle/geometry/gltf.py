@@ -34,8 +34,8 @@ Matrix = NDArray[np.float64]
 def read_gltf(data: bytes, file: Path) -> Mesh:
     """Read a glTF file's bytes; node transforms are applied, axes stay as written.
 
-    glTF is y-up by its specification. As with Collada, Gazebo and RViz show the coordinates as
-    they are, so nothing is rotated here.
+    glTF is y-up by its specification; Gazebo shows its coordinates as they are (gz-common#543), so
+    nothing is rotated here.
 
     Raises:
         MeshError: malformed, without triangles, or it needs an extension (such as Draco or

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.workspace.crawler import FoundPackage
-from gazelle.workspace.executables import executables_named
+from gazelle.workspace.executables import executable_names, executables_named
 from gazelle.workspace.manifest import Export, Manifest
 
 __all__ = ["Package", "package_from"]
@@ -62,6 +62,11 @@ class Package:
         ``setup.cfg`` gives the module's file. Install trees: ``lib/<package>``.
         """
         return executables_named(self.name, self.path, self.prefix, type_name)
+
+    @property
+    def executable_names(self) -> tuple[str, ...]:
+        """The names ``rosrun`` offers for this package, sorted."""
+        return executable_names(self.name, self.path, self.prefix)
 
     def exported_paths(self, tag: str, attribute: str) -> tuple[Path, ...]:
         """Return the folders an export names, ``${prefix}`` replaced, such as model paths.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["resolve", "resolve_world"]
 
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):/{1,2}(?!$)(.*)", re.DOTALL)
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+)://(.*)|(file):(.*)", re.DOTALL)
 _FIND = re.compile(r"\$\(find(?:-pkg-share)?\s+([^)\s]+)\s*\)/?(.*)", re.DOTALL)
 _FUEL = re.compile(r"[^/]+/(?:[0-9.]+/)?([^/]+)/models/([^/]+)/?(.*)", re.DOTALL)
 
@@ -68,9 +68,9 @@ def _by_scheme(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolve
     if found:
         return _in_package(workspace, found.group(1), found.group(2))
     matched = _SCHEME.fullmatch(uri)
-    if matched is None or (os.sep == "\\" and len(matched.group(1)) == 1):
+    if matched is None:
         return _plain(workspace, uri, base_dir)
-    scheme, rest = matched.group(1).lower(), matched.group(2)
+    scheme, rest = (matched.group(1) or "file").lower(), matched.group(2) or matched.group(4) or ""
     if scheme == "file":
         return _file(workspace, rest, base_dir)
     if scheme == "package":
