@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from gazelle.sensors.bands import default_threads
 from gazelle.sensors.camera import CameraRecord, render
-from gazelle.sensors.depth import POINT_DTYPE, PointCloud, depth_image, point_cloud
+from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import EmbreeError
+from gazelle.sensors.imu import ImuNoise, ImuRecord, LinkMotion, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
 from gazelle.sensors.noise import NoiseSource
@@ -21,16 +22,19 @@ __all__ = [
     "POINT_DTYPE",
     "CameraRecord",
     "EmbreeError",
+    "ImuNoise",
+    "ImuRecord",
     "Intrinsics",
     "LidarRecord",
+    "LinkMotion",
     "NoiseSource",
-    "PointCloud",
     "RayScene",
     "ScanAngles",
     "camera_intrinsics",
     "default_threads",
     "depth_image",
     "distort",
+    "imu_reading",
     "is_distorting",
     "point_cloud",
     "render",

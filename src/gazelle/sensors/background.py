@@ -10,18 +10,21 @@ from gazelle.description.model import Scene
 __all__ = ["background_colours"]
 
 _SKY = (
-    # height above the horizon as sine of the elevation; red, green, blue in 0…255
-    (-1.0, (150, 148, 132)),
-    (-0.14, (164, 163, 148)),
-    (0.0, (184, 187, 176)),
-    (0.05, (193, 200, 203)),
-    (0.10, (195, 205, 222)),
-    (0.17, (187, 201, 229)),
-    (0.26, (172, 188, 228)),
-    (0.33, (159, 176, 223)),
-    (0.40, (144, 161, 215)),
-    (0.70, (104, 122, 190)),
-    (1.0, (82, 100, 172)),
+    # sine of the elevation; red, green, blue in 0…255
+    (-1.000, (150, 150, 135)),
+    (-0.200, (170, 170, 155)),
+    (-0.127, (180, 182, 169)),
+    (-0.095, (186, 191, 185)),
+    (-0.064, (189, 196, 199)),
+    (0.000, (189, 199, 217)),
+    (0.062, (182, 195, 223)),
+    (0.125, (173, 188, 224)),
+    (0.185, (163, 179, 222)),
+    (0.244, (153, 169, 217)),
+    (0.300, (143, 160, 212)),
+    (0.354, (135, 152, 207)),
+    (0.600, (105, 122, 190)),
+    (1.000, (78, 96, 172)),
 )
 _SKY_ROWS = 257
 
@@ -30,8 +33,8 @@ def background_colours(scene: Scene) -> NDArray[np.float32]:
     """Return the background from straight down to straight up, (rows, 3) float32 in 0…1.
 
     Rows are equal steps of the sine of the elevation. Without a sky there is one row: the
-    scene's background colour. The sky is a clear morning's, in the colours that Gazebo Classic's
-    default sky has between its clouds.
+    scene's background colour. The sky is cloudless, in the mean colours over all azimuths that
+    recorded pictures of Gazebo Classic's default sky show.
     """
     if not scene.sky:
         return np.array([scene.background[:3]], np.float32)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.sensors.bands import default_threads, each_band, row_bands
 from gazelle.sensors.intrinsics import Intrinsics
 
-__all__ = ["POINT_DTYPE", "PointCloud", "depth_image", "point_cloud"]
+__all__ = ["POINT_DTYPE", "depth_image", "point_cloud"]
 
 POINT_DTYPE = np.dtype(
     {
@@ -22,20 +21,6 @@ POINT_DTYPE = np.dtype(
     }
 )
 """One point as gazebo_ros lays it out: 32 bytes, colour packed into a FLOAT32."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PointCloud:
-    """An organised cloud in the optical frame: x right, y down, z forward, metres.
-
-    Attributes:
-        points: (H, W) of `POINT_DTYPE`; x, y, z are NaN where there is no depth. The bytes of
-            `rgb` are 0x00RRGGBB as a little-endian word, as PCL and RViz read them.
-        is_dense: no point is NaN.
-    """
-
-    points: NDArray[np.void]
-    is_dense: bool
 
 
 def depth_image(
@@ -60,8 +45,13 @@ def point_cloud(
     near_m: float = 0.0,
     far_m: float = math.inf,
     threads: int | None = None,
-) -> PointCloud:
-    """Back-project a depth picture.
+) -> NDArray[np.void]:
+    """Back-project a depth picture into an organised cloud.
+
+    Returns:
+        (H, W) of `POINT_DTYPE` in the optical frame: x right, y down, z forward, metres, NaN
+        where there is no depth. The bytes of `rgb` are 0x00RRGGBB as a little-endian word, as
+        PCL and RViz read them (gazebo_ros writes them the other way round).
 
     Args:
         depth_m: (H, W) metres along the viewing axis; inf and NaN are nothing.
@@ -83,11 +73,9 @@ def point_cloud(
     depth = np.ascontiguousarray(depth_m, np.float32)
     limits = np.array([near_m, far_m], np.float32)
 
-    def band(first: int, last: int) -> bool:
-        return bool(
-            fill_cloud(depth, colours, rgb is not None, lens, limits, first, last, floats, words)
-        )
+    def band(first: int, last: int) -> None:
+        fill_cloud(depth, colours, rgb is not None, lens, limits, first, last, floats, words)
 
     count = default_threads() if threads is None else threads
-    dense = all(each_band(count, row_bands(height, count), band))
-    return PointCloud(words.view(np.uint8).view(POINT_DTYPE).reshape(height, width), dense)
+    each_band(count, row_bands(height, count), band)
+    return words.view(np.uint8).view(POINT_DTYPE).reshape(height, width)

@@ -80,10 +80,18 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Library:
-    """The loaded library: its path and the functions of `_FUNCTIONS` by name."""
+    """The loaded library.
+
+    Attributes:
+        path: the file.
+        functions: Embree's functions by name; a call lets other Python threads run.
+        quick: the same functions for calls of microseconds, which keep the interpreter lock:
+            taking it back after each would wait for other threads' turns.
+    """
 
     path: Path
     functions: Any
+    quick: Any
 
 
 def find_library() -> tuple[Path, tuple[Path, ...]]:
@@ -134,16 +142,16 @@ def library() -> Library:
     try:
         for item in needed_first:
             ctypes.CDLL(str(item), mode=ctypes.RTLD_GLOBAL)
-        loaded = ctypes.CDLL(str(path))
+        loaded, quick = ctypes.CDLL(str(path)), ctypes.PyDLL(str(path))
         for name, (result, arguments) in _FUNCTIONS.items():
-            function = getattr(loaded, name)
-            function.restype, function.argtypes = result, list(arguments)
+            for function in (getattr(loaded, name), getattr(quick, name)):
+                function.restype, function.argtypes = result, list(arguments)
     except (OSError, AttributeError) as error:
         raise EmbreeError(
             f"Embree cannot be loaded from {path}: {error}\n"
             "  reinstall it with: pip install --force-reinstall 'embreex>=4.4'"
         ) from error
-    return Library(path, loaded)
+    return Library(path, loaded, quick)
 
 
 @cache
@@ -248,7 +256,7 @@ class InstancedScene:
             matrices: (N, 4, 4) ``T_world_instance``, scaling allowed.
             masks: 32-bit visibility mask of each instance, tested against a ray's mask.
         """
-        rtc = library().functions
+        rtc = library().quick
         self.handle = int(rtc.rtcNewScene(device()))
         rtc.rtcSetSceneFlags(self.handle, _DYNAMIC | _ROBUST)
         self._sub_scenes = tuple(sub_scenes)
@@ -274,10 +282,10 @@ class InstancedScene:
         """
         for number in numbers.tolist():
             self._place(self._geometries[number], matrices[number])
-        library().functions.rtcCommitScene(self.handle)
+        library().quick.rtcCommitScene(self.handle)
 
     def _place(self, geometry: int, matrix: NDArray[np.float32]) -> None:
-        rtc = library().functions
+        rtc = library().quick
         columns = np.ascontiguousarray(matrix.T, np.float32)
         rtc.rtcSetGeometryTransform(geometry, 0, _FLOAT4X4_COLUMN_MAJOR, columns.ctypes.data)
         rtc.rtcCommitGeometry(geometry)

@@ -18,6 +18,9 @@ from gazelle.sensors.ray_scene import RayScene
 __all__ = ["LidarRecord", "ScanAngles", "cast", "scan", "scan_angles", "scene_kind"]
 
 _EVERYTHING = 0xFFFFFFFF
+_SHORT_SCAN = 64
+"""Packets (of 2 µs) below which a scan keeps the interpreter lock."""
+
 _ALL_LANES = np.full(PACKET + 16, -1, np.int32)
 
 
@@ -162,7 +165,9 @@ def cast(
 
 
 def _trace(scene: RayScene, rays: NDArray[np.float32]) -> None:
-    intersect = library().functions.rtcIntersect16
+    embree = library()
+    is_short = len(rays) <= _SHORT_SCAN
+    intersect = (embree.quick if is_short else embree.functions).rtcIntersect16
     lanes = _ALL_LANES[-_ALL_LANES.ctypes.data % 64 // 4 :]
     valid, first = lanes.ctypes.data, rays.ctypes.data
     with scene.lock:

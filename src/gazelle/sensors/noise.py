@@ -12,7 +12,8 @@ from gazelle.description.model import Noise
 
 __all__ = ["NoiseSource", "seed_words"]
 
-_QUANTUM = 1e-6
+_GAUSSIAN = ("gaussian", "gaussian_quantized")
+_SMALLEST_PRECISION = 1e-6
 
 
 def seed_words(seed: int, name: str) -> list[int]:
@@ -51,8 +52,8 @@ class NoiseSource:
 
     @property
     def is_silent(self) -> bool:
-        """Whether `apply` returns its input."""
-        return self.noise.type == "none"
+        """Whether `apply` returns its input: the type is no Gaussian one."""
+        return self.noise.type not in _GAUSSIAN
 
     def apply(
         self, values: NDArray[np.floating] | float, *, dt_s: float = 0.0
@@ -69,7 +70,7 @@ class NoiseSource:
         self._walk(dt_s)
         noisy = clean + self.bias + self.white(clean.shape)
         precision = self.noise.precision
-        if self.noise.type == "gaussian_quantized" and precision > _QUANTUM:
+        if self.noise.type == "gaussian_quantized" and precision > _SMALLEST_PRECISION:
             noisy = np.copysign(np.floor(np.abs(noisy) / precision + 0.5) * precision, noisy)
         return noisy
 

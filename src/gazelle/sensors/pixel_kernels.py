@@ -41,7 +41,6 @@ def fill_cloud(depth, rgb, with_rgb, lens, limits, first_row, last_row, points, 
     """Write rows of an organised cloud: x y z at floats 0–2, packed colour at word 4."""
     width = depth.shape[1]
     nothing = np.float32(np.nan)
-    dense = True
     for v in range(first_row, last_row):
         y_over_z = (np.float32(v) - lens[3]) / lens[1]
         for u in range(width):
@@ -55,11 +54,9 @@ def fill_cloud(depth, rgb, with_rgb, lens, limits, first_row, last_row, points, 
                 points[v, u, 0] = nothing
                 points[v, u, 1] = nothing
                 points[v, u, 2] = nothing
-                dense = False
             if with_rgb:
                 colours[v, u, 4] = (
                     (np.uint32(rgb[v, u, 0]) << np.uint32(16))
                     | (np.uint32(rgb[v, u, 1]) << np.uint32(8))
                     | np.uint32(rgb[v, u, 2])
                 )
-    return dense

@@ -1,0 +1,145 @@
+"""Inertial measurement units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import ImuSpec
+from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_from_rpy
+from gazelle.sensors.noise import NoiseSource
+
+__all__ = ["ImuNoise", "ImuRecord", "LinkMotion", "imu_reading"]
+
+Vector3 = tuple[float, float, float]
+QuatXyzw = tuple[float, float, float, float]
+
+_ENU: QuatXyzw = (0.0, 0.0, 0.0, 1.0)
+_NED_RPY = (np.pi, 0.0, np.pi / 2)
+_NWU_RPY = (0.0, 0.0, np.pi / 2)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkMotion:
+    """How a link moves; vectors are (3,) float64 in world coordinates.
+
+    Attributes:
+        T_world_link: pose of the link's frame.
+        angular_velocity_rad_s: of the link.
+        linear_acceleration_m_s2: of the link's origin: 0 at rest, g in free fall.
+        angular_acceleration_rad_s2: of the link.
+    """
+
+    T_world_link: Pose
+    angular_velocity_rad_s: NDArray[np.float64]
+    linear_acceleration_m_s2: NDArray[np.float64]
+    angular_acceleration_rad_s2: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ImuRecord:
+    """One reading, in the sensor's frame.
+
+    Attributes:
+        orientation_xyzw: of the sensor in the reference frame.
+        angular_velocity_rad_s: (3,) float64.
+        linear_acceleration_m_s2: (3,) float64, specific force: +g upwards at rest.
+    """
+
+    orientation_xyzw: QuatXyzw
+    angular_velocity_rad_s: NDArray[np.float64]
+    linear_acceleration_m_s2: NDArray[np.float64]
+
+
+class ImuNoise:
+    """The six noises of an IMU, each with a stream of its own.
+
+    Attributes:
+        angular_velocity: about x, y, z.
+        linear_acceleration: along x, y, z.
+    """
+
+    def __init__(self, spec: ImuSpec, seed: int, name: str) -> None:
+        """Seed from the world's seed and the sensor's scoped name."""
+        self.angular_velocity = tuple(
+            NoiseSource(noise, seed, f"{name}/angular_velocity/{axis}")
+            for axis, noise in zip("xyz", spec.angular_velocity_noise, strict=True)
+        )
+        self.linear_acceleration = tuple(
+            NoiseSource(noise, seed, f"{name}/linear_acceleration/{axis}")
+            for axis, noise in zip("xyz", spec.linear_acceleration_noise, strict=True)
+        )
+
+
+def imu_reading(
+    motion: LinkMotion,
+    spec: ImuSpec,
+    gravity_m_s2: Vector3,
+    *,
+    T_link_sensor: Pose = IDENTITY_POSE,
+    noise: ImuNoise | None = None,
+    dt_s: float = 0.0,
+    initial_xyzw: QuatXyzw = _ENU,
+) -> ImuRecord:
+    """Read an IMU.
+
+    The sensor's own acceleration is ``a + α × r + ω × (ω × r)`` with r from the link's origin to
+    the sensor; what it feels is that less gravity, turned into its frame (Gazebo's ImuSensor
+    takes the same from differences of velocity).
+
+    Args:
+        motion: of the link that carries it.
+        spec: the IMU; says what its orientation refers to.
+        gravity_m_s2: the world's.
+        T_link_sensor: its frame on the link.
+        noise: None for a clean reading.
+        dt_s: simulated time since the last reading, for walking biases.
+        initial_xyzw: what the orientation refers to when the spec does not say; Gazebo's sensor
+            takes its own orientation at the start, gazebo_ros_imu the world (the default).
+    """
+    T_world_sensor = motion.T_world_link @ T_link_sensor
+    arm = np.array(motion.T_world_link.rotate(T_link_sensor.position_m))
+    omega = motion.angular_velocity_rad_s
+    acceleration = (
+        motion.linear_acceleration_m_s2
+        + np.cross(motion.angular_acceleration_rad_s2, arm)
+        + np.cross(omega, np.cross(omega, arm))
+    )
+    to_sensor = T_world_sensor.matrix()[:3, :3].T
+    rate = to_sensor @ omega
+    force = to_sensor @ (acceleration - np.array(gravity_m_s2))
+    if noise is not None:
+        rate = _with_noise(rate, noise.angular_velocity, dt_s)
+        force = _with_noise(force, noise.linear_acceleration, dt_s)
+    reference = Pose(quat_xyzw=_reference(spec, initial_xyzw)).inverse()
+    return ImuRecord((reference @ T_world_sensor).quat_xyzw, rate, force)
+
+
+def _reference(spec: ImuSpec, initial_xyzw: QuatXyzw) -> QuatXyzw:
+    """Return the reference frame's orientation in the world, which is ENU (REP-103).
+
+    ``<orientation_reference_frame><localization>``: NED and NWU are turned frames, CUSTOM is
+    ``<custom_rpy>``.
+    """
+    match spec.localization:
+        case "ENU":
+            return _ENU
+        case "NED":
+            return quat_xyzw_from_rpy(_NED_RPY)
+        case "NWU":
+            return quat_xyzw_from_rpy(_NWU_RPY)
+        case "CUSTOM":
+            return quat_xyzw_from_rpy(spec.custom_rpy_rad)
+        case _:
+            return initial_xyzw
+
+
+def _with_noise(
+    values: NDArray[np.float64],
+    sources: tuple[NoiseSource, ...],
+    dt_s: float,
+) -> NDArray[np.float64]:
+    pairs = zip(sources, values, strict=True)
+    return np.array([float(source.apply(float(value), dt_s=dt_s)) for source, value in pairs])
