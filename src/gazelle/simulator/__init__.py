@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
 
-class Simulation:
-    """Replaced by the real one."""
+if TYPE_CHECKING:
+    from gazelle.simulator.pace import Mode
+    from gazelle.simulator.simulation import Simulation
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["Mode", "Simulation", "WorldServer"]
+
+_PLACES = {
+    "Mode": "gazelle.simulator.pace",
+    "Simulation": "gazelle.simulator.simulation",
+    "WorldServer": "gazelle.simulator.world_server",
+}
 
 
-__all__ = ["Simulation"]
+def __getattr__(name: str) -> Any:
+    if name in _PLACES:
+        from importlib import import_module
+
+        return getattr(import_module(_PLACES[name]), name)
+    raise AttributeError(f"module 'gazelle.simulator' has no attribute '{name}'")

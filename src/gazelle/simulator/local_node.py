@@ -135,9 +135,15 @@ class LocalNode:
         return publisher
 
     def create_subscription(
-        self, topic: str, message_type: Any, callback: Callback, *, queue_size: int = 0
+        self,
+        topic: str,
+        message_type: Any,
+        callback: Callback,
+        *,
+        queue_size: int = 0,
+        inline: bool = True,
     ) -> LocalSubscription:
-        """Receive a topic; what was latched on it comes at once."""
+        """Receive a topic, always inline; what was latched on it comes at once."""
         name = _absolute(topic)
         for publisher in self._publishers:
             if publisher.topic == name and publisher.latched is not None:

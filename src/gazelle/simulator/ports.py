@@ -84,6 +84,7 @@ class NodePort(Protocol):
         callback: Callable[[Any], None],
         *,
         queue_size: int = ...,
+        inline: bool = ...,
     ) -> SubscriptionPort:
         """Receive a topic."""
         ...

@@ -90,8 +90,14 @@ class Scheduler:
         self._step_ns = step_ns
 
     def set_step(self, step_ns: int) -> None:
-        """Take over a new step size; periods stay as many steps as they were."""
+        """Take over a new step size; every task keeps its rate, counted from now."""
+        factor = Fraction(self._step_ns, step_ns)
         self._step_ns = step_ns
+        for task in tuple(self):
+            period = max(task.period_steps * factor, Fraction(1))
+            if task.order == ORDER_SENSOR:
+                period = Fraction(math.ceil(period))
+            self.change_period(task, period)
 
     def add(self, task: Task, *, first: int | None = None) -> Task:
         """Add a task; its first tick is one period from now, or at iteration `first`."""

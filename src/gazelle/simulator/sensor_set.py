@@ -16,16 +16,19 @@ from gazelle.simulator.plugins.context import SensorPlace
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine, Snapshot
-    from gazelle.sensors import (
-        CameraRecord,
-        ImuNoise,
-        ImuRecord,
-        LidarRecord,
-        NoiseSource,
-        RayScene,
-    )
+    from gazelle.sensors import CameraRecord, LidarRecord, NoiseSource, RayScene
+    from gazelle.sensors.imu import ImuNoise, ImuRecord
 
 __all__ = ["SensorSet", "View", "sensor_places"]
+
+
+@dataclass(slots=True)
+class _ImuState:
+    """What an IMU carries from one reading to the next."""
+
+    noise: ImuNoise
+    reference_quat_xyzw: tuple[float, float, float, float]
+    last_ns: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +77,10 @@ class SensorSet:
         self._seed = seed
         self._scenes: dict[str, tuple[RayScene, World]] = {}
         self._noises: dict[str, NoiseSource] = {}
-        self._imus: dict[str, ImuNoise] = {}
+        self._imus: dict[str, _ImuState] = {}
         self._lock = threading.Lock()
         self.computed = 0
+        """Readings computed so far; idle sensors do not count up."""
 
     def view(self) -> View:
         """Return the world as it stands now; for the thread that owns it."""
@@ -135,25 +139,34 @@ class SensorSet:
 
     def imu_at(self, name: str, link_name: str, T_link_sensor: Pose, spec: ImuSpec) -> ImuRecord:
         """Read an IMU that need not be in the model: some plug-ins describe their own."""
-        from gazelle.sensors import ImuNoise, LinkMotion, imu_reading
+        from gazelle.sensors.imu import LinkMotion, imu_noise, imu_reading, reference_orientation
 
         link = self._engine.link(link_name)
-        linear, angular = link.acceleration_world()
+        velocity, acceleration = link.velocity_world(), link.acceleration_world()
+        T_world_link = link.T_world_link()
         motion = LinkMotion(
-            T_world_link=link.T_world_link(),
-            angular_velocity_rad_s=_array(link.velocity_world()[1]),
-            linear_acceleration_m_s2=_array(linear),
-            angular_acceleration_rad_s2=_array(angular),
+            T_world_link,
+            _triple(velocity[0]),
+            _triple(velocity[1]),
+            _triple(acceleration[0]),
+            _triple(acceleration[1]),
         )
-        if name not in self._imus:
-            self._imus[name] = ImuNoise(spec, self._seed, name)
+        now_ns = self._engine.time_ns
+        state = self._imus.get(name)
+        if state is None:
+            reference = reference_orientation(spec, T_world_link @ T_link_sensor)
+            state = _ImuState(imu_noise(spec, self._seed, name), reference, now_ns)
+            self._imus[name] = state
+        dt_s = (now_ns - state.last_ns) * 1e-9
+        state.last_ns = now_ns
         self.computed += 1
         return imu_reading(
             motion,
-            spec,
-            self._engine.world.gravity_m_s2,
-            T_link_sensor=T_link_sensor,
-            noise=self._imus[name],
+            T_link_sensor,
+            self._engine.gravity_m_s2,
+            noise=state.noise,
+            dt_s=dt_s,
+            reference_quat_xyzw=state.reference_quat_xyzw,
         )
 
     def _scene(self, kind: str, view: View) -> RayScene:
@@ -180,5 +193,6 @@ class SensorSet:
         return self._noises[place.name]
 
 
-def _array(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(vector, np.float64)
+def _triple(vector: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return (x, y, z)

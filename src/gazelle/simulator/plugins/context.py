@@ -74,13 +74,19 @@ class Resources:
         self._closers.append(made.unregister)
         return made
 
-    def subscription(self, topic: str, type_name: str, callback: Callable[[Any], None]) -> None:
-        """Listen; `callback` runs between two steps, in the thread that owns the world."""
+    def subscription(
+        self, topic: str, type_name: str | None, callback: Callable[[Any], None]
+    ) -> None:
+        """Listen; `callback` runs between two steps, in the thread that owns the world.
+
+        `type_name` None takes messages of any type.
+        """
 
         def queue(message: Any) -> None:
             self._host.commands.post(lambda: callback(message))
 
-        made = self._host.node.create_subscription(topic, message_class(type_name), queue)
+        wanted = None if type_name is None else message_class(type_name)
+        made = self._host.node.create_subscription(topic, wanted, queue, inline=True)
         self._closers.append(made.unregister)
 
     def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:

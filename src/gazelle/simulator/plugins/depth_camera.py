@@ -24,7 +24,7 @@ from gazelle.simulator.plugins.parameters import ParameterReader
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from gazelle.sensors import CameraRecord
+    from gazelle.sensors import CameraRecord, PointCloud
 
 __all__ = ["DepthLimits", "add_colour", "add_depth", "cut_depth", "load", "load_openni"]
 
@@ -58,10 +58,10 @@ def load_openni(context: PluginContext) -> None:
 
 def cut_depth(record: CameraRecord, limits: DepthLimits) -> NDArray[np.float32]:
     """Return (H, W) planar depth in metres, NaN outside the limits."""
+    from gazelle.sensors import depth_image
+
     assert record.depth_m is not None
-    depth = record.depth_m
-    kept = (depth > limits.near_m) & (depth < limits.far_m)
-    return np.where(kept, depth, np.float32(np.nan))
+    return depth_image(record.depth_m, near_m=limits.near_m, far_m=limits.far_m)
 
 
 def add_colour(stream: CameraStream, topic: str, spec: CameraSpec) -> None:
@@ -98,9 +98,10 @@ def add_depth(
         return image_message(time_ns, frame, depth, "32FC1")
 
     def cloud(time_ns: int, record: CameraRecord) -> Any:
-        return _cloud_message(
-            time_ns, frame, point_cloud(cut_depth(record, limits), record.rgb, intrinsics)
-        )
+        assert record.depth_m is not None
+        near_m, far_m = limits.near_m, limits.far_m
+        made = point_cloud(record.depth_m, record.rgb, intrinsics, near_m=near_m, far_m=far_m)
+        return _cloud_message(time_ns, frame, made)
 
     stream.add(depth_topic, "sensor_msgs/Image", picture, depth=True)
     stream.add(cloud_topic, "sensor_msgs/PointCloud2", cloud, rgb=True, depth=True)
@@ -139,8 +140,9 @@ def _start(
     check_frame(context, place, frame)
 
 
-def _cloud_message(time_ns: int, frame: str, points: NDArray[np.void]) -> Any:
-    """Return a ``sensor_msgs/PointCloud2`` of a (H, W) structured array."""
+def _cloud_message(time_ns: int, frame: str, cloud: PointCloud) -> Any:
+    """Return a ``sensor_msgs/PointCloud2`` that shares the cloud's memory."""
+    points = cloud.points
     height, width = points.shape
     step = points.dtype.itemsize
     field = message_class("sensor_msgs/PointField")
@@ -157,5 +159,5 @@ def _cloud_message(time_ns: int, frame: str, points: NDArray[np.void]) -> Any:
         point_step=step,
         row_step=step * width,
         data=points.reshape(-1).view(np.uint8),
-        is_dense=not bool(np.isnan(points["z"]).any()),
+        is_dense=cloud.is_dense,
     )

@@ -92,8 +92,8 @@ class _Drive:
             parameters.text("odometryFrame"), parameters.text("robotBaseFrame"), prefix.strip("/")
         )
         command_topic = context.topic(parameters, parameters.text("commandTopic"))
-        for type_name in ("geometry_msgs/Twist", "geometry_msgs/TwistStamped"):
-            resources.subscription(command_topic, type_name, self._take_command)
+        # Twist and TwistStamped are both taken.
+        resources.subscription(command_topic, None, self._take_command)
         self._odom_publisher = None
         if parameters.flag("publishTf"):
             topic = context.topic(parameters, parameters.text("odometryTopic"))

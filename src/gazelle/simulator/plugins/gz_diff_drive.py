@@ -91,8 +91,8 @@ class _GzDrive:
 
         self._frames = (named("frame_id"), named("child_frame_id"))
         command_topic = join_names("/", named("topic"))
-        for type_name in ("geometry_msgs/Twist", "geometry_msgs/TwistStamped"):
-            resources.subscription(command_topic, type_name, self._take_command)
+        # Twist and TwistStamped are both taken.
+        resources.subscription(command_topic, None, self._take_command)
         odom_topic, tf_topic = join_names("/", named("odom_topic")), named("tf_topic")
         self._odom_publisher = resources.publisher(odom_topic, "nav_msgs/Odometry")
         self._tf_publisher = resources.publisher(join_names("/", tf_topic), "tf2_msgs/TFMessage")

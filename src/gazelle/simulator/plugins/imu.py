@@ -20,7 +20,7 @@ from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Top
 from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, sensor_period_in_steps
 
 if TYPE_CHECKING:
-    from gazelle.sensors import ImuRecord
+    from gazelle.sensors.imu import ImuRecord
 
 __all__ = ["HECTOR_TABLE", "SENSOR_TABLE", "TABLE", "load", "load_hector", "load_sensor"]
 
@@ -225,7 +225,7 @@ def _publish_readings(
 
 def imu_message(time_ns: int, frame: str, record: ImuRecord) -> Any:
     """Return a ``sensor_msgs/Imu``; variances are the squares of the noise's sigma."""
-    x, y, z, w = record.orientation_xyzw
+    x, y, z, w = record.quat_xyzw
     quaternion = message_class("geometry_msgs/Quaternion")
     return message_class("sensor_msgs/Imu")(
         header=header(time_ns, frame),

@@ -1,0 +1,270 @@
+"""The plain Python way in: a world, models in it, steps."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any, Self
+
+from gazelle.description.model import Model, World
+from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics.nearest import nearest_names
+from gazelle.errors import NotFoundError
+from gazelle.geometry import Pose
+from gazelle.simulator.handles import (
+    JointOfSimulation,
+    LinkOfSimulation,
+    ModelOfSimulation,
+    SensorOfSimulation,
+)
+from gazelle.simulator.names import full_name
+from gazelle.simulator.pace import Mode
+from gazelle.simulator.ports import NodePort, SubscriptionPort
+from gazelle.simulator.sources import models_from, world_from
+from gazelle.simulator.world_server import WorldServer
+from gazelle.workspace import Workspace
+
+__all__ = ["Simulation"]
+
+Source = str | os.PathLike[str] | Model
+
+
+class Simulation:
+    """A world with its robots, stepped from Python.
+
+    Needs no graph, no display and no ROS: topics work within the process, sensors are read
+    directly, plug-ins run as in Gazebo. Time is simulated and goes on in `step` and `run` only.
+
+    Example:
+        >>> sim = Simulation.load("robot.urdf", world="empty")
+        >>> sim.joint("roll_joint").command(0.1)
+        >>> sim.run(seconds=2.0)
+    """
+
+    def __init__(
+        self,
+        world: World | None = None,
+        *,
+        workspace: Workspace | None = None,
+        diagnostics: Diagnostics | None = None,
+        node: NodePort | None = None,
+        seed: int = 0,
+    ) -> None:
+        """Start with a world; `load` is the usual way in.
+
+        Args:
+            world: an empty one without ground when None.
+            workspace: finds packages and models; made from the environment when None.
+            diagnostics: collects findings; a new list when None.
+            node: a node of a graph; topics stay inside this process when None.
+            seed: of all noise.
+        """
+        self.diagnostics = Diagnostics() if diagnostics is None else diagnostics
+        self._workspace = workspace or Workspace.discover()
+        self.server = WorldServer(
+            world or World(),
+            node=node,
+            workspace=self._workspace,
+            diagnostics=self.diagnostics,
+            seed=seed,
+            mode=Mode.LOCKSTEP,
+        )
+
+    @classmethod
+    def load(
+        cls,
+        source: Source | None = None,
+        *,
+        world: str | os.PathLike[str] | World | None = "empty",
+        name: str | None = None,
+        pose: Pose | None = None,
+        mappings: Mapping[str, str] | None = None,
+        workspace: Workspace | None = None,
+        node: NodePort | None = None,
+        seed: int = 0,
+    ) -> Self:
+        """Load a world and put a robot into it.
+
+        Args:
+            source: a URDF, xacro or SDF file, its text, a model folder or the name of a known
+                model; a world file stands for itself; None for the world alone.
+            world: a world file, the name of a known world (``empty`` has ground and sun), a
+                `World`, or None for nothing at all.
+            name: of the robot in the world; its own when None.
+            pose: where it stands; where the file puts it when None.
+            mappings: xacro arguments.
+            workspace: finds packages and models; made from the environment when None.
+            node: a node of a graph, when topics shall leave this process.
+            seed: of all noise.
+
+        Raises:
+            UserFileError: a file has errors, all of them at once.
+            NotFoundError: there is no such file, model or world.
+        """
+        workspace = workspace or Workspace.discover()
+        diagnostics = Diagnostics()
+        models = models_from(source, workspace, diagnostics, mappings=mappings)
+        if models.world is not None:
+            chosen = models.world
+        elif isinstance(world, World):
+            chosen = world
+        else:
+            chosen = world_from(world, workspace, diagnostics)
+        diagnostics.raise_if_errors()
+        placed = tuple(_placed(model, name, pose) for model in models.models)
+        chosen = replace(chosen, models=(*chosen.models, *placed))
+        return cls(chosen, workspace=workspace, diagnostics=diagnostics, node=node, seed=seed)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exc_info: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Release topics, services and threads."""
+        self.server.close()
+
+    @property
+    def world(self) -> World:
+        """The world as it is now."""
+        return self.server.engine.world
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time."""
+        return self.server.engine.time_ns * 1e-9
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time, exact."""
+        return self.server.engine.time_ns
+
+    @property
+    def step_s(self) -> float:
+        """Length of a step."""
+        return self.server.engine.step_ns * 1e-9
+
+    def run(self, *, seconds: float) -> None:
+        """Let this much simulated time pass, rounded up to whole steps.
+
+        Raises:
+            ValueError: a negative or infinite time.
+            SimulationDivergedError: the state became non-finite.
+        """
+        if not 0 <= seconds < math.inf:
+            raise ValueError(f"run() needs a time of 0 s or more, not {seconds}")
+        self.step(math.ceil(round(seconds * 1e9) / self.server.engine.step_ns))
+
+    def step(self, count: int = 1) -> None:
+        """Take steps; everything due on the way (plug-ins, sensors with subscribers) happens."""
+        self.server.step(count)
+
+    def pause(self) -> None:
+        """Stop time for a server that runs on its own (`WorldServer.run`)."""
+        self.server.pause()
+
+    def unpause(self) -> None:
+        """Let time go on again."""
+        self.server.unpause()
+
+    def reset(self) -> None:
+        """Go back to the start: time 0, all models where they began, noise from its seed."""
+        self.server.reset()
+
+    def state_hash(self) -> str:
+        """Return a hash of the whole physical state: equal for equal runs."""
+        return self.server.engine.state_hash()
+
+    def spawn(
+        self,
+        source: Source,
+        *,
+        name: str | None = None,
+        pose: Pose | None = None,
+        mappings: Mapping[str, str] | None = None,
+    ) -> ModelOfSimulation:
+        """Bring a model into the running world; see `load` for the arguments.
+
+        Raises:
+            UserFileError: the file has errors.
+            NotFoundError: there is no such file or model.
+            EngineError: the name is taken.
+        """
+        found = Diagnostics()
+        models = models_from(source, self._workspace, found, mappings=mappings).models
+        self.diagnostics.extend(found)
+        found.raise_if_errors()
+        if not models:
+            raise NotFoundError("model", str(source), hint="the file holds no model")
+        placed = [self.server.spawn(_placed(model, name, pose)) for model in models]
+        return ModelOfSimulation(self.server, placed[0].name)
+
+    def delete(self, name: str) -> None:
+        """Remove a model.
+
+        Raises:
+            NotFoundError: there is no such model.
+        """
+        self.server.delete(self.model(name).name)
+
+    def joint(self, name: str) -> JointOfSimulation:
+        """Return a joint by ``joint`` (if only one model has it) or ``model::joint``.
+
+        Raises:
+            NotFoundError: there is none; the message names the nearest.
+        """
+        engine = self.server.engine
+        return JointOfSimulation(engine.joint(full_name("joint", name, engine.joint_names)))
+
+    def link(self, name: str) -> LinkOfSimulation:
+        """Return a link by ``link`` (if only one model has it) or ``model::link``.
+
+        Raises:
+            NotFoundError: there is none; the message names the nearest.
+        """
+        engine = self.server.engine
+        return LinkOfSimulation(engine.link(full_name("link", name, engine.link_names)))
+
+    def sensor(self, name: str) -> SensorOfSimulation:
+        """Return a sensor by ``sensor``, ``link::sensor`` or ``model::link::sensor``.
+
+        Raises:
+            NotFoundError: there is none; the message names the nearest.
+        """
+        places = self.server.sensor_places()
+        return SensorOfSimulation(self.server, places[full_name("sensor", name, places)])
+
+    def model(self, name: str) -> ModelOfSimulation:
+        """Return a model.
+
+        Raises:
+            NotFoundError: there is none; the message names the nearest.
+        """
+        names = [model.name for model in self.world.models]
+        if name not in names:
+            raise NotFoundError("model", name, nearest=nearest_names(name, names))
+        return ModelOfSimulation(self.server, name)
+
+    def publish(self, topic: str, message: Any) -> None:
+        """Publish one message, for example a command, to whoever listens.
+
+        Messages of other simulations and processes are reached when `node` is a graph's.
+        """
+        publisher = self.server.node.create_publisher(topic, type(message))
+        publisher.publish(message)
+        publisher.unregister()
+
+    def subscribe(self, topic: str, callback: Callable[[Any], None]) -> SubscriptionPort:
+        """Receive a topic: `callback` is called within `step`, when a message is published."""
+        return self.server.node.create_subscription(topic, None, callback, inline=True)
+
+
+def _placed(model: Model, name: str | None, pose: Pose | None) -> Model:
+    return replace(
+        model,
+        name=name or model.name,
+        T_world_model=model.T_world_model if pose is None else pose,
+    )

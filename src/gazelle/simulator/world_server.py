@@ -1,0 +1,287 @@
+"""The world server: what gzserver with gazebo_ros is elsewhere."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+from gazelle.description.model import Model, OtherSensorSpec, PluginTag, World
+from gazelle.diagnostics import Diagnostics
+from gazelle.geometry import Pose
+from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.frames import FrameWorker
+from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.pace import Mode, Pace
+from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
+from gazelle.simulator.plugins.registry import load_plugin
+from gazelle.simulator.ports import NodePort
+from gazelle.simulator.scheduler import Scheduler
+from gazelle.simulator.sensor_set import SensorSet, sensor_places
+
+if TYPE_CHECKING:
+    from gazelle.workspace import Workspace
+
+__all__ = ["WorldServer"]
+
+# Without a real-time target, commands are looked for after so many steps at the latest.
+_FAST_SLICE = 50
+
+
+class WorldServer:
+    """Owns an engine and runs tasks, plug-ins and services around its steps.
+
+    One thread owns the world: the one inside `run`, or whoever calls `step`. Commands from
+    topics and services are applied between steps only.
+
+    Attributes:
+        engine: the physics.
+        node: where topics and services live; a `LocalNode` without a graph.
+        scheduler: what is due when.
+        commands: the way in for other threads.
+        sensors: computes readings.
+        frames: renders beside the loop, unless in lock-step.
+        workspace: finds packages and models for what is spawned.
+        diagnostics: everything found about the user's files.
+        mode: how time runs.
+        paused: nothing moves; commands are still taken.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        *,
+        node: NodePort | None = None,
+        workspace: Workspace | None = None,
+        diagnostics: Diagnostics | None = None,
+        seed: int = 0,
+        mode: Mode = Mode.LOCKSTEP,
+        paused: bool = False,
+    ) -> None:
+        """Build the engine and start the plug-ins of every model.
+
+        Args:
+            world: what there is at the start.
+            node: None for topics and services inside this process only.
+            workspace: for models spawned later.
+            diagnostics: collects findings; a new list when None.
+            seed: of all noise.
+            mode: of `run`; `step` is always as fast as possible, and waits for frames in
+                lock-step.
+            paused: `run` waits for `unpause` before the first step.
+        """
+        from gazelle.engine import Engine
+
+        self.diagnostics = Diagnostics() if diagnostics is None else diagnostics
+        self.engine = Engine(world, diagnostics=self.diagnostics, seed=seed)
+        self.node: NodePort = LocalNode() if node is None else node
+        self.workspace = workspace
+        self.seed = seed
+        self.mode = mode
+        self.paused = paused
+        self.scheduler = Scheduler(self.engine.step_ns)
+        self.commands = CommandQueue()
+        self.sensors = SensorSet(self.engine, seed)
+        self.frames = FrameWorker()
+        self.pace = Pace(self._wanted_factor())
+        self._stop = threading.Event()
+        self._resources: dict[str, Resources] = {}
+        self._world_resources = Resources(self)
+        self._load_world_plugins()
+        for model in self.engine.world.models:
+            self._load_plugins(model, namespace="")
+
+    @property
+    def lockstep(self) -> bool:
+        """True when every camera frame is finished before time goes on."""
+        return self.mode is Mode.LOCKSTEP
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time."""
+        return self.engine.time_ns
+
+    def step(self, count: int = 1) -> None:
+        """Take steps now, in this thread, paused or not; tasks run when they are due.
+
+        Raises:
+            SimulationDivergedError: the state became non-finite.
+        """
+        self.commands.own()
+        try:
+            self._advance(count)
+        finally:
+            self.commands.disown()
+
+    def run(self) -> None:
+        """Run until `stop`: at the wanted real-time factor, or as fast as possible.
+
+        Raises:
+            SimulationDivergedError: the state became non-finite.
+        """
+        self.commands.own()
+        self.pace.restart(self.engine.time_ns)
+        try:
+            while not self._stop.is_set():
+                self._turn()
+        finally:
+            self.commands.disown()
+
+    def stop(self) -> None:
+        """End `run`; may be called from any thread and from signal handlers."""
+        self._stop.set()
+        self.commands.wake()
+
+    def pause(self) -> None:
+        """Stop time."""
+        self.paused = True
+
+    def unpause(self) -> None:
+        """Let time go on."""
+        self.paused = False
+        self.commands.wake()
+
+    def reset(self, *, time: bool = True) -> None:
+        """Put all models back to where they started; with `time`, start at 0 again."""
+        self.frames.wait()
+        self.engine.reset(time=time, poses=True)
+        if time:
+            self.scheduler.restart()
+        self.sensors.restart()
+        for resources in (self._world_resources, *self._resources.values()):
+            resources.reset()
+        self.pace.restart(self.engine.time_ns)
+
+    def spawn(
+        self,
+        model: Model,
+        *,
+        name: str | None = None,
+        T_world_model: Pose | None = None,
+        namespace: str = "",
+    ) -> Model:
+        """Bring a model into the running world and start its plug-ins.
+
+        Args:
+            model: what to add.
+            name: its name in the world; its own when None.
+            T_world_model: where; where the file puts it when None.
+            namespace: of plug-ins that name none.
+
+        Returns:
+            the model as it is in the world.
+        """
+        self.engine.spawn(model, name=name, T_world_model=T_world_model)
+        placed = self.engine.world.model(name or model.name)
+        assert placed is not None
+        self._load_plugins(placed, namespace=namespace)
+        return placed
+
+    def delete(self, name: str) -> None:
+        """Remove a model, its topics and services.
+
+        Raises:
+            NotFoundError: there is no such model.
+        """
+        resources = self._resources.pop(name, None)
+        if resources is not None:
+            resources.close()
+        self.engine.delete(name)
+
+    def set_step(self, step_s: float) -> None:
+        """Change the step; every task keeps its rate."""
+        self.engine.set_step_size(round(step_s * 1e9))
+        self.scheduler.set_step(self.engine.step_ns)
+        self.pace.restart(self.engine.time_ns)
+
+    def set_real_time_factor(self, factor: float) -> None:
+        """Change the wanted real-time factor; 0 is as fast as possible."""
+        self.pace.factor = factor
+        self.pace.restart(self.engine.time_ns)
+
+    def close(self) -> None:
+        """Release topics, services and threads; closing twice does nothing."""
+        self.stop()
+        self.frames.close()
+        for resources in self._resources.values():
+            resources.close()
+        self._resources.clear()
+        self._world_resources.close()
+
+    def place(self, name: str) -> SensorPlace:
+        """Return a sensor by its full name, ``model::link::sensor``.
+
+        Raises:
+            KeyError: there is none.
+        """
+        return self.sensor_places()[name]
+
+    def sensor_places(self) -> dict[str, SensorPlace]:
+        """Return all sensors of the world by their full names."""
+        return {
+            place.name: place
+            for model in self.engine.world.models
+            for place in sensor_places(model)
+        }
+
+    @property
+    def world_resources(self) -> Resources:
+        """What the world itself offers, closed with the server."""
+        return self._world_resources
+
+    def _turn(self) -> None:
+        self.commands.apply()
+        if self.paused:
+            self.commands.wait(None)
+            self.commands.clear_wake()
+            self.pace.restart(self.engine.time_ns)
+            return
+        lead = self.pace.lead_s(self.engine.time_ns)
+        if lead > 0:
+            self.commands.wait(lead)
+            self.commands.clear_wake()
+            return
+        if self.pace.factor > 0:
+            self._advance(self.pace.slice_steps(self.engine.step_ns))
+        else:
+            self._advance(_FAST_SLICE)
+
+    def _advance(self, count: int) -> None:
+        engine, scheduler = self.engine, self.scheduler
+        remaining = count
+        while remaining > 0:
+            self.commands.apply()
+            steps = max(1, min(remaining, scheduler.next_due() - engine.iteration))
+            engine.step(steps)
+            remaining -= steps
+            scheduler.run_due(engine.iteration)
+
+    def _wanted_factor(self) -> float:
+        if self.mode is not Mode.REAL_TIME:
+            return 0.0
+        physics = self.engine.world.physics
+        if physics.real_time_update_rate_hz <= 0:
+            return 0.0
+        # Gazebo's target is rate × step; real_time_factor is what it should come to.
+        return physics.real_time_update_rate_hz * self.engine.step_ns * 1e-9
+
+    def _load_world_plugins(self) -> None:
+        world = self.engine.world
+        stand_in = Model(name=world.name, static=True)
+        for plugin in world.plugins:
+            load_plugin(PluginContext(self, stand_in, plugin, self._world_resources))
+
+    def _load_plugins(self, model: Model, *, namespace: str) -> None:
+        resources = self._resources.setdefault(model.name, Resources(self))
+
+        def load(plugin: PluginTag, place: SensorPlace | None) -> None:
+            load_plugin(PluginContext(self, model, plugin, resources, place, namespace))
+
+        for place in sensor_places(model):
+            if isinstance(place.sensor.spec, OtherSensorSpec):
+                text = f"sensor '{place.name}' is of type '{place.sensor.type}', which is not "
+                code = "simulator.sensor-not-simulated"
+                self.diagnostics.report(code, text + "simulated", place.sensor.span)
+            for plugin in place.sensor.plugins:
+                load(plugin, place)
+        for plugin in model.plugins:
+            load(plugin, None)
