@@ -1,0 +1,26 @@
+"""Codes of the graph: topics, services, parameters, tf."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+ENTRIES = (
+    Entry(
+        "graph.port-taken",
+        "error",
+        "The port of the graph's hub belongs to another program",
+        "Every process finds the others through the hub, so no graph can start there.",
+        "end that program, or export GAZELLE_PORT (or ROS_DOMAIN_ID) in all shells",
+        "Unable to start XML-RPC server, port 11311 is already in use",
+    ),
+    Entry(
+        "graph.type-mismatch",
+        "error",
+        "Two ends of a topic or service have different types",
+        "The messages mean different things, so they are dropped; other ends go on.",
+        "use one type, or another topic name",
+        "Client wants topic to have datatype/md5sum, but our version has another",
+    ),
+)

@@ -1,0 +1,138 @@
+"""Time as nodes see it: wall time, or simulated time from ``/clock``."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.errors import TimeJumpError
+from gazelle.graph.wire import resolve_type
+
+if TYPE_CHECKING:
+    from gazelle.graph.node import Node
+    from gazelle.graph.subscription import Subscription
+
+__all__ = ["Clock"]
+
+_PARAMETER = "/use_sim_time"
+_CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+
+
+class Clock:
+    """The clock of all nodes of a process.
+
+    It follows ``/clock`` while the parameter ``/use_sim_time`` is true, and subscribes only
+    then. Simulated time is 0 until the first message, as in ROS 1.
+    """
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._nodes: list[Node] = []
+        self._subscription: Subscription | None = None
+        self._owner: Node | None = None
+        self._use_sim_time = False
+        self._closed = False
+        self._sim_ns = 0
+        self._jumps = 0
+        self._last_jump_ns = 0
+        self._listeners: list[Callable[[int], None]] = []
+
+    @property
+    def use_sim_time(self) -> bool:
+        """True while the clock follows ``/clock``."""
+        return self._use_sim_time
+
+    def now_ns(self) -> int:
+        """Return the time in nanoseconds: simulated, or since 1970."""
+        return self._sim_ns if self._use_sim_time else time.time_ns()
+
+    def on_jump(self, listener: Callable[[int], None]) -> None:
+        """Call `listener(delta_ns)` whenever simulated time goes backwards."""
+        self._listeners.append(listener)
+
+    def sleep(self, duration_ns: int) -> bool:
+        """Sleep on this clock; see `sleep_until`. Waits for the first ``/clock`` if need be."""
+        if self._use_sim_time and not self._wait_for_start():
+            return False
+        return self.sleep_until(self.now_ns() + duration_ns)
+
+    def sleep_until(self, target_ns: int) -> bool:
+        """Sleep until the clock shows a time.
+
+        Returns:
+            True when it does, False when the graph was closed first.
+
+        Raises:
+            TimeJumpError: simulated time went backwards meanwhile.
+        """
+        with self._changed:
+            jumps = self._jumps
+            while not self._closed:
+                left_ns = target_ns - self.now_ns()
+                if left_ns <= 0:
+                    return True
+                self._changed.wait(None if self._use_sim_time else left_ns / 1e9)
+                if self._jumps != jumps:
+                    raise TimeJumpError(self._last_jump_ns)
+        return False
+
+    def follow(self, node: Node) -> None:
+        """Let a node carry the subscription of ``/clock`` when it is needed."""
+        with self._changed:
+            self._nodes.append(node)
+        self.refresh(node.graph.parameters.get_cached(_PARAMETER, False))
+
+    def leave(self, node: Node) -> None:
+        """Count on a node no more; another one takes the subscription over."""
+        with self._changed:
+            self._nodes = [one for one in self._nodes if one is not node]
+            if self._owner is node:
+                self._owner = self._subscription = None
+        self.refresh(self._use_sim_time)
+
+    def refresh(self, use_sim_time: Any) -> None:
+        """Use simulated or wall time from now on."""
+        with self._changed:
+            use_sim_time = use_sim_time is True or use_sim_time == "true"
+            if use_sim_time != self._use_sim_time:
+                self._use_sim_time = use_sim_time
+                self._changed.notify_all()
+            needs = use_sim_time and self._subscription is None and bool(self._nodes)
+            owner = self._owner = self._nodes[0] if needs else self._owner
+            done = None if use_sim_time else self._subscription
+            if done is not None:
+                self._subscription = self._owner = None
+        if done is not None:
+            done.unregister()
+        if needs and owner is not None:
+            self._subscription = owner.create_subscription(
+                "/clock", resolve_type(_CLOCK_TYPE), self._on_clock, inline=True
+            )
+
+    def close(self) -> None:
+        """Wake everybody who sleeps."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
+
+    def _on_clock(self, message: Any) -> None:
+        stamp = message.clock
+        now_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        with self._changed:
+            delta_ns = now_ns - self._sim_ns
+            self._sim_ns = now_ns
+            if delta_ns < 0:
+                self._jumps += 1
+                self._last_jump_ns = delta_ns
+            self._changed.notify_all()
+        if delta_ns < 0:
+            for listener in tuple(self._listeners):
+                listener(delta_ns)
+
+    def _wait_for_start(self) -> bool:
+        with self._changed:
+            while self._use_sim_time and not self._sim_ns and not self._closed:
+                self._changed.wait()
+        return not self._closed

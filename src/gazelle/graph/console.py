@@ -1,0 +1,127 @@
+"""Log lines on the console, in the format and colours of ROS 1's rosconsole."""
+
+from __future__ import annotations
+
+import enum
+import os
+import re
+import sys
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+__all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
+
+_DEFAULT_FORMAT = "[${severity}] [${time}]: ${message}"
+_FIELD = re.compile(r"\$\{([^}:]+)(?::([^}]*))?\}")
+_RESET = "\033[0m"
+
+
+class Level(enum.IntEnum):
+    """Severities with the numbers of ``rosgraph_msgs/Log``."""
+
+    DEBUG = 1
+    INFO = 2
+    WARN = 4
+    ERROR = 8
+    FATAL = 16
+
+
+_COLOURS = {
+    Level.DEBUG: "\033[32m",
+    Level.INFO: "",
+    Level.WARN: "\033[33m",
+    Level.ERROR: "\033[31m",
+    Level.FATAL: "\033[31m",
+}
+_WORDS = {"warning": Level.WARN, "critical": Level.FATAL}
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One thing a node said.
+
+    Attributes:
+        level: how bad it is.
+        text: the message.
+        node: global name of the node.
+        wall_ns: wall time, nanoseconds since 1970.
+        sim_ns: simulated time in nanoseconds, None when the node uses wall time.
+        logger: the logger's name, empty for the node's own.
+        file: source file.
+        function: function in it.
+        line: line in it.
+    """
+
+    level: Level
+    text: str
+    node: str
+    wall_ns: int
+    sim_ns: int | None = None
+    logger: str = ""
+    file: str = ""
+    function: str = ""
+    line: int = 0
+
+
+def level_of(level: Level | int | str) -> Level:
+    """Return the level of a word (``warn``, ``warning``) or of a number."""
+    if isinstance(level, str):
+        word = level.lower()
+        return _WORDS.get(word) or Level[word.upper()]
+    return Level(level)
+
+
+def format_record(
+    record: LogRecord, *, padded: bool = True, environ: Mapping[str, str] | None = None
+) -> str:
+    """Return the line, by ``ROSCONSOLE_FORMAT`` where it is set.
+
+    Args:
+        record: what to write.
+        padded: write ``[ INFO]`` as roscpp does, not ``[INFO]`` as rospy does.
+        environ: the environment, that of the process by default.
+    """
+    pattern = (os.environ if environ is None else environ).get("ROSCONSOLE_FORMAT", "")
+    digits = 9 if padded else 6
+    stamp = _seconds(record.wall_ns, digits)
+    if record.sim_ns is not None:
+        stamp += f", {_seconds(record.sim_ns, digits)}"
+    values = {
+        "severity": record.level.name.rjust(5) if padded else record.level.name,
+        "message": record.text,
+        "node": record.node,
+        "logger": record.logger or record.node.strip("/"),
+        "file": record.file,
+        "line": str(record.line),
+        "function": record.function,
+        "thread": threading.current_thread().name,
+    }
+
+    def fill(match: re.Match[str]) -> str:
+        name, style = match[1], match[2]
+        if name in ("time", "walltime"):
+            if style:
+                return time.strftime(style, time.localtime(record.wall_ns / 1e9))
+            return stamp if name == "time" else _seconds(record.wall_ns, digits)
+        return values.get(name, match[0])
+
+    return _FIELD.sub(fill, pattern or _DEFAULT_FORMAT)
+
+
+def print_record(record: LogRecord, *, padded: bool = True) -> None:
+    """Write the line: warnings and worse to stderr, the rest to stdout; coloured on a terminal."""
+    stream = sys.stderr if record.level >= Level.WARN else sys.stdout
+    line = format_record(record, padded=padded)
+    colour = _COLOURS[record.level]
+    if colour and stream is not None and stream.isatty():
+        line = f"{colour}{line}{_RESET}"
+    if stream is not None:
+        stream.write(f"{line}\n")
+        stream.flush()
+
+
+def _seconds(stamp_ns: int, digits: int) -> str:
+    text = f"{stamp_ns // 1_000_000_000}.{stamp_ns % 1_000_000_000:09d}"
+    return text[: len(text) - 9 + digits]

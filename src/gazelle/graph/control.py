@@ -1,0 +1,85 @@
+"""What a process answers about itself: who it is, and requests to end a node."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.keys import control_key
+from gazelle.graph.parameter_tree import from_json, to_json
+
+if TYPE_CHECKING:
+    import zenoh
+
+__all__ = ["Control", "ask_process", "shut_down_node"]
+
+_ASK_S = 2.0
+
+
+class Control:
+    """Answers at this process' control key."""
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        domain: int,
+        zid: str,
+        shut_down: Callable[[str, str], bool],
+    ) -> None:
+        """Start to answer.
+
+        Args:
+            session: the process' session.
+            domain: the graph's domain.
+            zid: the session's name.
+            shut_down: ends a node by name and reason; tells whether there was one.
+        """
+        self._key = control_key(domain, zid)
+        self._shut_down = shut_down
+        self._queryable: Any = session.declare_queryable(self._key, self._answer)
+
+    def close(self) -> None:
+        """Answer no more."""
+        self._queryable.undeclare()
+
+    def _answer(self, query: Any) -> None:
+        request = from_json(query.payload.to_bytes())
+        answer: dict[str, Any] = {"error": f"unknown request '{request.get('op')}'"}
+        if request.get("op") == "info":
+            answer = {"pid": os.getpid(), "host": _host()}
+        elif request.get("op") == "shutdown":
+            # The node's end can take a while and ends what answers here too.
+            threading.Thread(
+                target=self._shut_down, args=(request["node"], request["reason"]), daemon=True
+            ).start()
+            answer = {"pid": os.getpid(), "host": _host()}
+        query.reply(self._key, to_json(answer))
+        query.drop()
+
+
+def ask_process(session: zenoh.Session, domain: int, zid: str) -> tuple[int, str]:
+    """Return process number and host of a session, (0, "") when it does not answer."""
+    answer = _ask(session, domain, zid, {"op": "info"})
+    return int(answer.get("pid", 0)), str(answer.get("host", ""))
+
+
+def shut_down_node(session: zenoh.Session, domain: int, zid: str, node: str, reason: str) -> bool:
+    """Ask a process to end one of its nodes; return whether it answered."""
+    return bool(_ask(session, domain, zid, {"op": "shutdown", "node": node, "reason": reason}))
+
+
+def _ask(session: zenoh.Session, domain: int, zid: str, request: dict[str, Any]) -> dict[str, Any]:
+    key = control_key(domain, zid)
+    for reply in session.get(key, payload=to_json(request), timeout=_ASK_S):
+        if reply.ok is not None:
+            answer: dict[str, Any] = from_json(reply.ok.payload.to_bytes())
+            return answer
+    return {}
+
+
+def _host() -> str:
+    import socket
+
+    return socket.gethostname()

@@ -1,0 +1,114 @@
+"""What is on the graph right now: every node, topic and service of every process."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.keys import Entity, Kind, entity_gid, token_selector
+
+if TYPE_CHECKING:
+    import zenoh
+
+__all__ = ["Discovery"]
+
+_ASK_S = 2.0
+
+
+class Discovery:
+    """Keeps the entities of a domain current, from liveliness tokens.
+
+    A token disappears with its process, also after ``kill -9``.
+    """
+
+    def __init__(self, session: zenoh.Session, domain: int) -> None:
+        self._session = session
+        self._selector = token_selector(domain)
+        self._entities: dict[str, Entity] = {}
+        self._by_gid: dict[bytes, Entity] = {}
+        self._changed = threading.Condition()
+        self._listeners: list[Callable[[Entity, bool], None]] = []
+        self._subscriber: Any = None
+
+    def start(self) -> None:
+        """Follow changes from now on; what is there already counts as a change."""
+        import zenoh
+
+        callback = zenoh.handlers.Callback(self._on_token, None, indirect=False)
+        self._subscriber = self._session.liveliness().declare_subscriber(
+            self._selector, callback, history=True
+        )
+
+    def close(self) -> None:
+        """Follow changes no more."""
+        if self._subscriber is not None:
+            self._subscriber.undeclare()
+            self._subscriber = None
+
+    def ask(self) -> tuple[Entity, ...]:
+        """Return all entities, asking the graph afresh; complete also just after joining."""
+        found: dict[str, Entity] = {}
+        for reply in self._session.liveliness().get(self._selector, timeout=_ASK_S):
+            if reply.ok is not None:
+                _read_token(str(reply.ok.key_expr), found)
+        with self._changed:
+            return tuple((self._entities | found).values())
+
+    def known(self) -> tuple[Entity, ...]:
+        """Return the entities seen so far, without asking."""
+        with self._changed:
+            return tuple(self._entities.values())
+
+    def count(self, kind: Kind, name: str) -> int:
+        """Return how many publishers, subscriptions … of a name are known."""
+        with self._changed:
+            return sum(one.kind is kind and one.name == name for one in self._entities.values())
+
+    def with_gid(self, gid: bytes) -> Entity | None:
+        """Return the entity that an attachment names, None when it is not known (any more)."""
+        return self._by_gid.get(gid)
+
+    def listen(self, listener: Callable[[Entity, bool], None]) -> None:
+        """Call `listener(entity, is_there)` for every entity that comes or goes."""
+        with self._changed:
+            self._listeners.append(listener)
+
+    def wait_for(
+        self, condition: Callable[[Iterable[Entity]], bool], timeout_s: float | None
+    ) -> bool:
+        """Wait until a condition on the known entities holds; False when time is up."""
+        deadline = None if timeout_s is None else time.monotonic() + timeout_s
+        with self._changed:
+            while not condition(self._entities.values()):
+                left = None if deadline is None else deadline - time.monotonic()
+                if left is not None and left <= 0:
+                    return False
+                self._changed.wait(left)
+        return True
+
+    def _on_token(self, sample: Any) -> None:
+        import zenoh
+
+        key = str(sample.key_expr)
+        entity = Entity.from_token(key)
+        if entity is None:
+            return
+        is_there = sample.kind == zenoh.SampleKind.PUT
+        with self._changed:
+            if is_there:
+                self._entities[key] = self._by_gid[entity_gid(key)] = entity
+            else:
+                self._entities.pop(key, None)
+                self._by_gid.pop(entity_gid(key), None)
+            self._changed.notify_all()
+            listeners = tuple(self._listeners)
+        for listener in listeners:
+            listener(entity, is_there)
+
+
+def _read_token(key: str, into: dict[str, Entity]) -> None:
+    entity = Entity.from_token(key)
+    if entity is not None:
+        into[key] = entity

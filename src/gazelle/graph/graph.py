@@ -1,0 +1,385 @@
+"""A process' membership in the graph."""
+
+from __future__ import annotations
+
+import atexit
+import itertools
+import os
+import socket
+import threading
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import GraphError, NotFoundError
+from gazelle.graph import introspection
+from gazelle.graph.clock import Clock
+from gazelle.graph.config import client_config, domain_of, peer_config, port_of
+from gazelle.graph.control import Control, ask_process, shut_down_node
+from gazelle.graph.discovery import Discovery
+from gazelle.graph.errors import NoGraphError, PortTakenError
+from gazelle.graph.hub import HubKeeper, close_session
+from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
+from gazelle.graph.keys import Entity, Kind
+from gazelle.graph.local_topic import LocalTopics
+from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
+from gazelle.graph.node import Node
+from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
+
+if TYPE_CHECKING:
+    import zenoh
+
+__all__ = ["Graph"]
+
+Role = Literal["auto", "hub", "client"]
+
+_HUB_S = 3.0
+_TAKEN_OVER = "new node registered with same name"
+
+
+class Graph:
+    """The graph as one process sees it; open one per process with `Graph.open`.
+
+    Roles: ``auto`` carries the hub when nobody does, else joins; ``hub`` is the same but takes
+    a lost hub over at once, for launches, simulators and ``roscore``; ``client`` only joins,
+    for command-line tools. When the process with the hub ends, another one takes the hub and
+    the parameters over; with none left the graph is gone.
+
+    Attributes:
+        port: the hub's port on 127.0.0.1.
+        domain: ``ROS_DOMAIN_ID``.
+        session: the transport.
+        zid: the session's name, in tokens.
+        clock: the clock of all nodes here.
+        parameters: the parameter store, by global names.
+        local: topics' ends in this process.
+    """
+
+    _open: ClassVar[list[Graph]] = []
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        *,
+        port: int,
+        domain: int,
+        environ: Mapping[str, str],
+        keeper: HubKeeper | None,
+    ) -> None:
+        """Wrap an open session; use `Graph.open`."""
+        self.session = session
+        self.port = port
+        self.domain = domain
+        self.zid = str(session.zid())
+        self.clock = Clock()
+        self.local = LocalTopics()
+        self.parameter_share = ParameterShare(session, domain)
+        self.parameters: ParameterStore = global_parameters(self.parameter_share)
+        self._environ = environ
+        self._keeper = keeper
+        self._discovery = Discovery(session, domain)
+        self._nodes: dict[str, Node] = {}
+        self._ids = itertools.count()
+        self._lock = threading.RLock()
+        self._control: Control | None = None
+        self._closed = False
+
+    @classmethod
+    def open(
+        cls,
+        *,
+        environ: Mapping[str, str] | None = None,
+        port: int | None = None,
+        role: Role = "auto",
+    ) -> Graph:
+        """Join the graph.
+
+        Args:
+            environ: the environment, that of the process by default.
+            port: the hub's port, from the environment by default (see `config.port_of`).
+            role: how to join, see the class.
+
+        Raises:
+            PortTakenError: the port belongs to another program.
+            NoGraphError: a client found no graph.
+        """
+        values = dict(os.environ if environ is None else environ)
+        domain = domain_of(values)
+        port = port_of(values) if port is None else port
+        if role == "client":
+            session = _open_client(port)
+            graph = cls(session, port=port, domain=domain, environ=values, keeper=None)
+        else:
+            graph = _open_peer(cls, port, domain, values, eager=role == "hub")
+        graph._start()
+        return graph
+
+    @classmethod
+    def current(cls) -> Graph | None:
+        """Return the graph this process opened last and has not closed, None without one."""
+        return cls._open[-1] if cls._open else None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exc_info: object) -> None:
+        self.close()
+
+    @property
+    def is_hub(self) -> bool:
+        """True when this process carries the hub."""
+        return self._keeper is not None and self._keeper.is_hub
+
+    @property
+    def connected(self) -> bool:
+        """True while there is a hub; a graph without one heals within a second."""
+        return not self._closed and (self._keeper is None or self._keeper.connected)
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes of this process."""
+        with self._lock:
+            return tuple(self._nodes.values())
+
+    def create_node(
+        self,
+        name: str,
+        *,
+        namespace: str | None = None,
+        remappings: Mapping[str, str] | None = None,
+        anonymous: bool = False,
+        rosout: bool = True,
+    ) -> Node:
+        """Add a node; one of the same name anywhere on the graph is told to shut down.
+
+        Args:
+            name: one legal part.
+            namespace: where it lives, ``ROS_NAMESPACE`` by default.
+            remappings: names as in ``a:=b`` arguments.
+            anonymous: make the name unique.
+            rosout: announce ``/rosout``, where `Node.log` goes.
+
+        Raises:
+            IllegalNameError: the name is not legal.
+        """
+        if self._closed:
+            raise GraphError("the graph is closed")
+        own = check_node_name(anonymous_name(name) if anonymous else name)
+        if namespace is None:
+            namespace = self._environ.get("ROS_NAMESPACE", "")
+        namespace = resolve(namespace or "/", "/")
+        full = join(namespace, own)
+        if not anonymous:
+            self._end_namesakes(full)
+        node = Node(self, full, namespace, remappings or {}, rosout=rosout)
+        with self._lock:
+            self._nodes[full] = node
+        if self._keeper is not None:
+            self.clock.follow(node)
+        return node
+
+    def topics(self, *, include_hidden: bool = False) -> tuple[TopicInfo, ...]:
+        """Return all topics with type, publishers and subscriptions, by name."""
+        return introspection.topics_of(self.entities(), include_hidden=include_hidden)
+
+    def topic_names_and_types(self, *, include_hidden: bool = False) -> list[tuple[str, str]]:
+        """Return names and types of all topics, by name."""
+        return [(one.name, one.type_name) for one in self.topics(include_hidden=include_hidden)]
+
+    def services(self, *, include_hidden: bool = False) -> tuple[ServiceInfo, ...]:
+        """Return all services with type and servers, by name."""
+        return introspection.services_of(self.entities(), include_hidden=include_hidden)
+
+    def node_names(self, *, include_hidden: bool = False) -> tuple[str, ...]:
+        """Return the global names of all nodes, sorted."""
+        return introspection.nodes_of(self.entities(), include_hidden=include_hidden)
+
+    def node_info(self, name: str) -> NodeInfo:
+        """Return all about one node, its process number included.
+
+        Raises:
+            NotFoundError: there is no such node.
+        """
+        entities = self.entities()
+        full = resolve(name)
+        info = introspection.node_info(entities, full)
+        if info is None:
+            raise self._no_node(full, entities)
+        pid, host = ask_process(self.session, self.domain, info.zid)
+        return info._replace(pid=pid, host=host)
+
+    def publishers_info(self, topic: str) -> tuple[Entity, ...]:
+        """Return the publishers of a topic."""
+        return self._ends(Kind.PUBLISHER, topic)
+
+    def subscriptions_info(self, topic: str) -> tuple[Entity, ...]:
+        """Return the subscriptions of a topic."""
+        return self._ends(Kind.SUBSCRIPTION, topic)
+
+    def kill_node(self, name: str, reason: str = "user request") -> bool:
+        """Ask a node to shut down, as ``rosnode kill`` does; return whether its process answered.
+
+        Raises:
+            NotFoundError: there is no such node.
+        """
+        entities = self.entities()
+        full = resolve(name)
+        info = introspection.node_info(entities, full)
+        if info is None:
+            raise self._no_node(full, entities)
+        return shut_down_node(self.session, self.domain, info.zid, full, reason)
+
+    def entities(self) -> tuple[Entity, ...]:
+        """Return everything on the graph, asking afresh; complete also just after joining."""
+        return self._discovery.ask()
+
+    @property
+    def discovery(self) -> Discovery:
+        """What is known of the graph without asking, and notice of changes."""
+        return self._discovery
+
+    def entity_with_gid(self, gid: bytes) -> Entity | None:
+        """Return the publisher that an attachment names, if it is there."""
+        return self._discovery.with_gid(gid)
+
+    def subscription_count(self, topic: str) -> int:
+        """Return how many subscriptions of a topic are known."""
+        return self._discovery.count(Kind.SUBSCRIPTION, topic)
+
+    def publisher_count(self, topic: str) -> int:
+        """Return how many publishers of a topic are known."""
+        return self._discovery.count(Kind.PUBLISHER, topic)
+
+    def has_service(self, name: str) -> bool:
+        """Return whether somebody offers the service."""
+        full = resolve(name)
+        return self._discovery.count(Kind.SERVICE, full) > 0 or any(
+            one.kind is Kind.SERVICE and one.name == full for one in self.entities()
+        )
+
+    def wait_for_service(self, name: str, timeout_s: float | None = None) -> bool:
+        """Wait until somebody offers the service; False when time is up first."""
+        full = resolve(name)
+        return self._discovery.wait_for(
+            lambda known: any(one.kind is Kind.SERVICE and one.name == full for one in known),
+            timeout_s,
+        )
+
+    def next_id(self) -> int:
+        """Return a number that no entity of this session has."""
+        return next(self._ids)
+
+    def forget(self, one: Any) -> None:
+        """Forget a node, or something of a node, that was closed."""
+        with self._lock:
+            if isinstance(one, Node):
+                if self._nodes.get(one.name) is one:
+                    del self._nodes[one.name]
+                return
+            owner = self._nodes.get(one.entity.node)
+        if owner is not None:
+            owner.drop(one)
+
+    def close(self) -> None:
+        """Shut the nodes down and leave; calling it twice does nothing."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        self.clock.close()
+        for node in self.nodes:
+            node.shutdown("graph closed")
+        if self in Graph._open:
+            Graph._open.remove(self)
+        self._discovery.close()
+        if self._control is not None:
+            self._control.close()
+        self.parameter_share.close()
+        close_session(self.session)
+        if self._keeper is not None:
+            self._keeper.close()
+        atexit.unregister(self.close)
+
+    def _start(self) -> None:
+        self._discovery.start()
+        self._control = Control(self.session, self.domain, self.zid, self._shut_node_down)
+        if self._keeper is not None:
+            self.parameters.on_change(self._on_parameter)
+        Graph._open.append(self)
+        atexit.register(self.close)
+
+    def _on_parameter(self, name: str) -> None:
+        if name in ("/", "/use_sim_time"):
+            value = self.parameters.get_cached("/use_sim_time", False)
+            threading.Thread(target=self.clock.refresh, args=(value,), daemon=True).start()
+
+    def _shut_node_down(self, name: str, reason: str) -> bool:
+        with self._lock:
+            node = self._nodes.get(name)
+        if node is None:
+            return False
+        node.log("warn", f"shutdown request: [{name}] Reason: {reason}")
+        node.shutdown(reason)
+        return True
+
+    def _end_namesakes(self, name: str) -> None:
+        self._shut_node_down(name, _TAKEN_OVER)
+        for one in self.entities():
+            if one.kind is Kind.NODE and one.node == name and one.zid != self.zid:
+                shut_down_node(self.session, self.domain, one.zid, name, _TAKEN_OVER)
+
+    def _ends(self, kind: Kind, topic: str) -> tuple[Entity, ...]:
+        full = resolve(topic)
+        return tuple(one for one in self.entities() if one.kind is kind and one.name == full)
+
+    def _no_node(self, name: str, entities: tuple[Entity, ...]) -> NotFoundError:
+        names = introspection.nodes_of(entities)
+        return NotFoundError(
+            "node", name, nearest=nearest_names(name, names), hint="ROS says: Unknown node"
+        )
+
+
+def _open_peer(
+    cls: type[Graph], port: int, domain: int, environ: Mapping[str, str], *, eager: bool
+) -> Graph:
+    import zenoh
+
+    keeper = HubKeeper(port, eager=eager)
+    keeper.carry()
+    session = zenoh.open(peer_config(port))
+    graph = cls(session, port=port, domain=domain, environ=environ, keeper=keeper)
+    if not keeper.start(session, _HUB_S, graph.parameter_share.own):
+        keeper.close()
+        close_session(session)
+        raise _port_taken(port)
+    return graph
+
+
+def _open_client(port: int) -> zenoh.Session:
+    import zenoh
+
+    try:
+        return zenoh.open(client_config(port))
+    except zenoh.ZError as error:
+        if _somebody_listens(port):
+            raise _port_taken(port) from error
+        raise NoGraphError(
+            f"no graph is running on port {port} (Unable to communicate with master!)\n"
+            "  fix: start a launch, a simulator or `gazelle roscore`; GAZELLE_PORT, "
+            "ROS_DOMAIN_ID and ROS_MASTER_URI must be the same in all shells"
+        ) from None
+
+
+def _somebody_listens(port: int) -> bool:
+    with socket.socket() as probe:
+        probe.settimeout(1.0)
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+def _port_taken(port: int) -> PortTakenError:
+    return PortTakenError(
+        f"port {port} on 127.0.0.1 is taken by a program that is not a Gazelle graph, or by one "
+        "that does not answer [graph.port-taken]\n"
+        f"  fix: end that program (ss -ltnp 'sport = :{port}' shows it), or choose another port "
+        f"for all shells: export GAZELLE_PORT={port + 1}"
+    )

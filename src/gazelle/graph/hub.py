@@ -1,0 +1,138 @@
+"""The hub every process finds the others through, and who carries it when its process ends."""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.config import hub_config
+
+if TYPE_CHECKING:
+    import zenoh
+
+__all__ = ["HubKeeper", "close_session"]
+
+_PAUSE_S = 0.05
+_RETRY_S = 0.2
+_CHECK_S = 0.5
+
+
+class HubKeeper:
+    """Carries the hub when nobody else does, and takes it over when it is lost.
+
+    The hub is a second session in router mode; only one process of a machine can listen on the
+    port, which is what elects it. The others are told by their connection ending.
+    """
+
+    def __init__(self, port: int, *, eager: bool) -> None:
+        """Start without carrying anything.
+
+        Args:
+            port: the hub's port.
+            eager: try to take over at once; others wait a moment first.
+        """
+        self._port = port
+        self._eager = eager
+        self._on_gain: Callable[[], None] | None = None
+        self._hub: zenoh.Session | None = None
+        self._connected = threading.Event()
+        self._lost = threading.Event()
+        self._ended = threading.Event()
+        self._lock = threading.Lock()
+        self._listener: Any = None
+
+    @property
+    def is_hub(self) -> bool:
+        """True when this process carries the hub."""
+        return self._hub is not None
+
+    @property
+    def connected(self) -> bool:
+        """True while there is a hub."""
+        return self._connected.is_set()
+
+    def carry(self) -> bool:
+        """Carry the hub if nobody does; return whether this process does now."""
+        import zenoh
+
+        try:
+            hub = zenoh.open(hub_config(self._port))
+        except zenoh.ZError:
+            return False
+        with self._lock:
+            carries = not self._ended.is_set()
+            if carries:
+                self._hub = hub
+        if not carries:
+            close_session(hub)
+        elif self._on_gain is not None:
+            self._on_gain()
+        return carries
+
+    def start(self, session: zenoh.Session, timeout_s: float, on_gain: Callable[[], None]) -> bool:
+        """Watch for the hub; return whether there is one within the time.
+
+        Args:
+            session: the process' own session, which looks for the hub by itself.
+            timeout_s: how long to wait for the hub of another process.
+            on_gain: called when this process becomes the hub, now or later.
+        """
+        import zenoh
+
+        callback = zenoh.handlers.Callback(self._on_transport, None, indirect=False)
+        self._listener = session.info.declare_transport_events_listener(callback, history=True)
+        self._on_gain = on_gain
+        if self.is_hub:
+            on_gain()
+        deadline = time.monotonic() + timeout_s
+        while not self._connected.wait(_RETRY_S):
+            if time.monotonic() > deadline:
+                return False
+            if not self.is_hub:
+                self.carry()
+        threading.Thread(target=self._watch, name="gazelle-hub", daemon=True).start()
+        return True
+
+    def close(self) -> None:
+        """Give the hub up; another process takes it over."""
+        with self._lock:
+            self._ended.set()
+            hub, self._hub = self._hub, None
+        self._lost.set()
+        if self._listener is not None:
+            self._listener.undeclare()
+        if hub is not None:
+            close_session(hub)
+
+    def _on_transport(self, event: Any) -> None:
+        import zenoh
+
+        if str(event.transport.whatami) != "router":
+            return
+        if event.kind == zenoh.SampleKind.PUT:
+            self._connected.set()
+            self._lost.clear()
+        else:
+            self._connected.clear()
+            self._lost.set()
+
+    def _watch(self) -> None:
+        """Wait for the hub's loss, then race for the port until there is a hub again."""
+        while not self._ended.is_set():
+            self._lost.wait()
+            if self._ended.is_set():
+                return
+            if not self._eager:
+                time.sleep(random.uniform(_PAUSE_S, 2 * _PAUSE_S))
+            if not self._connected.is_set() and not self.is_hub:
+                self.carry()
+            if self._connected.wait(_CHECK_S):
+                self._lost.clear()
+
+
+def close_session(session: Any) -> None:
+    """Leave; what the session declared disappears for all others."""
+    session.close()

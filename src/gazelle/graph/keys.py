@@ -1,0 +1,219 @@
+"""Key expressions, liveliness tokens and attachments, as ROS 2's ``rmw_zenoh`` writes them.
+
+Source of the formats: ros2/rmw_zenoh, ``docs/design.md``. Names are written there with ``%``
+for ``/``; a type is spelled ``sensor_msgs::msg::dds_::LaserScan_``.
+"""
+
+from __future__ import annotations
+
+import enum
+import struct
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import NamedTuple
+
+__all__ = [
+    "ANY_TYPE",
+    "DEFAULT_QOS",
+    "NO_HASH",
+    "Attachment",
+    "Entity",
+    "Kind",
+    "Qos",
+    "control_key",
+    "dds_type",
+    "entity_gid",
+    "parameter_key",
+    "ros_type",
+    "service_key",
+    "token",
+    "token_selector",
+    "topic_key",
+    "topic_selector",
+    "type_in_key",
+]
+
+ANY_TYPE = "*"
+NO_HASH = "TypeHashNotSupported"
+_ANY_ON_WIRE = "any"
+_SPACE = "@ros2_lv"
+_OWN_SPACE = "@gazelle"
+_ATTACHMENT = struct.Struct("<qqB16s")
+_DEFAULT_DEPTH = 42
+
+
+class Kind(enum.StrEnum):
+    """What a liveliness token stands for."""
+
+    NODE = "NN"
+    PUBLISHER = "MP"
+    SUBSCRIPTION = "MS"
+    SERVICE = "SS"
+    CLIENT = "SC"
+
+
+class Qos(NamedTuple):
+    """The part of a ROS 2 quality of service that this graph acts on."""
+
+    reliable: bool = True
+    latched: bool = False
+    depth: int = _DEFAULT_DEPTH
+
+    def to_key(self) -> str:
+        """Write as in a token: only what differs from the default (reliable, volatile)."""
+        reliability = "" if self.reliable else "2"
+        durability = "1" if self.latched else ""
+        depth = "" if self.depth == _DEFAULT_DEPTH else str(self.depth)
+        return f"{reliability}:{durability}:,{depth}:,:,:,,"
+
+    @classmethod
+    def from_key(cls, text: str) -> Qos:
+        """Read what `to_key` or ``rmw_zenoh`` wrote; unknown parts count as default."""
+        parts = [*text.split(":"), "", "", ""]
+        depth = parts[2].partition(",")[2]
+        return cls(
+            parts[0] != "2", parts[1] == "1", int(depth) if depth.isdigit() else _DEFAULT_DEPTH
+        )
+
+
+DEFAULT_QOS = Qos()
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """One node, publisher, subscription, service or client somewhere on the graph.
+
+    Attributes:
+        zid: the session it lives in, hexadecimal; one session is one process.
+        node_id: number of its node in the session.
+        entity_id: number of its own in the session.
+        kind: what it is.
+        node: global name of its node.
+        name: global name of topic or service, empty for a node.
+        type_name: ``pkg/msg/Name``, `ANY_TYPE` when it takes any, empty for a node.
+        type_hash: RIHS01 hash of the type.
+        qos: quality of service.
+    """
+
+    zid: str
+    node_id: int
+    entity_id: int
+    kind: Kind
+    node: str
+    name: str = ""
+    type_name: str = ""
+    type_hash: str = NO_HASH
+    qos: Qos = DEFAULT_QOS
+
+    @classmethod
+    def from_token(cls, key: str) -> Entity | None:
+        """Read a token; None when it is not one."""
+        parts = key.split("/")
+        if len(parts) not in (9, 13) or parts[0] != _SPACE or parts[5] not in set(Kind):
+            return None
+        if not (parts[3].isdigit() and parts[4].isdigit()):
+            return None
+        namespace = parts[7].replace("%", "/").rstrip("/")
+        start = (parts[2], int(parts[3]), int(parts[4]), Kind(parts[5]))
+        node = f"{namespace}/{parts[8].replace('%', '/')}"
+        if len(parts) == 9:
+            return cls(*start, node)
+        name = parts[9].replace("%", "/")
+        return cls(*start, node, name, ros_type(parts[10]), parts[11], Qos.from_key(parts[12]))
+
+
+class Attachment(NamedTuple):
+    """What travels beside each message.
+
+    Attributes:
+        sequence: counts the publisher's messages from 1.
+        stamp_ns: wall time of publishing, nanoseconds since 1970.
+        gid: 16 bytes that name the publisher, see `entity_gid`.
+    """
+
+    sequence: int
+    stamp_ns: int
+    gid: bytes
+
+    def to_bytes(self) -> bytes:
+        """Return the 33 bytes of ``rmw_zenoh`` 0.2.4 and later."""
+        return _ATTACHMENT.pack(self.sequence, self.stamp_ns, 16, self.gid)
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Attachment:
+        """Read an attachment; one of another length gives zeros."""
+        if len(data) != _ATTACHMENT.size:
+            return cls(0, 0, bytes(16))
+        sequence, stamp_ns, _, gid = _ATTACHMENT.unpack(data)
+        return cls(sequence, stamp_ns, gid)
+
+
+def dds_type(type_name: str) -> str:
+    """Spell ``pkg/msg/Name`` as ``pkg::msg::dds_::Name_``."""
+    if type_name == ANY_TYPE:
+        return _ANY_ON_WIRE
+    *folders, name = type_name.split("/")
+    return "::".join([*folders, "dds_", f"{name}_"])
+
+
+def ros_type(text: str) -> str:
+    """Undo `dds_type`."""
+    if text == _ANY_ON_WIRE:
+        return ANY_TYPE
+    *folders, name = text.split("::")
+    return "/".join([*(one for one in folders if one != "dds_"), name.removesuffix("_")])
+
+
+def topic_key(domain: int, topic: str, type_name: str, type_hash: str) -> str:
+    """Return the key that a topic's messages travel under."""
+    return f"{domain}/{topic.strip('/')}/{dds_type(type_name)}/{type_hash}"
+
+
+def topic_selector(domain: int, topic: str) -> str:
+    """Return the expression that matches a topic whatever its type, so mismatches can be told."""
+    return f"{domain}/{topic.strip('/')}/*/*"
+
+
+def service_key(domain: int, service: str, type_name: str, type_hash: str) -> str:
+    """Return the key a service answers at; hash ``*`` asks whatever the hash."""
+    return f"{domain}/{service.strip('/')}/{dds_type(type_name)}/{type_hash}"
+
+
+def type_in_key(key: str) -> tuple[str, str]:
+    """Return type name and hash of a topic's or service's key."""
+    type_text, type_hash = key.rsplit("/", 2)[1:]
+    return ros_type(type_text), type_hash
+
+
+def token(domain: int, entity: Entity) -> str:
+    """Return the liveliness token of an entity."""
+    namespace, _, name = entity.node.rpartition("/")
+    text = (
+        f"{_SPACE}/{domain}/{entity.zid}/{entity.node_id}/{entity.entity_id}/{entity.kind}"
+        f"/%/{namespace.replace('/', '%') or '%'}/{name}"
+    )
+    if entity.kind is Kind.NODE:
+        return text
+    topic = entity.name.replace("/", "%")
+    type_text = dds_type(entity.type_name)
+    return f"{text}/{topic}/{type_text}/{entity.type_hash}/{entity.qos.to_key()}"
+
+
+def token_selector(domain: int) -> str:
+    """Return the expression that matches every token of a domain."""
+    return f"{_SPACE}/{domain}/**"
+
+
+def entity_gid(token_text: str) -> bytes:
+    """Return 16 bytes that name the entity with this token, the same in every process."""
+    return blake2b(token_text.encode(), digest_size=16).digest()
+
+
+def control_key(domain: int, zid: str) -> str:
+    """Return the key at which a process answers about itself (pid, shutting down a node)."""
+    return f"{_OWN_SPACE}/{domain}/control/{zid}"
+
+
+def parameter_key(domain: int, what: str) -> str:
+    """Return the key of the parameter store: ``store`` to ask, ``update`` for changes."""
+    return f"{_OWN_SPACE}/{domain}/parameters/{what}"

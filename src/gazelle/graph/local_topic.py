@@ -1,0 +1,59 @@
+"""The publishers and subscriptions of one topic that live in this process."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gazelle.graph.publisher import Publisher
+    from gazelle.graph.subscription import Subscription
+
+__all__ = ["LocalTopic", "LocalTopics"]
+
+
+class LocalTopic:
+    """One topic's ends in this process; the tuples are replaced, never changed."""
+
+    __slots__ = ("lock", "publishers", "subscriptions")
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.publishers: tuple[Publisher, ...] = ()
+        self.subscriptions: tuple[Subscription, ...] = ()
+
+    def add_publisher(self, publisher: Publisher) -> None:
+        """Add a publisher."""
+        with self.lock:
+            self.publishers = (*self.publishers, publisher)
+
+    def remove_publisher(self, publisher: Publisher) -> None:
+        """Remove a publisher, if it is there."""
+        with self.lock:
+            self.publishers = tuple(one for one in self.publishers if one is not publisher)
+
+    def add_subscription(self, subscription: Subscription) -> None:
+        """Add a subscription and hand it what the publishers of this process latched."""
+        with self.lock:
+            for publisher in self.publishers:
+                publisher.hand_latched(subscription)
+            self.subscriptions = (*self.subscriptions, subscription)
+
+    def remove_subscription(self, subscription: Subscription) -> None:
+        """Remove a subscription, if it is there."""
+        with self.lock:
+            self.subscriptions = tuple(one for one in self.subscriptions if one is not subscription)
+
+
+class LocalTopics:
+    """All topics of this process by global name, and the names of its publishers."""
+
+    def __init__(self) -> None:
+        self._topics: dict[str, LocalTopic] = {}
+        self._lock = threading.Lock()
+        self.gids: set[bytes] = set()
+
+    def topic(self, name: str) -> LocalTopic:
+        """Return the topic, made when it is new."""
+        with self._lock:
+            return self._topics.setdefault(name, LocalTopic())

@@ -1,0 +1,279 @@
+"""Nodes: names, and everything that is created under one."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from gazelle.errors import GraphError
+from gazelle.graph import wire
+from gazelle.graph.console import Level, LogRecord, level_of, print_record
+from gazelle.graph.keys import ANY_TYPE, DEFAULT_QOS, NO_HASH, Entity, Kind, Qos, token
+from gazelle.graph.names import check_name, remap, resolve
+from gazelle.graph.parameters import ParameterStore
+from gazelle.graph.publisher import Publisher
+from gazelle.graph.service import ServiceClient, ServiceServer
+from gazelle.graph.subscription import Subscription
+
+if TYPE_CHECKING:
+    from gazelle.graph.clock import Clock
+    from gazelle.graph.graph import Graph
+
+__all__ = ["Node"]
+
+_ROSOUT = "/rosout"
+_WIRE_LEVELS = {level: 10 * place for place, level in enumerate(Level, 1)}
+_ROSOUT_TYPE = "rcl_interfaces/msg/Log"
+
+
+class _Closable(Protocol):
+    def unregister(self) -> None: ...
+
+
+_T = TypeVar("_T", bound=_Closable)
+
+
+class Node:
+    """A named participant; made by `Graph.create_node`.
+
+    Attributes:
+        graph: the graph it is part of.
+        name: global name.
+        namespace: where its relative names start.
+        parameters: the parameter store, by this node's names.
+        log_level: what is less than this is not logged.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        name: str,
+        namespace: str,
+        remappings: Mapping[str, str],
+        *,
+        rosout: bool,
+    ) -> None:
+        """Announce the node; use `Graph.create_node`."""
+        self.graph = graph
+        self.name = name
+        self.namespace = namespace
+        self.log_level = Level.INFO
+        self.parameters = ParameterStore(graph.parameter_share, self.resolve_name, name)
+        self._remappings = remap(remappings, namespace, node=name)
+        self._created: list[_Closable] = []
+        self._shutdown: list[Callable[[str], None]] = []
+        self._closed = False
+        self._rosout: Publisher | None = None
+        self.entity = Entity(graph.zid, graph.next_id(), graph.next_id(), Kind.NODE, name)
+        self._token: Any = graph.session.liveliness().declare_token(
+            token(graph.domain, self.entity)
+        )
+        if rosout:
+            self._rosout = self.create_publisher(
+                _ROSOUT, wire.resolve_type(_ROSOUT_TYPE), queue_size=100
+            )
+
+    @property
+    def clock(self) -> Clock:
+        """The clock of the process' nodes."""
+        return self.graph.clock
+
+    @property
+    def closed(self) -> bool:
+        """True after `shutdown`."""
+        return self._closed
+
+    def resolve_name(self, name: str) -> str:
+        """Return the global name after remapping.
+
+        Raises:
+            IllegalNameError: the name is not legal.
+        """
+        check_name(name)
+        return resolve(name, self.namespace, node=self.name, remappings=self._remappings)
+
+    def create_publisher(
+        self,
+        topic: str,
+        message_type: Any,
+        *,
+        latch: bool = False,
+        reliable: bool = True,
+        queue_size: int = 10,
+        copy_local: bool = False,
+    ) -> Publisher:
+        """Offer a topic.
+
+        Args:
+            topic: any legal name.
+            message_type: message class (a ROS 1 view too) or its name.
+            latch: give late subscriptions the last message.
+            reliable: wait (up to one second) for slow subscriptions; False for sensors, whose
+                messages are dropped instead.
+            queue_size: told to others; sending does not queue.
+            copy_local: give subscriptions of this process a copy, for callers that go on
+                changing the message, as rospy's users may.
+        """
+        message_class = wire.resolve_type(message_type)
+        qos = Qos(reliable, latch, queue_size)
+        entity = self._entity(Kind.PUBLISHER, topic, wire.type_name_of(message_class), qos=qos)
+        return self._keep(Publisher(self.graph, entity, message_class, copy_local=copy_local))
+
+    def create_subscription(
+        self,
+        topic: str,
+        message_type: Any,
+        callback: Callable[..., None],
+        *,
+        queue_size: int = 0,
+        raw: bool = False,
+        with_info: bool = False,
+        inline: bool = False,
+    ) -> Subscription:
+        """Receive a topic.
+
+        Args:
+            topic: any legal name.
+            message_type: message class (a ROS 1 view too) or its name; None for any type.
+            callback: called with the message, or with message and `MessageInfo`.
+            queue_size: most messages that wait, the oldest are dropped first; 0 for no limit.
+            raw: give `RawMessage` (CDR bytes, type name), not decoded.
+            with_info: call back with a `MessageInfo` too.
+            inline: call back in the thread that publishes (same process) or receives; the
+                callback must be short and must not wait for the graph.
+        """
+        message_class = wire.resolve_type(message_type)
+        type_name = ANY_TYPE if message_class is None else wire.type_name_of(message_class)
+        qos = Qos(depth=queue_size)
+        entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, qos=qos)
+        return self._keep(
+            Subscription(
+                self.graph,
+                entity,
+                message_class,
+                callback,
+                raw=raw,
+                with_info=with_info,
+                inline=inline,
+                queue_size=queue_size,
+                on_error=self._on_error,
+            )
+        )
+
+    def create_service(
+        self, name: str, service_type: Any, handler: Callable[[Any], Any]
+    ) -> ServiceServer:
+        """Answer a service.
+
+        Args:
+            name: any legal name.
+            service_type: service class, of ROS 1 or 2.
+            handler: takes a request, returns a response; what it raises reaches the caller as
+                `ServiceCallError`.
+        """
+        entity = self._entity(Kind.SERVICE, name, wire.service_name_of(service_type))
+        return self._keep(
+            ServiceServer(self.graph, entity, service_type, handler, on_error=self._on_error)
+        )
+
+    def create_client(self, name: str, service_type: Any) -> ServiceClient:
+        """Prepare calls of a service."""
+        entity = self._entity(Kind.CLIENT, name, wire.service_name_of(service_type))
+        return self._keep(ServiceClient(self.graph, entity, service_type))
+
+    def log(
+        self,
+        level: Level | int | str,
+        text: str,
+        *,
+        logger: str = "",
+        padded: bool = True,
+        console: bool = True,
+    ) -> None:
+        """Say something on the console and on ``/rosout``.
+
+        Args:
+            level: a `Level`, its number or its word.
+            text: what to say.
+            logger: name of the logger, the node's own when empty.
+            padded: roscpp's layout ``[ INFO]``, else rospy's ``[INFO]``.
+            console: print it too.
+        """
+        severity = level_of(level)
+        if severity < self.log_level:
+            return
+        caller = sys._getframe(1)
+        sim_ns = self.clock.now_ns() if self.clock.use_sim_time else None
+        record = LogRecord(
+            severity,
+            text,
+            self.name,
+            time.time_ns(),
+            sim_ns,
+            logger,
+            caller.f_code.co_filename,
+            caller.f_code.co_name,
+            caller.f_lineno,
+        )
+        if console:
+            print_record(record, padded=padded)
+        if self._rosout is not None and self._rosout.matched and not self._closed:
+            self._rosout.publish(self._rosout_message(record))
+
+    def on_shutdown(self, listener: Callable[[str], None]) -> None:
+        """Call `listener(reason)` once when the node is shut down, by whomever."""
+        self._shutdown.append(listener)
+
+    def shutdown(self, reason: str = "") -> None:
+        """Take everything of this node off the graph; calling it twice does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        for listener in tuple(self._shutdown):
+            listener(reason)
+        self.clock.leave(self)
+        for one in reversed(self._created):
+            one.unregister()
+        self._token.undeclare()
+        self.graph.forget(self)
+
+    def _entity(self, kind: Kind, name: str, type_name: str, *, qos: Qos = DEFAULT_QOS) -> Entity:
+        if self._closed:
+            raise GraphError(f"node {self.name} is shut down; it cannot create {name}")
+        return Entity(
+            self.graph.zid,
+            self.entity.node_id,
+            self.graph.next_id(),
+            kind,
+            self.name,
+            self.resolve_name(name),
+            type_name,
+            NO_HASH if type_name == ANY_TYPE else wire.hash_of(type_name),
+            qos,
+        )
+
+    def _keep(self, one: _T) -> _T:
+        self._created.append(one)
+        return one
+
+    def drop(self, one: object) -> None:
+        """Forget what was unregistered on its own."""
+        self._created = [item for item in self._created if item is not one]
+
+    def _on_error(self, text: str) -> None:
+        self.log(Level.ERROR, text)
+
+    def _rosout_message(self, record: LogRecord) -> Any:
+        assert self._rosout is not None
+        message = self._rosout.message_class()
+        stamp_ns = record.wall_ns if record.sim_ns is None else record.sim_ns
+        message.stamp.sec, message.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+        message.level = _WIRE_LEVELS[record.level]
+        message.name = record.node
+        message.msg = record.text
+        message.file = record.file
+        message.function = record.function
+        message.line = record.line
+        return message

@@ -1,0 +1,293 @@
+"""The parameter store as every process sees it: one owner, copies everywhere.
+
+The process that carries the hub owns the tree and answers at one key; it broadcasts each change.
+Every other process with nodes keeps a copy, which answers cached reads without asking and becomes
+the tree when that process takes the hub over. Command-line tools ask, and keep nothing.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import GraphError
+from gazelle.graph.keys import parameter_key
+from gazelle.graph.names import resolve
+from gazelle.graph.parameter_tree import ParameterTree, from_json, to_json
+
+if TYPE_CHECKING:
+    import zenoh
+
+__all__ = ["ParameterShare", "ParameterStore", "global_parameters"]
+
+_REQUIRED: Any = object()
+_NO_OWNER_S = 3.0
+_RETRY_S = 0.02
+_ASK_S = 5.0
+
+Listener = Callable[[str], None]
+
+
+class ParameterShare:
+    """One process' part in the store: the owner, a copy of it, or neither."""
+
+    def __init__(self, session: zenoh.Session, domain: int) -> None:
+        self._session = session
+        self._key = parameter_key(domain, "store")
+        self._update_key = parameter_key(domain, "update")
+        self._tree = ParameterTree()
+        self._lock = threading.RLock()
+        self._owner = False
+        self._copied = False
+        self._waiting: list[dict[str, Any]] = []
+        self._listeners: list[Listener] = []
+        self._declared: list[Any] = []
+
+    def own(self) -> None:
+        """Become the owner with what the copy holds, and tell everybody the whole tree."""
+        with self._lock:
+            if self._owner:
+                return
+            self._owner = True
+            self._declared.append(self._session.declare_queryable(self._key, self._answer))
+            revision = self._tree.revision
+            self._tell({"op": "root", "value": self._tree.get("/"), "revision": revision})
+
+    def copy(self) -> None:
+        """Start to keep a copy."""
+        with self._lock:
+            if self._owner or self._copied or self._declared:
+                return
+            subscriber = self._session.declare_subscriber(self._update_key, self._on_update)
+            self._declared.append(subscriber)
+        answer = self.ask({"op": "root"})
+        with self._lock:
+            if not self._owner and not self._copied:
+                self._tree.replace(answer["value"], answer["revision"])
+                self._copied = True
+            for update in self._waiting:
+                self._apply(update)
+            self._waiting.clear()
+
+    def listen(self, listener: Listener) -> None:
+        """Call the listener with the name of every parameter that changes from now on."""
+        self._listeners.append(listener)
+        self.copy()
+
+    def cached(self, name: str) -> Any:
+        """Return a value from the copy, without asking the owner.
+
+        Raises:
+            KeyError: it is not set.
+        """
+        self.copy()
+        return self._tree.get(name)
+
+    def ask(self, request: dict[str, Any]) -> dict[str, Any]:
+        """Send a request to the owner and return its answer.
+
+        Raises:
+            GraphError: there is no owner, or it refused.
+            KeyError: the parameter is not set.
+        """
+        answer = self._handle(request) if self._owner else self._ask_owner(request)
+        if "missing" in answer:
+            raise KeyError(answer["missing"])
+        if "error" in answer:
+            raise GraphError(answer["error"])
+        return answer
+
+    def close(self) -> None:
+        """Stop answering and listening."""
+        with self._lock:
+            declared, self._declared = self._declared, []
+        for one in declared:
+            one.undeclare()
+
+    def _ask_owner(self, request: dict[str, Any]) -> dict[str, Any]:
+        payload = to_json(request)
+        deadline = time.monotonic() + _NO_OWNER_S
+        while True:
+            for reply in self._session.get(self._key, payload=payload, timeout=_ASK_S):
+                if reply.ok is not None:
+                    answer: dict[str, Any] = from_json(reply.ok.payload.to_bytes())
+                    self._apply_own(request, answer)
+                    return answer
+            if self._owner:
+                return self._handle(request)
+            if time.monotonic() > deadline:
+                raise GraphError(
+                    "no process holds the parameters (Unable to communicate with master!)\n"
+                    "  fix: start a launch, a simulator or `gazelle roscore`"
+                )
+            time.sleep(_RETRY_S)
+
+    def _answer(self, query: Any) -> None:
+        answer = self._handle(from_json(query.payload.to_bytes()))
+        query.reply(self._key, to_json(answer))
+        query.drop()
+
+    def _handle(self, request: dict[str, Any]) -> dict[str, Any]:
+        try:
+            with self._lock:
+                return self._do(request)
+        except KeyError as error:
+            return {"missing": str(error.args[0])}
+        except GraphError as error:
+            return {"error": str(error)}
+
+    def _do(self, request: dict[str, Any]) -> dict[str, Any]:
+        tree, op, name = self._tree, request["op"], request.get("name", "/")
+        if op == "get":
+            return {"value": tree.get(name)}
+        if op == "has":
+            return {"value": tree.has(name)}
+        if op == "names":
+            return {"value": tree.names()}
+        if op == "search":
+            return {"value": tree.search(name, request["start"]) or ""}
+        if op == "root":
+            return {"value": tree.get("/"), "revision": tree.revision}
+        if op == "set":
+            revision = tree.set(name, request["value"])
+        elif op == "delete":
+            revision = tree.delete(name)
+        else:
+            return {"error": f"the parameter store does not know '{op}'"}
+        self._tell({**request, "revision": revision})
+        self._changed(name)
+        return {"value": "", "revision": revision}
+
+    def _apply_own(self, request: dict[str, Any], answer: dict[str, Any]) -> None:
+        """Make this process' own change visible in its copy at once, if nothing is in between."""
+        with self._lock:
+            next_one = self._copied and answer.get("revision") == self._tree.revision + 1
+            if next_one and request["op"] in ("set", "delete"):
+                self._apply({**request, "revision": answer["revision"]})
+
+    def _tell(self, update: dict[str, Any]) -> None:
+        import zenoh
+
+        self._session.put(
+            self._update_key,
+            to_json(update),
+            congestion_control=zenoh.CongestionControl.BLOCK,
+            allowed_destination=zenoh.Locality.REMOTE,
+        )
+
+    def _on_update(self, sample: Any) -> None:
+        update = from_json(sample.payload.to_bytes())
+        with self._lock:
+            if self._owner:
+                return
+            if self._copied:
+                self._apply(update)
+            else:
+                self._waiting.append(update)
+
+    def _apply(self, update: dict[str, Any]) -> None:
+        revision, op = update["revision"], update["op"]
+        if op == "root":
+            self._tree.replace(update["value"], revision)
+            self._changed("/")
+            return
+        if revision <= self._tree.revision:
+            return
+        if op == "set":
+            self._tree.set(update["name"], update["value"])
+        elif self._tree.has(update["name"]):
+            self._tree.delete(update["name"])
+        self._tree.revision = revision
+        self._changed(update["name"])
+
+    def _changed(self, name: str) -> None:
+        for listener in tuple(self._listeners):
+            listener(name)
+
+
+class ParameterStore:
+    """Parameters by the names one node would use (or global names, for the graph itself)."""
+
+    def __init__(self, share: ParameterShare, to_global: Callable[[str], str], start: str) -> None:
+        """Wrap a share.
+
+        Args:
+            share: the process' part in the store.
+            to_global: resolves a name.
+            start: where `search` begins, a node's global name.
+        """
+        self._share = share
+        self._to_global = to_global
+        self._start = start
+
+    def get(self, name: str, default: Any = _REQUIRED) -> Any:
+        """Return a value, a dictionary for a namespace, `default` when it is not set.
+
+        Raises:
+            KeyError: it is not set and there is no default.
+        """
+        return self._default_on_missing(
+            lambda: self._share.ask({"op": "get", "name": self._to_global(name)})["value"], default
+        )
+
+    def get_cached(self, name: str, default: Any = _REQUIRED) -> Any:
+        """Return a value from this process' own copy, at the cost of a dictionary look-up.
+
+        Raises:
+            KeyError: it is not set and there is no default.
+        """
+        return self._default_on_missing(lambda: self._share.cached(self._to_global(name)), default)
+
+    def set(self, name: str, value: Any) -> None:
+        """Set a value; a dictionary replaces the whole namespace.
+
+        Raises:
+            GraphError: parameters cannot have values of this type.
+        """
+        self._share.ask({"op": "set", "name": self._to_global(name), "value": value})
+
+    def has(self, name: str) -> bool:
+        """Return whether the parameter or namespace is set."""
+        return bool(self._share.ask({"op": "has", "name": self._to_global(name)})["value"])
+
+    def delete(self, name: str) -> None:
+        """Delete a parameter or a namespace.
+
+        Raises:
+            KeyError: it is not set.
+        """
+        self._share.ask({"op": "delete", "name": self._to_global(name)})
+
+    def search(self, name: str) -> str | None:
+        """Return the global name of the closest parameter, from the node's own name upwards."""
+        request = {"op": "search", "name": name, "start": self._start}
+        return self._share.ask(request)["value"] or None
+
+    def names(self) -> list[str]:
+        """Return the global names of all values."""
+        found: list[str] = self._share.ask({"op": "names"})["value"]
+        return found
+
+    def nearest(self, name: str) -> tuple[str, ...]:
+        """Return names of parameters that are spelled most like this one."""
+        return tuple(nearest_names(self._to_global(name), self.names()))
+
+    def on_change(self, listener: Listener) -> None:
+        """Call `listener(global_name)` after every change, ``/`` when all may have changed."""
+        self._share.listen(listener)
+
+    def _default_on_missing(self, read: Callable[[], Any], default: Any) -> Any:
+        try:
+            return read()
+        except KeyError:
+            if default is _REQUIRED:
+                raise
+            return default
+
+
+def global_parameters(share: ParameterShare) -> ParameterStore:
+    """Return the store by global names."""
+    return ParameterStore(share, resolve, "/")

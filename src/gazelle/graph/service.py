@@ -1,0 +1,201 @@
+"""Services: answering requests and calling others."""
+
+from __future__ import annotations
+
+import threading
+import time
+import traceback
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import GazelleError, GraphError
+from gazelle.graph import wire
+from gazelle.graph.errors import (
+    ServiceCallError,
+    ServiceTimeoutError,
+    ServiceUnavailableError,
+)
+from gazelle.graph.keys import Attachment, Entity, Kind, entity_gid, service_key, token
+
+if TYPE_CHECKING:
+    from gazelle.graph.graph import Graph
+
+__all__ = ["ServiceClient", "ServiceServer"]
+
+_ERROR_ENCODING = "text/plain;service-error"
+_FOR_EVER_S = 1e6
+_SETTLING_S = 1.0
+_RETRY_S = 0.02
+
+
+class ServiceServer:
+    """Answers one service; each request is handled in a thread of its own, as in ROS 1."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        entity: Entity,
+        service_class: Any,
+        handler: Callable[[Any], Any],
+        *,
+        on_error: Callable[[str], None],
+    ) -> None:
+        """Offer the service; use `Node.create_service`."""
+        import zenoh
+
+        self.name = entity.name
+        self.service_class = service_class
+        self.entity = entity
+        self._graph = graph
+        self._handler = handler
+        self._on_error = on_error
+        self._closed = False
+        text = token(graph.domain, entity)
+        self._gid = entity_gid(text)
+        self._key = service_key(graph.domain, self.name, entity.type_name, entity.type_hash)
+        callback = zenoh.handlers.Callback(self._on_query, None, indirect=False)
+        self._queryable: Any = graph.session.declare_queryable(self._key, callback, complete=True)
+        self._token: Any = graph.session.liveliness().declare_token(text)
+
+    def unregister(self) -> None:
+        """Stop answering; calling it twice does nothing."""
+        if not self._closed:
+            self._closed = True
+            self._token.undeclare()
+            self._queryable.undeclare()
+            self._graph.forget(self)
+
+    def _on_query(self, query: Any) -> None:
+        threading.Thread(
+            target=self._answer, args=(query,), name=f"service {self.name}", daemon=True
+        ).start()
+
+    def _answer(self, query: Any) -> None:
+        try:
+            answer, error = self._response_to(query), ""
+        except Exception as raised:  # noqa: BLE001 - a user's handler may raise anything
+            answer, error = b"", f"error processing request: {raised}"
+            if not isinstance(raised, GazelleError):
+                self._on_error(
+                    f"Error processing request: {raised}\n{traceback.format_exc().rstrip()}"
+                )
+        if self._closed:
+            return
+        if answer:
+            attached = query.attachment
+            sequence = Attachment.from_bytes(attached.to_bytes() if attached else b"").sequence
+            attachment = Attachment(sequence, time.time_ns(), self._gid)
+            query.reply(self._key, answer, attachment=attachment.to_bytes())
+        else:
+            error = error or "service cannot process request: service handler returned None"
+            query.reply_err(error, encoding=_ERROR_ENCODING)
+        query.drop()
+
+    def _response_to(self, query: Any) -> bytes:
+        """Return the response's bytes, none when the handler gave no response."""
+        data = query.payload.to_bytes() if query.payload is not None else b""
+        response = self._handler(wire.decode(wire.request_type(self.service_class), data))
+        if response is None:
+            return b""
+        wanted = wire.response_type(self.service_class)
+        if not isinstance(response, wanted):
+            raise GraphError(
+                f"service handler returned a {type(response).__qualname__}, "
+                f"not a {wanted.__qualname__}"
+            )
+        return wire.encode(response)
+
+
+class ServiceClient:
+    """Calls one service."""
+
+    def __init__(self, graph: Graph, entity: Entity, service_class: Any) -> None:
+        """Prepare calls; use `Node.create_client`."""
+        self.name = entity.name
+        self.service_class = service_class
+        self.entity = entity
+        self._graph = graph
+        self._closed = False
+        text = token(graph.domain, entity)
+        self._gid = entity_gid(text)
+        self._key = service_key(graph.domain, self.name, entity.type_name, "*")
+        self._sequence = 0
+        self._token: Any = graph.session.liveliness().declare_token(text)
+
+    @property
+    def available(self) -> bool:
+        """True when somebody offers the service."""
+        return self._graph.has_service(self.name)
+
+    def wait_for_service(self, timeout_s: float | None = None) -> bool:
+        """Wait until somebody offers the service; False when time is up first."""
+        return self._graph.wait_for_service(self.name, timeout_s)
+
+    def call(self, request: Any, timeout_s: float | None = None) -> Any:
+        """Send a request and wait for the response.
+
+        Args:
+            request: a message of the service's request class.
+            timeout_s: how long to wait, None for as long as the server lives.
+
+        Raises:
+            ServiceUnavailableError: nobody offers it, or with another type.
+            ServiceTimeoutError: no response in time.
+            ServiceCallError: the handler failed.
+        """
+        wanted = wire.request_type(self.service_class)
+        if not isinstance(request, wanted):
+            raise GraphError(
+                f"service [{self.name}]: the request is a {type(request).__qualname__}, "
+                f"not a {wanted.__qualname__}"
+            )
+        payload = wire.encode(request)
+        start = time.monotonic()
+        while True:
+            reply = self._ask(payload, _FOR_EVER_S if timeout_s is None else timeout_s)
+            if reply is not None:
+                return self._read(reply, timeout_s)
+            if not self.available or time.monotonic() - start > _SETTLING_S:
+                raise self._unavailable()
+            # The announcement of a new service can overtake the service itself.
+            time.sleep(_RETRY_S)
+
+    def unregister(self) -> None:
+        """Give the client up; calling it twice does nothing."""
+        if not self._closed:
+            self._closed = True
+            self._token.undeclare()
+            self._graph.forget(self)
+
+    def _ask(self, payload: bytes, timeout_s: float) -> Any:
+        if self._closed:
+            raise ServiceUnavailableError(f"service [{self.name}]: this client was closed")
+        self._sequence += 1
+        attachment = Attachment(self._sequence, time.time_ns(), self._gid).to_bytes()
+        replies: Iterable[Any] = self._graph.session.get(
+            self._key, payload=payload, attachment=attachment, timeout=timeout_s
+        )
+        return next(iter(replies), None)
+
+    def _read(self, reply: Any, timeout_s: float | None) -> Any:
+        if reply.ok is not None:
+            data = reply.ok.payload.to_bytes()
+            return wire.decode(wire.response_type(self.service_class), data)
+        text = reply.err.payload.to_string()
+        if str(reply.err.encoding) == _ERROR_ENCODING:
+            raise ServiceCallError(f"service [{self.name}] responded with an error: {text}")
+        if timeout_s is not None and text == "Timeout":
+            raise ServiceTimeoutError(f"service [{self.name}] did not answer in {timeout_s:g} s")
+        raise ServiceCallError(f"transport error completing service call: {text}")
+
+    def _unavailable(self) -> GraphError:
+        own = self.entity.type_name
+        services = [one for one in self._graph.entities() if one.kind is Kind.SERVICE]
+        other = next((one.type_name for one in services if one.name == self.name), own)
+        text = f"service [{self.name}] unavailable"
+        if other != own:
+            text += f": it has type {other}, the client wants {own} [graph.type-mismatch]"
+        elif nearest := nearest_names(self.name, {one.name for one in services}):
+            text += "; did you mean " + " or ".join(nearest) + "?"
+        return ServiceUnavailableError(text)

@@ -1,0 +1,202 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gazelle.errors import GazelleError
+from gazelle.graph import wire
+from gazelle.graph.delivery import Mailbox
+from gazelle.graph.keys import ANY_TYPE, Attachment, Entity, token, topic_selector, type_in_key
+
+if TYPE_CHECKING:
+    from gazelle.graph.graph import Graph
+
+__all__ = ["MessageInfo", "RawMessage", "Subscription"]
+
+
+class RawMessage(NamedTuple):
+    """A message that was not decoded: CDR bytes and ``pkg/msg/Name``."""
+
+    data: bytes
+    type_name: str
+
+
+class MessageInfo(NamedTuple):
+    """Where a message came from.
+
+    Attributes:
+        sequence: counts the publisher's messages from 1.
+        stamp_ns: wall time of publishing, nanoseconds since 1970.
+        publisher: global name of the node, empty when it is gone already.
+        type_name: ``pkg/msg/Name``.
+    """
+
+    sequence: int
+    stamp_ns: int
+    publisher: str
+    type_name: str
+
+
+class Subscription:
+    """Receives the messages of one topic.
+
+    Callbacks run one at a time in a thread of the subscription's own, as in ROS 1; with `inline`
+    they run in the thread that publishes (same process) or receives, and must be short.
+
+    Attributes:
+        topic: global name.
+        message_class: class of the messages, None for any type or raw.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        entity: Entity,
+        message_class: Any,
+        callback: Callable[..., None],
+        *,
+        raw: bool,
+        with_info: bool,
+        inline: bool,
+        queue_size: int,
+        on_error: Callable[[str], None],
+    ) -> None:
+        """Declare the interest; use `Node.create_subscription`."""
+        self.topic = entity.name
+        self.message_class = message_class
+        self.entity = entity
+        self._graph = graph
+        self._callback = callback
+        self._raw = raw
+        self._with_info = with_info
+        self._on_error = on_error
+        self._count_seq = wire.is_ros1_view(message_class)
+        self._refused: set[str] = set()
+        self._closed = False
+        self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
+        self._take = self._handle if inline else self._mailbox.put
+        self._local = graph.local.topic(self.topic)
+        self._local.add_subscription(self)
+        self._subscriber: Any = _declare(
+            graph.session, topic_selector(graph.domain, self.topic), self._on_sample
+        )
+        self._token: Any = graph.session.liveliness().declare_token(token(graph.domain, entity))
+
+    @property
+    def dropped(self) -> int:
+        """Number of messages dropped because the queue was full."""
+        return self._mailbox.dropped
+
+    @property
+    def publisher_count(self) -> int:
+        """Number of publishers of the topic on the whole graph."""
+        return self._graph.publisher_count(self.topic)
+
+    def unregister(self) -> None:
+        """Stop receiving; calling it twice does nothing. No callback starts afterwards."""
+        if self._closed:
+            return
+        self._closed = True
+        self._local.remove_subscription(self)
+        self._token.undeclare()
+        self._subscriber.undeclare()
+        self._mailbox.close()
+        self._graph.forget(self)
+
+    def take_local(self, message: Any, attachment: Attachment) -> None:
+        """Take a message published in this process."""
+        self._take((message, attachment, None))
+
+    def _on_sample(self, sample: Any) -> None:
+        attached = sample.attachment
+        attachment = Attachment.from_bytes(attached.to_bytes() if attached else b"")
+        # The history of a latched topic also holds what this process published itself.
+        if attachment.gid not in self._graph.local.gids:
+            self._take((None, attachment, sample))
+
+    def _handle(self, item: tuple[Any, Attachment, Any]) -> None:
+        message, attachment, sample = item
+        if self._closed:
+            return
+        try:
+            if sample is None:
+                self._hand_local(message, attachment)
+            else:
+                self._take_remote(sample, attachment)
+        except Exception:  # noqa: BLE001 - a user's callback may raise anything
+            self._on_error(f"bad callback: {self._callback}\n{traceback.format_exc()}")
+
+    def _take_remote(self, sample: Any, attachment: Attachment) -> None:
+        type_name, _ = type_in_key(str(sample.key_expr))
+        if not self._accepts(type_name):
+            return
+        data = sample.payload.to_bytes()
+        if self._raw:
+            self._deliver(RawMessage(data, type_name), attachment, type_name)
+            return
+        message_class = self.message_class or wire.resolve_type(type_name)
+        try:
+            message = wire.decode(message_class, data)
+        except GazelleError as error:
+            self._refuse(type_name, f"a message on {self.topic} cannot be read: {error}")
+            return
+        if self._count_seq and hasattr(message, "header"):
+            message.header.seq = attachment.sequence
+        self._deliver(message, attachment, type_name)
+
+    def _hand_local(self, message: Any, attachment: Attachment) -> None:
+        sent_class = type(message)
+        if self._raw:
+            message = RawMessage(wire.encode(message), wire.type_name_of(sent_class))
+        elif self.message_class is not None and not isinstance(message, self.message_class):
+            if not self._accepts(wire.type_name_of(sent_class)):
+                return
+            message = wire.convert(message, self.message_class)
+        self._deliver(message, attachment, sent_class)
+
+    def _deliver(self, message: Any, attachment: Attachment, type_or_name: Any) -> None:
+        if self._with_info:
+            self._callback(message, self._info(attachment, type_or_name))
+        else:
+            self._callback(message)
+
+    def _info(self, attachment: Attachment, type_or_name: Any) -> MessageInfo:
+        name = type_or_name if isinstance(type_or_name, str) else wire.type_name_of(type_or_name)
+        entity = self._graph.entity_with_gid(attachment.gid)
+        publisher = entity.node if entity else ""
+        return MessageInfo(attachment.sequence, attachment.stamp_ns, publisher, name)
+
+    def _accepts(self, type_name: str) -> bool:
+        own = self.entity.type_name
+        if own in (ANY_TYPE, type_name):
+            return True
+        self._refuse(
+            type_name,
+            f"{self.entity.node} wants topic {self.topic} to have type {own}, but it is published "
+            f"as {type_name}; those messages are dropped [graph.type-mismatch]\n"
+            "  ROS says: Client wants topic to have datatype/md5sum, but our version has another. "
+            "Dropping connection.",
+        )
+        return False
+
+    def _refuse(self, type_name: str, text: str) -> None:
+        if type_name not in self._refused:
+            self._refused.add(type_name)
+            self._on_error(text)
+
+
+def _declare(session: Any, selector: str, callback: Callable[[Any], None]) -> Any:
+    """An advanced subscriber also gets what latched publishers sent before, each once."""
+    import zenoh
+    import zenoh.ext
+
+    return zenoh.ext.declare_advanced_subscriber(
+        session,
+        selector,
+        zenoh.handlers.Callback(callback, None, indirect=False),
+        allowed_origin=zenoh.Locality.REMOTE,
+        history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=1),
+    )

@@ -1,0 +1,1 @@
+"""Coordinate frames over time: buffer, listener and broadcasters."""
