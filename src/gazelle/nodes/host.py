@@ -33,7 +33,10 @@ def host(status_fd: int, commands: TextIO) -> int:
                 nodes.start(command["start"], graph)
             else:
                 nodes.stop(command["stop"])
-        nodes.stop_all()
+        nodes.tell_all_to_stop()
+        # Nodes that sleep on a clock that stands still wake only by this.
+        graph.clock.close()
+        nodes.join()
     return 0
 
 
@@ -55,9 +58,11 @@ class _Nodes:
         if number in self._running:
             self._running[number][0].set()
 
-    def stop_all(self) -> None:
+    def tell_all_to_stop(self) -> None:
         for stop, _ in self._running.values():
             stop.set()
+
+    def join(self) -> None:
         for _, thread in self._running.values():
             thread.join(timeout=2.0)
 

@@ -30,7 +30,7 @@ from gazelle.errors import GraphError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import private, start_node, ticks
 from gazelle.nodes.tree import read_description
 
 __all__ = ["default_position", "run"]
@@ -48,7 +48,7 @@ class _Dependent:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish ``joint_states`` until told to stop."""
     node = start_node(arguments, graph)
-    name = node.parameters.search("robot_description", node.namespace) or "/robot_description"
+    name = node.parameters.search("robot_description") or "/robot_description"
     try:
         text = node.parameters.get(name)
     except (GraphError, KeyError):
@@ -56,7 +56,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         return 1
     publisher = _Publisher(node, arguments, read_description(str(text)))
     period_ns = int(1e9 / float(private(node, arguments, "rate", 10)))
-    while node.clock.sleep(period_ns, stop):
+    for _ in ticks(node, period_ns, stop):
         publisher.publish()
     node.shutdown()
     return 0
@@ -74,7 +74,7 @@ def default_position(joint: Joint, zeros: Mapping[str, float]) -> float:
 class _Publisher:
     def __init__(self, node: Node, arguments: NodeArguments, model: Model) -> None:
         self._node = node
-        self._type = message_type("sensor_msgs/msg/JointState")
+        self._type: Any = message_type("sensor_msgs/msg/JointState")
         self._out = node.create_publisher("joint_states", self._type, queue_size=5)
         zeros = private(node, arguments, "zeros", {})
         self._dependents = _dependents(node, arguments, model)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import threading
+from collections.abc import Iterator
 from typing import Any
 
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.nodes.arguments import NodeArguments
 
-__all__ = ["private", "start_node"]
+__all__ = ["private", "start_node", "ticks"]
 
 
 def start_node(arguments: NodeArguments, graph: Graph) -> Node:
@@ -26,3 +28,21 @@ def private(node: Node, arguments: NodeArguments, name: str, default: Any) -> An
         return arguments.params[name]
     full = node.resolve_name(f"~{name}")
     return node.parameters.get(full) if node.parameters.has(full) else default
+
+
+def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:
+    """Yield the time at every period of the node's clock until told to stop.
+
+    A period that is missed is not made up for; a jump back in time starts anew from there.
+    """
+    next_ns = node.clock.now_ns() + period_ns
+    while not stop.is_set():
+        try:
+            if not node.clock.sleep_until(next_ns):
+                return
+        except TimeJumpError:
+            next_ns = node.clock.now_ns() + period_ns
+            continue
+        now_ns = node.clock.now_ns()
+        yield now_ns
+        next_ns = max(next_ns, now_ns - period_ns) + period_ns

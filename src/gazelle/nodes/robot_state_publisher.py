@@ -30,7 +30,7 @@ __all__ = ["StateToTf", "run"]
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish tf until told to stop."""
     node = start_node(arguments, graph)
-    name = node.parameters.search("robot_description", node.namespace) or "/robot_description"
+    name = node.parameters.search("robot_description") or "/robot_description"
     try:
         text = str(node.parameters.get(name))
     except (GraphError, KeyError):
@@ -70,7 +70,7 @@ class StateToTf:
         self._ignore_timestamp = ignore_timestamp
         self._last_ns: dict[str, int] = {}
         self._latest_ns = 0
-        self._type = message_type("geometry_msgs/msg/TransformStamped")
+        self._type: Any = message_type("geometry_msgs/msg/TransformStamped")
 
     def fixed(self, stamp_ns: int) -> list[Any]:
         """Return the transforms of the fixed joints."""
@@ -114,7 +114,7 @@ class StateToTf:
 
 
 def _connect(node: Node, states: StateToTf, use_tf_static: bool) -> None:
-    tf_message = message_type("tf2_msgs/msg/TFMessage")
+    tf_message: Any = message_type("tf2_msgs/msg/TFMessage")
     tf = node.create_publisher("/tf", tf_message, queue_size=100)
     static = node.create_publisher("/tf_static", tf_message, latch=True) if use_tf_static else None
     if static is not None:

@@ -11,7 +11,7 @@ from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import start_node, ticks
 
 __all__ = ["StaticTransform", "parse_arguments", "run_tf", "run_tf2"]
 
@@ -60,10 +60,10 @@ def run_tf(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int
     """Publish on /tf at the period given, stamped that far ahead as tf's own does."""
     transform = parse_arguments(arguments.rest, with_period=True)
     node = start_node(arguments, graph)
-    type_ = message_type("tf2_msgs/msg/TFMessage")
+    type_: Any = message_type("tf2_msgs/msg/TFMessage")
     publisher = node.create_publisher("/tf", type_, queue_size=100)
     period_ns = int(transform.period_ms * 1_000_000)
-    while node.clock.sleep(period_ns, stop):
+    for _ in ticks(node, period_ns, stop):
         stamp_ns = node.clock.now_ns() + period_ns
         publisher.publish(type_(transforms=[_message(transform, stamp_ns)]))
     node.shutdown()
@@ -74,7 +74,7 @@ def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
     """Publish once on /tf_static, latched."""
     transform = parse_arguments(arguments.rest, with_period=False)
     node = start_node(arguments, graph)
-    type_ = message_type("tf2_msgs/msg/TFMessage")
+    type_: Any = message_type("tf2_msgs/msg/TFMessage")
     publisher = node.create_publisher("/tf_static", type_, latch=True)
     publisher.publish(type_(transforms=[_message(transform, node.clock.now_ns())]))
     stop.wait()
@@ -83,7 +83,7 @@ def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
 
 
 def _message(transform: StaticTransform, stamp_ns: int) -> Any:
-    message = message_type("geometry_msgs/msg/TransformStamped")()
+    message: Any = message_type("geometry_msgs/msg/TransformStamped")()
     message.header.frame_id = transform.frame_id.lstrip("/")
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
     message.child_frame_id = transform.child_frame_id.lstrip("/")

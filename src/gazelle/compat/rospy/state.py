@@ -1,0 +1,189 @@
+"""The one node that a rospy program is."""
+
+from __future__ import annotations
+
+import atexit
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph, Level, Node
+from gazelle.graph.names import CommandLine, parse_command_line, resolve
+
+__all__ = ["STATE", "NodeState"]
+
+_LEVELS = {1: Level.DEBUG, 2: Level.INFO, 4: Level.WARN, 8: Level.ERROR, 16: Level.FATAL}
+
+
+class NodeState:
+    """What rospy's functions share: the node, its shutdown, its command line."""
+
+    def __init__(self) -> None:
+        self.graph: Graph | None = None
+        self.node: Node | None = None
+        self.line: CommandLine = parse_command_line(sys.argv[1:])
+        self.stopping = threading.Event()
+        self.reason = ""
+        self._hooks: list[Callable[[], Any]] = []
+        self._preshutdown: list[Callable[[str], Any]] = []
+        self._lock = threading.RLock()
+        self._previous_sigint: Any = None
+
+    def open_graph(self) -> Graph:
+        """Return the graph; parameters work before `init_node` too.
+
+        Raises:
+            ROSException: the graph cannot be joined.
+        """
+        with self._lock:
+            if self.graph is None:
+                try:
+                    self.graph = Graph.open()
+                except GazelleError as error:
+                    raise ROSException(str(error)) from error
+                # After the graph's own hook, so that it runs before: user hooks still publish.
+                atexit.register(self.shut_down, "atexit")
+            return self.graph
+
+    def require(self, what: str = "rospy") -> Node:
+        """Return the node.
+
+        Raises:
+            ROSInitException: `init_node` has not been called.
+            ROSException: the node is shut down.
+        """
+        if self.node is None:
+            raise ROSInitException(f"{what}: call rospy.init_node('name') first")
+        return self.node
+
+    def init(
+        self,
+        name: str,
+        argv: Sequence[str] | None,
+        *,
+        anonymous: bool,
+        log_level: int | None,
+        disable_rosout: bool,
+        disable_signals: bool,
+    ) -> None:
+        """Make the node (see `rospy.init_node`)."""
+        with self._lock:
+            if self.node is not None:
+                self._check_again(name)
+                return
+            self.line = parse_command_line(sys.argv[1:] if argv is None else argv)
+            graph = self.open_graph()
+            try:
+                self.node = graph.create_node(
+                    self.line.name or name,
+                    namespace=self.line.namespace,
+                    remappings=self.line.remappings,
+                    anonymous=anonymous and self.line.name is None,
+                    rosout=not disable_rosout,
+                )
+            except GazelleError as error:
+                raise ROSException(str(error)) from error
+        self.node.log_level = _LEVELS.get(log_level or 2, Level.INFO)
+        for key, value in self.line.params.items():
+            self.node.parameters.set(f"~{key}", value)
+        self.node.on_shutdown(self._on_node_shutdown)
+        if not disable_signals:
+            self._take_signals()
+        self._wait_for_clock()
+
+    def shut_down(self, reason: str) -> None:
+        """Stop the node: hooks run once, sleeps end, the graph is left."""
+        with self._lock:
+            if self.stopping.is_set():
+                return
+            self.reason = reason
+            hooks, early = list(self._hooks), list(self._preshutdown)
+            # rospy runs its own hooks first, then is_shutdown() turns true, then the user's.
+            for listener in early:
+                listener(reason)
+            self.stopping.set()
+        for hook in hooks:
+            self._call(hook)
+        if self.node is not None and not self.node.closed:
+            self.node.shutdown(reason)
+        if self.graph is not None:
+            self.graph.close()
+
+    def add_hook(self, hook: Callable[[], Any]) -> None:
+        """Run something at shutdown; at once when that has begun."""
+        if self.stopping.is_set():
+            self._call(hook)
+        else:
+            self._hooks.append(hook)
+
+    def add_early_hook(self, listener: Callable[[str], Any]) -> None:
+        """Run something before `is_shutdown` turns true."""
+        self._preshutdown.append(listener)
+
+    def resolved(self, name: str) -> str:
+        """Return a global name, before `init_node` too."""
+        if self.node is not None:
+            return self.node.resolve_name(name)
+        return resolve(name, self.line.namespace or "/")
+
+    def check_running(self) -> None:
+        """Raise when the node is shut down.
+
+        Raises:
+            ROSInterruptException: it is.
+        """
+        if self.stopping.is_set():
+            raise ROSInterruptException("rospy shutdown")
+
+    def _check_again(self, name: str) -> None:
+        assert self.node is not None
+        own = self.node.name.rsplit("/", 1)[-1]
+        if own != name and not own.startswith(f"{name}_"):
+            raise ROSException(
+                f"rospy.init_node() has already been called with different arguments: "
+                f"('{own}', …), now '{name}'"
+            )
+
+    def _call(self, hook: Callable[[], Any]) -> None:
+        try:
+            hook()
+        except Exception as error:  # noqa: BLE001 - a user's hook may raise anything
+            sys.stderr.write(f"shutdown hook: {type(error).__name__}: {error}\n")
+
+    def _take_signals(self) -> None:
+        if threading.current_thread() is not threading.main_thread():
+            return
+        self._previous_sigint = signal.getsignal(signal.SIGINT)
+        signal.signal(signal.SIGINT, self._on_signal)
+        signal.signal(signal.SIGTERM, self._on_signal)
+
+    def _on_signal(self, number: int, frame: Any) -> None:
+        # Hooks publish and wait; that must not happen inside the handler of a held lock.
+        thread = threading.Thread(target=self.shut_down, args=(f"signal-{number}",), daemon=True)
+        thread.start()
+        thread.join(timeout=5.0)
+        if number == signal.SIGINT and callable(self._previous_sigint):
+            self._previous_sigint(number, frame)
+        elif number == signal.SIGTERM:
+            sys.exit(0)
+
+    def _on_node_shutdown(self, reason: str) -> None:
+        if not self.stopping.is_set():
+            threading.Thread(target=self.shut_down, args=(reason,), daemon=True).start()
+
+    def _wait_for_clock(self) -> None:
+        """Let the first /clock message come, as rospy's own init does not return time 0."""
+        assert self.node is not None
+        if self.node.clock.use_sim_time and self.node.graph.publisher_count("/clock"):
+            deadline = threading.Event()
+            for _ in range(100):
+                if self.node.clock.now_ns():
+                    return
+                deadline.wait(0.01)
+
+
+STATE = NodeState()

@@ -1,0 +1,265 @@
+"""Publisher, Subscriber and wait_for_message (rospy.topics)."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import traceback
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.compat.rospy.errors import (
+    ROSException,
+    ROSInterruptException,
+    ROSSerializationException,
+)
+from gazelle.compat.rospy.state import STATE
+from gazelle.errors import GazelleError
+from gazelle.graph import Publisher as _Publisher
+from gazelle.graph import RawMessage
+from gazelle.graph import Subscription as _Subscription
+from gazelle.interfaces import (
+    AnyMsg,
+    Ros1Message,
+    from_cdr,
+    ros1_message_type,
+    ros1_type_of,
+    to_ros1,
+)
+
+__all__ = ["Publisher", "SubscribeListener", "Subscriber", "Topic", "wait_for_message"]
+
+
+class SubscribeListener:
+    """Base of objects that a `Publisher` tells about its subscribers."""
+
+    def peer_subscribe(
+        self, topic_name: str, topic_publish: Callable[..., None], peer_publish: Callable[..., None]
+    ) -> None:
+        """Hear of a new subscriber; `peer_publish` reaches all of them here."""
+
+    def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
+        """Hear that a subscriber has left."""
+
+
+class Topic:
+    """What publishers and subscribers have in common.
+
+    Attributes:
+        name, resolved_name: the topic.
+        data_class: message class.
+        type: type name, such as ``std_msgs/String``.
+        md5sum: MD5 sum of the type.
+    """
+
+    def __init__(self, name: str, data_class: type[Ros1Message]) -> None:
+        if not isinstance(name, str) or not name:
+            raise ValueError("topic name is not a non-empty string")
+        if data_class is None:
+            raise ValueError("topic parameter 'data_class' is not initialized")
+        if not (isinstance(data_class, type) and hasattr(data_class, "_type")):
+            raise ValueError(f"data_class [{data_class}] is not a class of messages")
+        self.name = STATE.resolved(name)
+        self.resolved_name = self.name
+        self.data_class = data_class
+        self.type = data_class._type
+        self.md5sum = data_class._md5sum
+        self.reg_type = "pub"
+
+
+class Publisher(Topic):
+    """Offers a topic.
+
+    Args:
+        name: any legal name.
+        data_class: message class.
+        subscriber_listener: told about subscribers.
+        latch: give late subscribers the last message.
+        queue_size: told to others; the graph sends at once, so nothing waits here.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        data_class: type[Ros1Message],
+        subscriber_listener: SubscribeListener | None = None,
+        tcp_nodelay: bool = False,
+        latch: bool = False,
+        headers: dict[str, str] | None = None,
+        queue_size: int | None = None,
+    ) -> None:
+        super().__init__(name, data_class)
+        del tcp_nodelay, headers
+        if queue_size is None:
+            warnings.warn(
+                "The publisher should be created with an explicit keyword argument 'queue_size'. "
+                "Please see http://wiki.ros.org/rospy/Overview/Publishers%20and%20Subscribers",
+                SyntaxWarning,
+                stacklevel=2,
+            )
+        node = STATE.require(f"Publisher('{name}')")
+        self._listener = subscriber_listener
+        self._count = 0
+        self._impl: _Publisher | None = node.create_publisher(
+            name, data_class, latch=latch, queue_size=queue_size or 10, copy_local=True
+        )
+        if subscriber_listener is not None:
+            node.graph.discovery.listen(lambda _entity, _is_new: self._tell_listener())
+            self._tell_listener()
+
+    def publish(self, *args: Any, **kwds: Any) -> None:
+        """Send a message, or one made of the arguments.
+
+        Raises:
+            ROSException: the topic was unregistered or the node is shut down.
+            ROSSerializationException: a field's value does not fit its type.
+        """
+        if self._impl is None:
+            raise ROSException("publish() to an unregistered() handle")
+        if STATE.stopping.is_set() and (STATE.node is None or STATE.node.closed):
+            raise ROSException("publish() to a closed topic")
+        message = self._message(args, kwds)
+        try:
+            self._impl.publish(message)
+        except GazelleError as error:
+            raise ROSSerializationException(str(error)) from error
+
+    def get_num_connections(self) -> int:
+        """Return how many subscribers there are."""
+        return 0 if self._impl is None else self._impl.subscription_count
+
+    def unregister(self) -> None:
+        """Stop offering the topic."""
+        if self._impl is not None:
+            self._impl.unregister()
+            self._impl = None
+
+    def _message(self, args: tuple[Any, ...], kwds: dict[str, Any]) -> Ros1Message:
+        if len(args) == 1 and not kwds and isinstance(args[0], self.data_class):
+            return args[0]
+        if len(args) == 1 and not kwds and isinstance(args[0], Ros1Message):
+            raise ROSSerializationException(
+                f"expected [{self.type}] but got [{args[0]._type}] on topic {self.name}"
+            )
+        try:
+            return self.data_class(*args, **kwds)
+        except (TypeError, AttributeError) as error:
+            raise ROSSerializationException(str(error)) from error
+
+    def _tell_listener(self) -> None:
+        if self._listener is None or self._impl is None:
+            return
+        count = self._impl.subscription_count
+        while self._count < count:
+            self._count += 1
+            self._listener.peer_subscribe(self.name, self.publish, self.publish)
+        while self._count > count:
+            self._count -= 1
+            self._listener.peer_unsubscribe(self.name, self._count)
+
+
+class Subscriber(Topic):
+    """Receives a topic; callbacks of one topic come one after another in a thread of its own.
+
+    Args:
+        name: any legal name.
+        data_class: message class, or `rospy.AnyMsg` for raw bytes of any type.
+        callback: takes the message, and `callback_args` when that is not None.
+        queue_size: most messages that wait; None for no limit.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        data_class: type[Ros1Message],
+        callback: Callable[..., Any] | None = None,
+        callback_args: Any = None,
+        queue_size: int | None = None,
+        buff_size: int = 65536,
+        tcp_nodelay: bool = False,
+    ) -> None:
+        super().__init__(name, data_class)
+        del buff_size, tcp_nodelay
+        self.reg_type = "sub"
+        self.callback = callback
+        self.callback_args = callback_args
+        raw = issubclass(data_class, AnyMsg)
+        node = STATE.require(f"Subscriber('{name}')")
+        self.impl: _Subscription | None = node.create_subscription(
+            name,
+            None if raw else data_class,
+            self._on_raw if raw else self._on_message,
+            queue_size=queue_size or 0,
+            raw=raw,
+        )
+
+    def get_num_connections(self) -> int:
+        """Return how many publishers there are."""
+        return 0 if self.impl is None else self.impl.publisher_count
+
+    def unregister(self) -> None:
+        """Stop receiving."""
+        if self.impl is not None:
+            self.impl.unregister()
+            self.impl = None
+
+    def _on_raw(self, raw: RawMessage) -> None:
+        """Turn the wire's bytes into the ROS 1 bytes that AnyMsg holds."""
+        cls = ros1_message_type(ros1_type_of(raw.type_name))
+        message: Any = self.data_class()
+        message._buff = to_ros1(from_cdr(cls, raw.data))
+        message._connection_header = {
+            "type": cls._type,
+            "md5sum": cls._md5sum,
+            "topic": self.name,
+            "message_definition": cls._full_text,
+        }
+        self._on_message(message)
+
+    def _on_message(self, message: Any) -> None:
+        if self.callback is None or STATE.stopping.is_set():
+            return
+        try:
+            if self.callback_args is not None:
+                self.callback(message, self.callback_args)
+            else:
+                self.callback(message)
+        except ROSInterruptException:
+            return
+        except Exception:  # noqa: BLE001 - a user's callback may raise anything
+            sys.stderr.write(f"[ERROR] bad callback: {self.callback}\n")
+            traceback.print_exc()
+
+
+def wait_for_message(topic: str, topic_type: type[Ros1Message], timeout: Any = None) -> Any:
+    """Return the next message of a topic.
+
+    Args:
+        topic: any legal name.
+        topic_type: message class.
+        timeout: seconds, or a Duration; None waits for ever.
+
+    Raises:
+        ROSException: time is up.
+        ROSInterruptException: the node was shut down meanwhile.
+    """
+    seconds = timeout.to_sec() if hasattr(timeout, "to_sec") else timeout
+    got: list[Any] = []
+    arrived = threading.Event()
+
+    def take(message: Any) -> None:
+        if not got:
+            got.append(message)
+        arrived.set()
+
+    subscriber = Subscriber(topic, topic_type, take)
+    STATE.add_early_hook(lambda _reason: arrived.set())
+    try:
+        if not arrived.wait(seconds):
+            raise ROSException(f"timeout exceeded while waiting for message on topic {topic}")
+        if not got:
+            raise ROSInterruptException("rospy shutdown")
+        return got[0]
+    finally:
+        subscriber.unregister()
