@@ -6,6 +6,8 @@ write the same CDR bytes. Definitions are read, classes made and codecs compiled
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from gazelle.interfaces.codec import convert, from_cdr, from_ros1, to_cdr, to_ros1
 from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, Generation
 from gazelle.interfaces.library import add_package, add_search_path
@@ -30,6 +32,11 @@ from gazelle.interfaces.services import (
     service_type,
 )
 
+if TYPE_CHECKING:
+    from gazelle.interfaces.plain import fill, time_keys, to_plain
+    from gazelle.interfaces.strify import strify
+    from gazelle.interfaces.type_hash import type_hash
+
 __all__ = [
     "ActionType",
     "AnyMsg",
@@ -50,6 +57,7 @@ __all__ = [
     "add_search_path",
     "convert",
     "definition",
+    "fill",
     "from_cdr",
     "from_ros1",
     "known_types",
@@ -63,7 +71,30 @@ __all__ = [
     "service_type",
     "show_message",
     "show_service",
+    "strify",
+    "time_keys",
     "to_cdr",
+    "to_plain",
     "to_ros1",
+    "type_hash",
     "wire_type",
 ]
+
+_LATER = {
+    "fill": "plain",
+    "strify": "strify",
+    "time_keys": "plain",
+    "to_plain": "plain",
+    "type_hash": "type_hash",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import what programs seldom need when it is asked for."""
+    if name in _LATER:
+        from importlib import import_module
+
+        found = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+        globals()[name] = found
+        return found
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

@@ -7,8 +7,7 @@ A class of either generation can be written in the layout of either, so a ROS 1 
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from gazelle.errors import InterfaceError
 from gazelle.interfaces.definition import (
@@ -40,8 +39,15 @@ class Wire(enum.Enum):
     ROS1 = "ros1"
 
 
-@dataclass(frozen=True, slots=True)
-class Slot:
+_TIME_LETTERS = {
+    (Wire.CDR, True): ("i", "I"),
+    (Wire.CDR, False): ("i", "I"),
+    (Wire.ROS1, True): ("I", "I"),
+    (Wire.ROS1, False): ("i", "i"),
+}
+
+
+class Slot(NamedTuple):
     """One field of the bytes.
 
     Attributes:
@@ -67,8 +73,7 @@ class Slot:
     as_bytes: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(NamedTuple):
     """A class and the order of its attributes in the bytes.
 
     Attributes:
@@ -158,10 +163,7 @@ def _wire_default(name: str, item: Field, generation: Generation) -> Any:
 
 def _time_layout(base: str, generation: Generation, wire: Wire) -> Layout:
     is_time = base.endswith("Time")
-    if wire is Wire.CDR:
-        letters = ("i", "I")
-    else:
-        letters = ("I", "I") if is_time else ("i", "i")
+    letters = _TIME_LETTERS[wire, is_time]
     if generation is Generation.ROS1:
         cls: type[Any] = Time if is_time else Duration
         names = ("secs", "nsecs")

@@ -76,7 +76,7 @@ def _value_problem(kind: FieldType, value: Any, name: str) -> str | None:
         return _time_problem(kind.base, value, name)
     if kind.is_message:
         if isinstance(value, Message | Ros1Message):
-            if value.TYPE_NAME != kind.base:
+            if kind.base != value.TYPE_NAME:
                 return f"field '{name}' must be a {kind.base}, is a {value.TYPE_NAME}"
             return _message_problem(value, f"{name}.")
         return f"field '{name}' must be a {kind.base}, is {_shown(value)}"

@@ -7,13 +7,9 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError, InterfaceError
-from gazelle.interfaces.binding import Wire, bind
-from gazelle.interfaces.convert import CONVERTED
 from gazelle.interfaces.definition import Generation
 from gazelle.interfaces.message import Message
-from gazelle.interfaces.reader import compile_reader
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
-from gazelle.interfaces.writer import compile_writer
 
 __all__ = ["convert", "from_cdr", "from_ros1", "to_cdr", "to_ros1"]
 
@@ -41,7 +37,7 @@ def to_cdr(msg: Message | Ros1Message) -> bytes:
     try:
         write = _cdr_writers[cls]
     except KeyError:
-        write = _cdr_writers[cls] = _cdr_writer(cls)
+        write = _cdr_writers[cls] = _compiled_writer(cls)
     try:
         return write(msg)
     except GazelleError:
@@ -65,7 +61,7 @@ def from_cdr(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     try:
         read = _cdr_readers[cls]
     except KeyError:
-        read = _cdr_readers[cls] = _cdr_reader(cls, "<")
+        read = _cdr_readers[cls] = _compiled_reader(cls)
     try:
         if buffer[1] != 1 or buffer[0] != 0:
             read = _other_reader(cls, buffer)
@@ -86,8 +82,7 @@ def to_ros1(msg: Message | Ros1Message) -> bytes:
         return msg._buff or b""
     write = _ros1_writers.get(cls)
     if write is None:
-        layout = bind(cls.TYPE_NAME, cls.GENERATION, Wire.ROS1)
-        write = _ros1_writers[cls] = compile_writer(layout, Wire.ROS1)
+        write = _ros1_writers[cls] = _compiled_writer(cls, is_cdr=False)
     try:
         return write(msg)
     except GazelleError:
@@ -104,8 +99,7 @@ def from_ros1(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     """
     read = _ros1_readers.get(cls)
     if read is None:
-        layout = bind(cls.TYPE_NAME, cls.GENERATION, Wire.ROS1)
-        read = _ros1_readers[cls] = compile_reader(layout, Wire.ROS1)
+        read = _ros1_readers[cls] = _compiled_reader(cls, is_cdr=False)
     try:
         found: _T = read(buffer)
     except (struct.error, ValueError, IndexError, MemoryError, OverflowError) as error:
@@ -124,18 +118,28 @@ def convert(msg: Message | Ros1Message, cls: type[_T]) -> _T:
     return from_cdr(cls, to_cdr(msg))
 
 
-def _cdr_writer(cls: type[Any]) -> _Writer:
-    if cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
+def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
+    from gazelle.interfaces.binding import Wire, bind
+    from gazelle.interfaces.convert import CONVERTED
+    from gazelle.interfaces.writer import compile_writer
+
+    if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
         to_wire = CONVERTED[cls.TYPE_NAME].to_wire
         return lambda msg: to_cdr(to_wire(msg))
-    return compile_writer(bind(cls.TYPE_NAME, cls.GENERATION, Wire.CDR), Wire.CDR)
+    wire = Wire.CDR if is_cdr else Wire.ROS1
+    return compile_writer(bind(cls.TYPE_NAME, cls.GENERATION, wire), wire)
 
 
-def _cdr_reader(cls: type[Any], endian: str) -> _Reader:
-    if cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
+def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") -> _Reader:
+    from gazelle.interfaces.binding import Wire, bind
+    from gazelle.interfaces.convert import CONVERTED
+    from gazelle.interfaces.reader import compile_reader
+
+    if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
         return lambda data: conversion.from_wire(from_cdr(conversion.wire_class(), data))
-    return compile_reader(bind(cls.TYPE_NAME, cls.GENERATION, Wire.CDR), Wire.CDR, endian)
+    wire = Wire.CDR if is_cdr else Wire.ROS1
+    return compile_reader(bind(cls.TYPE_NAME, cls.GENERATION, wire), wire, endian)
 
 
 def _other_reader(cls: type[Any], buffer: bytes | bytearray | memoryview) -> _Reader:
@@ -144,7 +148,7 @@ def _other_reader(cls: type[Any], buffer: bytes | bytearray | memoryview) -> _Re
             f"encapsulation {buffer[0]:02x} {buffer[1]:02x} is not plain CDR (00 00 or 00 01)"
         )
     if cls not in _big_readers:
-        _big_readers[cls] = _cdr_reader(cls, ">")
+        _big_readers[cls] = _compiled_reader(cls, endian=">")
     return _big_readers[cls]
 
 

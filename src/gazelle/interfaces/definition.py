@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import keyword
-from dataclasses import dataclass
+from typing import NamedTuple
 
 __all__ = [
     "FORMATS",
@@ -70,8 +70,7 @@ NUMPY_NAMES: dict[str, str] = {
 """numpy's name of every `struct` letter, without the byte order."""
 
 
-@dataclass(frozen=True, slots=True)
-class FieldType:
+class FieldType(NamedTuple):
     """The type of a field.
 
     Attributes:
@@ -113,8 +112,7 @@ class FieldType:
         return f"{base}{bound}[<={self.size}]" if self.size else f"{base}{bound}[]"
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(NamedTuple):
     """One field: its name, type and default (None: the type's own default)."""
 
     name: str
@@ -122,8 +120,7 @@ class Field:
     default: Scalar | tuple[Scalar, ...] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Constant:
+class Constant(NamedTuple):
     """One constant; `text` is the value as the definition writes it (MD5 sums need it)."""
 
     name: str
@@ -132,8 +129,7 @@ class Constant:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(NamedTuple):
     """A message, or one part of a service or action.
 
     Attributes:

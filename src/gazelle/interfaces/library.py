@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 from gazelle.errors import NotFoundError
 from gazelle.interfaces.definition import Generation
@@ -24,8 +24,7 @@ _user_packages: dict[str, tuple[Path, Generation | None]] = {}
 _revision = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(NamedTuple):
     """One definition's text.
 
     Attributes:

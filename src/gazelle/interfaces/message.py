@@ -7,7 +7,7 @@ the message is written. Byte sequences (``uint8[]``) take `bytes` too.
 from __future__ import annotations
 
 import threading
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from gazelle.interfaces.lookup import definition, split_name
 
 __all__ = ["Message", "canonical_name", "forget", "message_type", "values_equal"]
 
-_M = TypeVar("_M", bound="Message")
+_ZEROS: dict[str, Any] = {"": "", "?": False, "f": 0.0, "d": 0.0}
 _lock = threading.RLock()
 _classes: dict[str, type[Message]] = {}
 _revision = 0
@@ -47,6 +47,12 @@ class Message:
     _names: ClassVar[tuple[str, ...]] = ()
 
     __hash__ = None  # type: ignore[assignment]
+
+    if TYPE_CHECKING:  # fields are made from definitions
+
+        def __init__(self, *args: Any, **kwargs: Any) -> None: ...
+        def __getattr__(self, name: str) -> Any: ...
+        def __setattr__(self, name: str, value: Any) -> None: ...
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Message) or other.TYPE_NAME != self.TYPE_NAME:
@@ -157,9 +163,7 @@ def _make_class(source: Definition, above: tuple[str, ...]) -> type[Message]:
     return type(source.name.rsplit("/", 1)[1], (Message,), attributes)
 
 
-def _default(
-    item: Field, index: int, space: dict[str, Any], above: tuple[str, ...]
-) -> str | None:
+def _default(item: Field, index: int, space: dict[str, Any], above: tuple[str, ...]) -> str | None:
     """Return the source of a fresh default; None when ``_d<index>`` holds an immutable one."""
     kind, name = item.type, f"_d{index}"
     letter = FORMATS.get(kind.base)
@@ -167,9 +171,9 @@ def _default(
         if kind.is_message:
             space[name] = _nested(kind.base, above)
             return f"{name}()"
-        zero: Any = "" if letter is None else (False if letter == "?" else 0)
+        zero = _ZEROS.get(letter or "", 0)
         value = item.default if item.default is not None else zero
-        space[name] = float(value) if letter in ("f", "d") else value
+        space[name] = value
         return None
     if letter is not None:
         values = item.default if isinstance(item.default, tuple) else ()

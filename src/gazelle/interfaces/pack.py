@@ -85,6 +85,4 @@ def too_long(label: str, value: Any, bound: int) -> NoReturn:
 
 def wrong_length(label: str, value: Any, size: int, count: int | None = None) -> NoReturn:
     """Raise that a fixed array has another length."""
-    raise InterfaceError(
-        f"{label} has {size} items, got {len(value) if count is None else count}"
-    )
+    raise InterfaceError(f"{label} has {size} items, got {len(value) if count is None else count}")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.errors import InterfaceError
 from gazelle.interfaces.definition import (
     FORMATS,
     Array,
@@ -16,6 +16,9 @@ from gazelle.interfaces.definition import (
     Generation,
 )
 from gazelle.interfaces.values import constant_value, default_value
+
+if TYPE_CHECKING:
+    from gazelle.diagnostics import Diagnostics
 
 __all__ = ["parse_message", "split_parts"]
 
@@ -28,26 +31,31 @@ _PRIMITIVES = frozenset(FORMATS) | {"string", "wstring"}
 _TIMES = {"time": "builtin_interfaces/msg/Time", "duration": "builtin_interfaces/msg/Duration"}
 
 
-@dataclass(slots=True)
 class _Reading:
-    name: str
-    generation: Generation
-    file: str
-    first_line: int
-    diagnostics: Diagnostics
-    constants: list[Constant] = field(default_factory=list)
-    fields: list[Field] = field(default_factory=list)
-    line: str = ""
-    number: int = 0
+    def __init__(
+        self, name: str, generation: Generation, file: str, diagnostics: Diagnostics | None
+    ) -> None:
+        self.name = name
+        self.generation = generation
+        self.file = file
+        self.diagnostics = diagnostics
+        self.constants: list[Constant] = []
+        self.fields: list[Field] = []
+        self.line = ""
+        self.number = 0
 
     def report(self, code: str, message: str, word: str = "", *, fix: str = "") -> None:
+        if self.diagnostics is None:
+            raise InterfaceError(f"{self.file}:{self.number}: {message}")
+        from gazelle.diagnostics import SourceSpan
+
         column = self.line.find(word) + 1 if word else 0
         span = SourceSpan(self.file, self.number, column, len(word) if column else 0)
         self.diagnostics.report(code, message, span, fix=fix)
 
 
 def split_parts(
-    text: str, count: int, *, file: str, diagnostics: Diagnostics
+    text: str, count: int, *, file: str, diagnostics: Diagnostics | None
 ) -> tuple[tuple[str, int], ...] | None:
     """Split a service's or action's text at its ``---`` lines.
 
@@ -55,10 +63,13 @@ def split_parts(
         text: the whole file.
         count: how many parts there must be: 2 of a service, 3 of an action.
         file: name of the file in findings.
-        diagnostics: takes the finding.
+        diagnostics: takes the finding; None as in `parse_message`.
 
     Returns:
         Text and number of the first line of each part; None when the count is wrong.
+
+    Raises:
+        InterfaceError: the count is wrong and nothing takes the finding.
     """
     parts: list[list[str]] = [[]]
     starts = [1]
@@ -70,10 +81,11 @@ def split_parts(
             parts[-1].append(line)
     if len(parts) != count:
         kind = "a service" if count == 2 else "an action"
-        diagnostics.report(
+        reading = _Reading("", Generation.ROS2, file, diagnostics)
+        reading.number = starts[-1] - 1 if len(parts) > 1 else 1
+        reading.report(
             "interfaces.missing-separator",
             f"{kind} has {count - 1} line(s) of '---', this file has {len(parts) - 1}",
-            SourceSpan(file, starts[-1] - 1 if len(parts) > 1 else 1),
         )
         return None
     return tuple(("\n".join(part), start) for part, start in zip(parts, starts, strict=True))
@@ -84,7 +96,7 @@ def parse_message(
     name: str,
     generation: Generation,
     *,
-    diagnostics: Diagnostics,
+    diagnostics: Diagnostics | None,
     file: str = "",
     first_line: int = 1,
 ) -> Definition:
@@ -94,14 +106,18 @@ def parse_message(
         text: the definition.
         name: full name, such as ``my_robot/msg/Battery``; bare type names are of its package.
         generation: ROS 1 knows ``time``, ``duration``, bare ``Header`` and no defaults.
-        diagnostics: takes all findings; lines with errors are left out of the result.
+        diagnostics: takes all findings; lines with errors are left out of the result. None for
+            texts that have none, such as Gazelle's own data.
         file: name of the file in findings; the message's name in angle brackets when empty.
         first_line: number of the text's first line in the file.
 
     Returns:
         The definition of all lines that are right.
+
+    Raises:
+        InterfaceError: there is a finding and nothing that takes it.
     """
-    reading = _Reading(name, generation, file or f"<{name}>", first_line, diagnostics)
+    reading = _Reading(name, generation, file or f"<{name}>", diagnostics)
     for number, line in enumerate(text.splitlines(), first_line):
         reading.line, reading.number = line, number
         _read_line(reading)
@@ -203,6 +219,8 @@ def _field_type(reading: _Reading, text: str) -> FieldType | None:
     match = _TYPE.match(text)
     base = _resolved(reading, match["base"]) if match else None
     if match is None or base is None:
+        from gazelle.diagnostics import did_you_mean
+
         near = did_you_mean(text, sorted(_PRIMITIVES))
         reading.report("interfaces.bad-type", f"'{text}' is not a type", text, fix=near)
         return None

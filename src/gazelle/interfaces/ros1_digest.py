@@ -6,7 +6,6 @@ serialization and msg MD5 sums): constants first, no comments, nested messages b
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator
 
 from gazelle.interfaces.definition import Definition, Generation
@@ -78,6 +77,8 @@ def _definition(name: str) -> Definition:
 
 
 def _md5(text: str) -> str:
+    import hashlib
+
     return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
 
 

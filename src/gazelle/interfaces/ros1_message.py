@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 from gazelle.interfaces import library
 from gazelle.interfaces.definition import (
@@ -69,6 +69,11 @@ class Ros1Message:
 
     __hash__ = None  # type: ignore[assignment]
 
+    if TYPE_CHECKING:  # fields are made from definitions
+
+        def __getattr__(self, name: str) -> Any: ...
+        def __setattr__(self, name: str, value: Any) -> None: ...
+
     def __init__(self, *args: Any, **kwds: Any) -> None:
         """Take all fields in order, or some by name; None means the default."""
 
@@ -91,7 +96,7 @@ class Ros1Message:
 
         buff.write(to_ros1(self))
 
-    def deserialize(self: _M, str: bytes) -> _M:  # noqa: A002 - rospy's name
+    def deserialize(self: _M, str: bytes) -> _M:
         """Fill this message from its ROS 1 bytes; return it.
 
         Raises:
@@ -108,7 +113,7 @@ class Ros1Message:
         """Write the message's ROS 1 bytes; arrays may be numpy arrays in `serialize` too."""
         self.serialize(buff)
 
-    def deserialize_numpy(self: _M, str: bytes, numpy: Any) -> _M:  # noqa: A002
+    def deserialize_numpy(self: _M, str: bytes, numpy: Any) -> _M:
         """Fill this message from its ROS 1 bytes with numpy arrays in place of tuples."""
         from gazelle.interfaces.definition import NUMPY_NAMES
 
@@ -169,7 +174,7 @@ class AnyMsg(Ros1Message):
             raise ValueError("AnyMsg has no bytes yet")
         buff.write(self._buff)
 
-    def deserialize(self, str: bytes) -> AnyMsg:  # noqa: A002
+    def deserialize(self, str: bytes) -> AnyMsg:
         """Keep the bytes."""
         self._buff = bytes(str)
         return self

@@ -15,6 +15,11 @@ _NANO = 1_000_000_000
 _T = TypeVar("_T", bound="TVal")
 
 
+def _is_whole(value: object) -> bool:
+    """Whether a number is an integer, numpy's too."""
+    return isinstance(value, numbers.Integral)
+
+
 class TVal:
     """A number of seconds and nanoseconds; base of `Time` and `Duration`.
 
@@ -34,7 +39,7 @@ class TVal:
     nsecs: int
 
     def __init__(self, secs: float = 0, nsecs: float = 0) -> None:
-        if isinstance(secs, numbers.Integral):
+        if _is_whole(secs):
             whole, nano = int(secs), int(nsecs)
         else:
             if nsecs != 0:

@@ -71,9 +71,9 @@ class _Printer:
             return text[: max(text.find("."), self._width)]
         return f"{value:{self._width}d}"
 
-    def _time(self, value: TVal, indent: str) -> str:
-        if self._offset is not None and isinstance(value, Time):
-            value = value - self._offset
+    def _time(self, value: Any, indent: str) -> str:
+        if self._offset is not None:
+            value = value - self._offset if isinstance(value, Time) else value
         seconds = str(value.secs) if self._width is None else f"{value.secs:{self._width}d}"
         return f"\n{indent}secs: {seconds}\n{indent}nsecs: {value.nsecs:{self._width or 9}d}"
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from gazelle.interfaces.definition import (
     Array,
     Constant,
@@ -39,7 +37,7 @@ def as_generation(definition: Definition, generation: Generation) -> Definition:
     table = _TO_ROS2 if generation is Generation.ROS2 else _TO_ROS1
     fields = tuple(_field(item, table, generation) for item in definition.fields)
     constants = tuple(
-        replace(item, type=table.get(item.type, item.type)) for item in definition.constants
+        item._replace(type=table.get(item.type, item.type)) for item in definition.constants
     )
     text = definition_text(constants, fields, generation)
     return Definition(definition.name, generation, constants, fields, text, native=False)
@@ -58,6 +56,6 @@ def _field(item: Field, table: dict[str, str], generation: Generation) -> Field:
     kind = item.type
     base = table.get(kind.base, kind.base)
     if generation is Generation.ROS2:
-        return Field(item.name, replace(kind, base=base), item.default)
+        return Field(item.name, kind._replace(base=base), item.default)
     size = kind.size if kind.array is Array.FIXED else 0
     return Field(item.name, FieldType(base, kind.array, size))

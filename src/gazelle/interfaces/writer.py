@@ -209,6 +209,8 @@ class _Writer(Emitter):
         self.indent(1)
         if slot.child is not None:
             self.message(slot.child, item)
+            if not slot.child.slots and not self.aligned:
+                self.line("pass")
         else:
             self._string(slot, item, label)
         self._settle()
