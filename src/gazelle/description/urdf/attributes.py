@@ -86,9 +86,7 @@ def check_vocabulary(
             diagnostics.report("xml.repeated-tag", message, extra.span)
 
 
-def _quaternion(
-    origin: Tag, diagnostics: Diagnostics
-) -> tuple[float, float, float, float] | None:
+def _quaternion(origin: Tag, diagnostics: Diagnostics) -> tuple[float, float, float, float] | None:
     """``quat_xyzw`` of URDF 1.1 (urdfdom 4); it may not stand beside ``rpy``."""
     text = origin.attributes.get("quat_xyzw")
     if text is None:

@@ -145,9 +145,7 @@ def _direction(tag: Tag, context: ReadContext) -> tuple[float, float, float] | N
 
 def _report_no_collision(link: Link, tags: list[Tag], context: ReadContext) -> None:
     tag = next(tag for tag in tags if tag.name in _COLLISION_WORDS)
-    message = (
-        f"<{tag.name}> for link '{link.name}' has no effect: the link has no <collision> to touch with"
-    )
+    message = f"<{tag.name}> for link '{link.name}' has no effect: the link has no <collision> to touch with"
     context.diagnostics.report("urdf.gazebo-no-collision", message, tag.span)
 
 

@@ -47,4 +47,6 @@ def bool_value(tag: Tag, default: bool, context: ReadContext) -> bool:
 def report_unknown(tag: Tag, where: str, known: Iterable[str], context: ReadContext) -> None:
     """Report an element that has no meaning in this ``<gazebo>`` block."""
     message = f"<{tag.name}> is not known in <gazebo> for {where}; it has no effect"
-    context.diagnostics.report("xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known))
+    context.diagnostics.report(
+        "xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known)
+    )

@@ -65,7 +65,7 @@ def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
     parent, child = _end(tag, "parent"), _end(tag, "child")
     if not parent or not child:
         lacking = " and ".join(
-            f"<{end} link=\"…\"/>" for end, link in (("parent", parent), ("child", child)) if not link
+            f'<{end} link="…"/>' for end, link in (("parent", parent), ("child", child)) if not link
         )
         message = f"joint '{name}' is missing {lacking}"
         context.diagnostics.report("urdf.joint-ends", message, tag.span)

@@ -81,9 +81,7 @@ def _ordered(tag: Tag, name: str, context: ReadContext) -> tuple[float, float]:
     return lower, upper
 
 
-def _report_zero(
-    tag: Tag, name: str, effort: float, velocity: float, context: ReadContext
-) -> None:
+def _report_zero(tag: Tag, name: str, effort: float, velocity: float, context: ReadContext) -> None:
     if effort == 0.0:
         message = f"joint '{name}' has effort=\"0\": no motor and no controller can move it"
         context.diagnostics.report("urdf.effort-zero", message, tag.span)

@@ -46,7 +46,7 @@ def _read_inertial(tag: Tag, link: str, context: ReadContext) -> Inertial | None
     T_link_com = origin_of(tag, context.diagnostics)
     mass, inertia = tag.find("mass"), tag.find("inertia")
     if mass is None or "value" not in mass.attributes:
-        _incomplete(mass or tag, link, "<mass> must have value=\"…\"", context)
+        _incomplete(mass or tag, link, '<mass> must have value="…"', context)
         mass_kg = None
     else:
         check_vocabulary(mass, context.diagnostics, attributes=("value",))

@@ -19,7 +19,7 @@ def global_materials(robot: Tag, context: ReadContext) -> dict[str, Material]:
         material = _read(tag, context)
         name = tag.attributes.get("name", "").strip()
         if not name:
-            message = "a <material> of the robot needs name=\"…\"; this one cannot be used"
+            message = 'a <material> of the robot needs name="…"; this one cannot be used'
             context.diagnostics.report("urdf.material-no-name", message, tag.span)
         elif name in table:
             message = f"material '{name}' is not unique; the first definition counts"

@@ -48,7 +48,7 @@ def read_geometry(owner: Tag, link: str, context: ReadContext) -> Shape | None:
 def _box(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
     check_vocabulary(tag, context.diagnostics, attributes=("size",))
     if "size" not in tag.attributes:
-        _incomplete(tag, owner, link, "a box needs size=\"x y z\"", context)
+        _incomplete(tag, owner, link, 'a box needs size="x y z"', context)
         return None
     size = vector_attribute(tag, "size", context.diagnostics)
     return Box(size) if size and _positive(tag, size, link, context) else None
@@ -76,7 +76,7 @@ def _mesh(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None
     check_vocabulary(tag, context.diagnostics, attributes=("filename", "scale"))
     uri = tag.attributes.get("filename", "").strip()
     if not uri:
-        _incomplete(tag, owner, link, "a mesh needs filename=\"package://…\"", context)
+        _incomplete(tag, owner, link, 'a mesh needs filename="package://…"', context)
         return None
     scale = vector_attribute(tag, "scale", context.diagnostics)
     if scale is None and "scale" in tag.attributes:
