@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 from gazelle.graph import Graph
-from gazelle.interfaces import message_type
+from gazelle.interfaces import ros1_message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 
@@ -16,7 +16,7 @@ __all__ = ["run"]
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Pass log messages on until told to stop."""
     node = start_node(arguments, graph)
-    log_type = message_type("rosgraph_msgs/msg/Log")
+    log_type = ros1_message_type("rosgraph_msgs/Log")
     out = node.create_publisher("/rosout_agg", log_type, queue_size=100)
 
     def on_log(message: Any) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import os
 import signal
 import sys
 import threading
@@ -16,6 +17,8 @@ from gazelle.graph.names import CommandLine, parse_command_line, resolve
 
 __all__ = ["STATE", "NodeState"]
 
+_LAST_CHANCE_S = 2.0
+_PLAIN_HANDLERS = (signal.default_int_handler, signal.SIG_DFL, signal.SIG_IGN, None)
 _LEVELS = {1: Level.DEBUG, 2: Level.INFO, 4: Level.WARN, 8: Level.ERROR, 16: Level.FATAL}
 
 
@@ -166,10 +169,13 @@ class NodeState:
         thread = threading.Thread(target=self.shut_down, args=(f"signal-{number}",), daemon=True)
         thread.start()
         thread.join(timeout=5.0)
-        if number == signal.SIGINT and callable(self._previous_sigint):
+        if number == signal.SIGTERM:
+            # A loop that never asks is_shutdown() must not outlive its launch.
+            last = threading.Timer(_LAST_CHANCE_S, os._exit, (128 + number,))
+            last.daemon = True
+            last.start()
+        elif self._previous_sigint not in _PLAIN_HANDLERS and callable(self._previous_sigint):
             self._previous_sigint(number, frame)
-        elif number == signal.SIGTERM:
-            sys.exit(0)
 
     def _on_node_shutdown(self, reason: str) -> None:
         if not self.stopping.is_set():

@@ -1,0 +1,49 @@
+"""``rosrun [--prefix P] PACKAGE TYPE args…``: one node in the foreground."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+
+from gazelle.diagnostics import Diagnostics, render
+from gazelle.launch.environment import node_environment
+from gazelle.launch.executables import find_executable
+from gazelle.workspace import Workspace
+
+__all__ = ["main"]
+
+_USAGE = """Usage: rosrun [--prefix cmd] PACKAGE EXECUTABLE [ARGS]
+  rosrun will locate PACKAGE and try to find
+  an executable named EXECUTABLE in the PACKAGE tree.
+  If it finds it, it will run it with ARGS."""
+
+
+def main(argv: list[str]) -> int:
+    """Become the node: this process turns into it, so signals and the terminal are its own."""
+    prefix: list[str] = []
+    while argv and argv[0].startswith("-"):
+        if argv[0] in {"--prefix", "-p"} and len(argv) > 1:
+            prefix, argv = shlex.split(argv[1]), argv[2:]
+        elif argv[0] in {"--debug", "-d"}:
+            argv = argv[1:]
+        else:
+            print(_USAGE)
+            return 0 if argv[0] in {"-h", "--help"} else 1
+    if len(argv) < 2:
+        print(_USAGE)
+        return 1
+    package, type_name, *rest = argv
+    workspace, diagnostics = Workspace.discover(), Diagnostics()
+    found = find_executable(package, type_name, workspace=workspace, diagnostics=diagnostics)
+    if found is None:
+        render(diagnostics)
+        return 3
+    words = [*prefix, *found.command, *rest]
+    environment = node_environment(os.environ, workspace)
+    sys.stdout.flush()
+    try:
+        os.execvpe(words[0], words, environment)  # noqa: S606 - running the node is the purpose
+    except OSError as error:
+        print(f"rosrun: cannot run '{words[0]}': {error.strerror}", file=sys.stderr)
+        return 126
