@@ -13,6 +13,9 @@ from gazelle.errors import GazelleError, UserFileError
 
 __all__ = ["main"]
 
+# One module runs several commands; it is told which.
+_SHARED_MODULES = ("gazelle.cli.rosmsg", "gazelle.cli.rospack")
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command.
@@ -43,7 +46,7 @@ def _run(name: str, rest: list[str]) -> int:
         return 2
     try:
         module = import_module(command.module)
-        if command.module == "gazelle.cli.rosmsg" or name == "rosversion":
+        if command.module in _SHARED_MODULES:
             rest = [name, *rest]
         return int(module.main(rest))
     except UserFileError as error:

@@ -16,7 +16,7 @@ def main(argv: list[str]) -> int:
     """Run until Ctrl-C."""
     parser = argparse.ArgumentParser(
         prog="roscore",
-        description="Nothing in Gazelle needs a roscore; it runs the hub and parameter store alone.",
+        description="Runs the hub and parameter store alone; nothing in Gazelle needs it.",
     )
     parser.add_argument("-p", "--port", type=int, help="port of the graph")
     parser.add_argument("-v", dest="verbose", action="store_true", help="accepted")

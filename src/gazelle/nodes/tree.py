@@ -33,7 +33,7 @@ class TreeJoint:
         """Whether nothing moves it."""
         return self.joint.type is JointType.FIXED
 
-    def T_parent_child(self, position: float) -> Pose:  # noqa: N802 - the field's notation
+    def T_parent_child(self, position: float) -> Pose:
         """Return the child link's pose in the parent link at a joint position (rad or m)."""
         axis = self.joint.axis.xyz if self.joint.axis is not None else (1.0, 0.0, 0.0)
         if self.joint.type in _TURNING:

@@ -127,22 +127,22 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
 
 
 def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
-    from gazelle.description.xacro import expand_xacro
+    from gazelle.description.xacro import expand_xacro, parse_xacro_arguments
 
-    files = [word for word in words if not word.startswith("-") and ":=" not in word]
-    if len(files) != 1:
-        message = f"[{name}]: xacro needs one file, found {len(files)}: {' '.join(words)}"
-        raise TagError("launch.param-command-failed", message)
-    mappings = dict(word.split(":=", 1) for word in words if ":=" in word)
+    try:
+        command = parse_xacro_arguments(words)
+    except ValueError as error:
+        raise TagError("launch.param-command-failed", f"[{name}]: {error}") from error
     errors_before = len(reading.diagnostics.errors)
     expanded = expand_xacro(
-        Path(files[0]),
-        mappings=mappings,
+        command.file,
+        mappings=command.mappings,
         workspace=reading.workspace,
         diagnostics=reading.diagnostics,
+        root_dir=command.root_dir,
     )
     if expanded is None or len(reading.diagnostics.errors) > errors_before:
-        message = f"Cannot load command parameter [{name}]: xacro failed on '{files[0]}'"
+        message = f"Cannot load command parameter [{name}]: xacro failed on '{command.file}'"
         raise TagError("launch.param-command-failed", message)
     return expanded.text
 
