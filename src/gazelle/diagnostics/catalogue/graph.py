@@ -23,4 +23,12 @@ ENTRIES = (
         "use one type, or another topic name",
         "Client wants topic to have datatype/md5sum, but our version has another",
     ),
+    Entry(
+        "graph.tf-two-authorities",
+        "warning",
+        "Two nodes publish the same frame",
+        "The frame jumps between what the two say; ROS keeps silent and takes both.",
+        "end one of the two, or switch its tf off (publish_tf, publishTf, publish_odom_tf)",
+        "TF_REPEATED_DATA ignoring data with redundant timestamp",
+    ),
 )

@@ -1,1 +1,32 @@
 """Coordinate frames over time: buffer, listener and broadcasters."""
+
+from __future__ import annotations
+
+from gazelle.graph.tf.broadcaster import StaticTransformBroadcaster, TransformBroadcaster
+from gazelle.graph.tf.buffer import FrameInfo, StampedPose, TransformBuffer
+from gazelle.graph.tf.errors import (
+    ConnectivityError,
+    ExtrapolationError,
+    InvalidFrameError,
+    TransformError,
+    UnknownFrameError,
+)
+from gazelle.graph.tf.listener import TransformListener
+from gazelle.graph.tf.listing import frames_as_dot, frames_as_string, frames_as_yaml
+
+__all__ = [
+    "ConnectivityError",
+    "ExtrapolationError",
+    "FrameInfo",
+    "InvalidFrameError",
+    "StampedPose",
+    "StaticTransformBroadcaster",
+    "TransformBroadcaster",
+    "TransformBuffer",
+    "TransformError",
+    "TransformListener",
+    "UnknownFrameError",
+    "frames_as_dot",
+    "frames_as_string",
+    "frames_as_yaml",
+]

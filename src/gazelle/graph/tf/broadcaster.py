@@ -1,0 +1,87 @@
+"""Sending transforms."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.tf.buffer import StampedPose
+from gazelle.graph.wire import resolve_type
+
+if TYPE_CHECKING:
+    from gazelle.graph.node import Node
+
+__all__ = ["StaticTransformBroadcaster", "TransformBroadcaster", "to_message"]
+
+_TYPE = "tf2_msgs/msg/TFMessage"
+
+
+class TransformBroadcaster:
+    """Publishes moving frames on ``/tf``."""
+
+    def __init__(self, node: Node) -> None:
+        """Offer ``/tf``."""
+        self._message_class = resolve_type(_TYPE)
+        self._publisher = node.create_publisher("/tf", self._message_class, queue_size=100)
+
+    def send(self, transforms: StampedPose | Iterable[Any] | Any) -> None:
+        """Send one or several transforms: `StampedPose` or ``geometry_msgs/TransformStamped``."""
+        messages = [to_message(one) for one in _as_list(transforms)]
+        self._publisher.publish(self._message_class(transforms=messages))
+
+    def close(self) -> None:
+        """Offer ``/tf`` no more."""
+        self._publisher.unregister()
+
+
+class StaticTransformBroadcaster:
+    """Publishes frames that never move on ``/tf_static``.
+
+    Late listeners get one message with all frames this broadcaster ever sent, the last one of
+    each child frame.
+    """
+
+    def __init__(self, node: Node) -> None:
+        """Offer ``/tf_static``, latched."""
+        self._message_class = resolve_type(_TYPE)
+        self._publisher = node.create_publisher(
+            "/tf_static", self._message_class, latch=True, queue_size=1
+        )
+        self._sent: dict[str, Any] = {}
+        self._lock = threading.Lock()
+
+    def send(self, transforms: StampedPose | Iterable[Any] | Any) -> None:
+        """Send one or several transforms: `StampedPose` or ``geometry_msgs/TransformStamped``."""
+        messages = [to_message(one) for one in _as_list(transforms)]
+        with self._lock:
+            self._sent |= {one.child_frame_id: one for one in messages}
+            self._publisher.publish(self._message_class(transforms=list(self._sent.values())))
+
+    def close(self) -> None:
+        """Offer ``/tf_static`` no more."""
+        self._publisher.unregister()
+
+
+def to_message(transform: Any) -> Any:
+    """Return a ``geometry_msgs/msg/TransformStamped``; one of ROS 1 is translated."""
+    from gazelle.graph.wire import convert
+
+    wanted = resolve_type("geometry_msgs/msg/TransformStamped")
+    if not isinstance(transform, StampedPose):
+        return convert(transform, wanted)
+    message = wanted()
+    stamp = message.header.stamp
+    stamp.sec, stamp.nanosec = divmod(transform.stamp_ns, 1_000_000_000)
+    message.header.frame_id = transform.frame_id
+    message.child_frame_id = transform.child_frame_id
+    move, turn = message.transform.translation, message.transform.rotation
+    move.x, move.y, move.z = transform.pose.position_m
+    turn.x, turn.y, turn.z, turn.w = transform.pose.quat_xyzw
+    return message
+
+
+def _as_list(transforms: Any) -> list[Any]:
+    if isinstance(transforms, StampedPose) or hasattr(transforms, "child_frame_id"):
+        return [transforms]
+    return list(transforms)

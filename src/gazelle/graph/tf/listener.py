@@ -1,0 +1,61 @@
+"""Filling a buffer from ``/tf`` and ``/tf_static``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gazelle.geometry import Pose
+from gazelle.graph.tf.buffer import TransformBuffer
+from gazelle.graph.wire import resolve_type
+
+if TYPE_CHECKING:
+    from gazelle.graph.node import Node
+    from gazelle.graph.subscription import MessageInfo
+
+__all__ = ["TransformListener"]
+
+_TYPE = "tf2_msgs/msg/TFMessage"
+
+
+class TransformListener:
+    """Puts what is published on ``/tf`` and ``/tf_static`` into a buffer.
+
+    Moving frames are forgotten when simulated time goes backwards.
+    """
+
+    def __init__(self, buffer: TransformBuffer, node: Node) -> None:
+        """Start to listen."""
+        self.buffer = buffer
+        message_class = resolve_type(_TYPE)
+        self._subscriptions = [
+            node.create_subscription(topic, message_class, callback, queue_size=100, with_info=True)
+            for topic, callback in (("/tf", self._on_moving), ("/tf_static", self._on_static))
+        ]
+        node.clock.on_jump(self._on_jump)
+
+    def close(self) -> None:
+        """Listen no more; calling it twice does nothing."""
+        for one in self._subscriptions:
+            one.unregister()
+
+    def _on_jump(self, _delta_ns: int) -> None:
+        self.buffer.clear()
+
+    def _on_moving(self, message: Any, info: MessageInfo) -> None:
+        self._store(message, info, is_static=False)
+
+    def _on_static(self, message: Any, info: MessageInfo) -> None:
+        self._store(message, info, is_static=True)
+
+    def _store(self, message: Any, info: MessageInfo, *, is_static: bool) -> None:
+        authority = info.publisher or "unknown_publisher"
+        for one in message.transforms:
+            stamp, move, turn = one.header.stamp, one.transform.translation, one.transform.rotation
+            self.buffer.set_transform(
+                one.header.frame_id,
+                one.child_frame_id,
+                stamp.sec * 1_000_000_000 + stamp.nanosec,
+                Pose((move.x, move.y, move.z), (turn.x, turn.y, turn.z, turn.w)),
+                authority=authority,
+                is_static=is_static,
+            )
