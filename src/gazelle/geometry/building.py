@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry.mesh import MeshMaterial, MeshPart
-from gazelle.geometry.shading import group_rows, rounded_normals, smooth_corners
+from gazelle.geometry.shading import group_points, group_rows, rounded_normals, smooth_corners
 
 __all__ = ["part_from_corners", "part_from_soup"]
 
@@ -16,8 +16,7 @@ def part_from_soup(
 ) -> MeshPart:
     """Make a part of loose triangles (M, 3, 3): equal vertices shared, normals computed."""
     flat = np.ascontiguousarray(corners_m, dtype=np.float64).reshape(-1, 3)
-    _, group = group_rows(flat)
-    return part_from_corners(flat, group, name=name, material=material)
+    return part_from_corners(flat, group_points(flat), name=name, material=material)
 
 
 def part_from_corners(
@@ -39,6 +38,11 @@ def part_from_corners(
         name: submesh name.
         material: or None.
     """
+    # Corners that share a vertex must lie at the very same place, or the surface has cracks.
+    index = np.arange(len(vertex_of_corner))
+    first_corner = np.zeros(int(vertex_of_corner.max(initial=0)) + 1, np.intp)
+    first_corner[vertex_of_corner[::-1]] = index[::-1]
+    positions_m = positions_m[first_corner[vertex_of_corner]]
     if normals is None:
         normals = smooth_corners(positions_m.reshape(-1, 3, 3), vertex_of_corner)
     columns = [vertex_of_corner[:, None].astype(np.float64), rounded_normals(normals)]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.mesh import Mesh, MeshPart
+from gazelle.geometry.shading import group_points
 
 __all__ = ["ConvexParts", "cache_folder", "convex_hull", "convex_parts"]
 
@@ -85,7 +86,7 @@ def convex_parts(mesh: Mesh, *, threshold: float = _DEFAULT_THRESHOLD) -> Convex
         return ConvexParts((hull,), False, note)
     coacd.set_log_level("error")
     pieces = coacd.run_coacd(
-        coacd.Mesh(np.asarray(mesh.vertices_m), np.asarray(mesh.faces)),
+        coacd.Mesh(*_welded(mesh)),
         threshold=threshold,
         seed=0,
     )
@@ -122,6 +123,18 @@ def _fills(mesh: Mesh, hull: MeshPart) -> bool:
     from gazelle.geometry.mesh_mass import is_closed, mesh_volume_m3
 
     return is_closed(mesh) and mesh_volume_m3(mesh) >= _CONVEX_SHARE * mesh_volume_m3(hull)
+
+
+def _welded(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Vertices without the copies that sharp edges need: CoACD remeshes what has cracks."""
+    group = group_points(mesh.vertices_m)
+    vertices = np.empty((int(group.max()) + 1, 3))
+    vertices[group] = mesh.vertices_m
+    faces = group[mesh.faces]
+    whole = (
+        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    )
+    return vertices, faces[whole]
 
 
 def _cache_file(mesh: Mesh, threshold: float) -> Path:

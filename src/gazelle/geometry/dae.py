@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry.building import part_from_corners
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart, Rgba
+from gazelle.geometry.shading import group_points
 
 __all__ = ["read_dae"]
 
@@ -33,6 +34,8 @@ def read_dae(data: bytes, file: Path) -> Mesh:
 
     if b"<!ENTITY" in data:
         raise MeshError(file, "XML entities are refused")
+    if b"COLLADA" not in data[:4096]:
+        raise MeshError(file, "cannot be read as Collada: there is no <COLLADA> element")
     try:
         document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
     except Exception as error:  # pycollada lets errors of its XML parser and of numpy through
@@ -176,9 +179,10 @@ def _part(triangles: Any, name: str, material: MeshMaterial | None) -> MeshPart 
         return None
     positions = np.asarray(triangles.vertex, np.float64)
     vertex = np.asarray(triangles.vertex_index, np.intp).reshape(-1)
+    positions = positions[vertex]
     return part_from_corners(
-        positions[vertex],
-        vertex,
+        positions,
+        group_points(positions),
         normals=_normals(triangles),
         uv=_uv(triangles),
         name=name,

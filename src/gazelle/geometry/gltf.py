@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gazelle.geometry.building import part_from_corners
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
 from gazelle.geometry.pose import Pose
-from gazelle.geometry.shading import group_rows, unit_rows
+from gazelle.geometry.shading import group_points, unit_rows
 
 __all__ = ["read_gltf"]
 
@@ -103,7 +103,7 @@ class _Reader:
         index = _triangle_corners(flat, mode)
         if not len(index):
             return None
-        _, vertex = group_rows(np.ascontiguousarray(positions))
+        vertex = group_points(positions)
         normals, uv = (self._attribute(attributes, key) for key in ("NORMAL", "TEXCOORD_0"))
         material = self._material(primitive.get("material"))
         return part_from_corners(
@@ -113,9 +113,7 @@ class _Reader:
             # glTF counts v from the picture's top.
             uv=None if uv is None else np.array([0.0, 1.0]) + uv[index] * (1.0, -1.0),
             name=name,
-            material=None
-            if material is None
-            else self._material(self._json["materials"][material]),
+            material=material,
         )
 
     def _attribute(self, attributes: dict[str, int], key: str) -> Matrix | None:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from gazelle.errors import GazelleError
 from gazelle.geometry.mass import MassProperties, inertia_from_matrix
 from gazelle.geometry.mesh import Mesh, MeshPart
-from gazelle.geometry.shading import face_normals, group_rows
+from gazelle.geometry.shading import face_normals, group_points
 
 __all__ = ["MassError", "is_closed", "mesh_area_m2", "mesh_mass_properties", "mesh_volume_m3"]
 
@@ -24,7 +24,7 @@ def is_closed(mesh: Mesh | MeshPart) -> bool:
 
     Only then does a mesh have an inside. Vertices at the same place count as one.
     """
-    _, vertex = group_rows(np.ascontiguousarray(mesh.vertices_m))
+    vertex = group_points(mesh.vertices_m)
     faces = vertex[mesh.faces]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     edges = edges[edges[:, 0] != edges[:, 1]]

@@ -55,7 +55,7 @@ class _Reader:
         key = words[0]
         try:
             if key in self._tables:
-                self._tables[key].append([float(word) for word in words[1:4]])
+                self._tables[key].append(_numbers(words))
             elif key == "f":
                 self._face(words[1:])
             elif key in {"o", "g"}:
@@ -129,10 +129,7 @@ class _Reader:
         )
 
     def _column(self, key: str, index: NDArray[np.intp], width: int) -> NDArray[np.float64]:
-        try:
-            table = np.array([row[:width] for row in self._tables[key]], np.float64)
-        except ValueError as error:
-            raise MeshError(self._file, f"a '{key}' line has fewer than {width} numbers") from error
+        table = np.array([row[:width] for row in self._tables[key]], np.float64)
         chosen: NDArray[np.float64] = table.reshape(-1, width)[index]
         if not np.isfinite(chosen).all():
             raise MeshError(self._file, f"a '{key}' line has a value that is not a finite number")
@@ -144,3 +141,12 @@ class _Reader:
         normals = self._column("vn", index, 3)
         lengths = np.linalg.norm(normals, axis=1, keepdims=True)
         return None if (lengths < 1e-9).any() else normals / lengths
+
+
+def _numbers(words: list[str]) -> list[float]:
+    numbers = [float(word) for word in words[1:4]]
+    if words[0] == "vt":
+        return [*numbers, 0.0][:2] if numbers else [0.0, 0.0]
+    if len(numbers) < 3:
+        raise ValueError("three numbers are needed")
+    return numbers

@@ -11,6 +11,9 @@ __all__ = ["triangulate"]
 
 Points = NDArray[np.float64]
 Outline = Sequence[tuple[float, float]]
+Triangle = tuple[int, int, int]
+
+_FLAT_SHARE = 1e-12
 
 
 def triangulate(outlines: Sequence[Outline]) -> tuple[list[Points], NDArray[np.intp]]:
@@ -36,7 +39,7 @@ def triangulate(outlines: Sequence[Outline]) -> tuple[list[Points], NDArray[np.i
     ]
     points = np.concatenate(rings)
     starts = np.cumsum([0, *(len(ring) for ring in rings)])
-    triangles: list[tuple[int, int, int]] = []
+    triangles: list[Triangle] = []
     for index, level in enumerate(depth):
         if level % 2 == 0:
             holes = [
@@ -121,18 +124,45 @@ def _turns(a: Points, b: Points, many: Points) -> Points:
     return turns
 
 
-def _clip_ears(points: Points, loop: list[int]) -> list[tuple[int, int, int]]:
+def _clip_ears(points: Points, loop: list[int]) -> list[Triangle]:
     triangles = []
     loop = list(loop)
-    while len(loop) > 3:
+    while len(loop) >= 3:
         at = _best_ear(points, loop)
-        triangle = (loop[at - 1], loop[at], loop[(at + 1) % len(loop)])
-        if _turn(*(points[i] for i in triangle)) > 0:
-            triangles.append(triangle)
+        triangles.append((loop[at - 1], loop[at], loop[(at + 1) % len(loop)]))
         del loop[at]
-    if _turn(*(points[i] for i in loop)) > 0:
-        triangles.append((loop[0], loop[1], loop[2]))
+    return _without_slivers(points, [item for item in triangles if len(set(item)) == 3])
+
+
+def _without_slivers(points: Points, triangles: list[Triangle]) -> list[Triangle]:
+    """Remove triangles without area: their middle point splits the neighbour instead.
+
+    Dropping them would leave an edge with a point on it, which is a crack in a solid.
+    """
+    smallest = _FLAT_SHARE * float(np.ptp(points, axis=0).max()) ** 2
+    for _ in range(len(triangles)):
+        flat = next((t for t in triangles if _turn(*points[list(t)]) <= smallest), None)
+        if flat is None:
+            break
+        triangles.remove(flat)
+        p, q, middle = _longest_edge_first(points, flat)
+        neighbour = next((t for t in triangles if (q, p) in _edges(t)), None)
+        if neighbour is not None:
+            triangles.remove(neighbour)
+            (apex,) = set(neighbour) - {p, q}
+            triangles += [(q, middle, apex), (middle, p, apex)]
     return triangles
+
+
+def _edges(triangle: Triangle) -> tuple[tuple[int, int], ...]:
+    a, b, c = triangle
+    return ((a, b), (b, c), (c, a))
+
+
+def _longest_edge_first(points: Points, triangle: Triangle) -> Triangle:
+    a, b, c = triangle
+    turned = ((a, b, c), (b, c, a), (c, a, b))
+    return max(turned, key=lambda t: float(np.linalg.norm(points[t[0]] - points[t[1]])))
 
 
 def _best_ear(points: Points, loop: list[int]) -> int:

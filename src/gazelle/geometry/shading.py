@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 __all__ = [
     "CREASE_ANGLE_RAD",
     "face_normals",
+    "group_points",
     "group_rows",
     "rounded_normals",
     "smooth_corners",
@@ -19,6 +20,7 @@ __all__ = [
 CREASE_ANGLE_RAD = math.radians(35.0)
 """Faces that meet at a smaller angle are shaded as one curved surface."""
 
+_WELD_SHARE = 1e-7
 _MOST_NEIGHBOURS = 256
 _NORMAL_STEPS = 1 << 14
 
@@ -47,6 +49,19 @@ def group_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.
     return first, group
 
 
+def group_points(points_m: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return the group of each point; points closer than float32 can tell apart are one.
+
+    Exporters compute the same corner twice and get 0 once and 5e-18 the other time.
+
+    Args:
+        points_m: (N, 3), finite.
+    """
+    extent = float(np.ptp(points_m, axis=0).max(initial=0.0)) if len(points_m) else 0.0
+    cell = _WELD_SHARE * extent or 1.0
+    return group_rows(np.round(points_m / cell))[1]
+
+
 def face_normals(corners_m: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return normals whose length is twice the area, (M, 3), of triangles (M, 3, 3)."""
     edge1 = corners_m[:, 1] - corners_m[:, 0]
@@ -59,15 +74,17 @@ def smooth_corners(
 ) -> NDArray[np.float64]:
     """Return a unit normal for each corner, (3 M, 3).
 
-    A corner's normal is the area-weighted mean of the faces around its vertex that differ from
-    its own face by less than `CREASE_ANGLE_RAD`; flat faces stay flat, edges stay sharp.
+    A corner's normal is the mean of the faces around its vertex that differ from its own face by
+    less than `CREASE_ANGLE_RAD`; flat faces stay flat, edges stay sharp. Faces weigh as much as
+    the angle they fill at the vertex, so that it does not matter how a flat side is cut into
+    triangles (Thürmer and Wüthrich 1998).
 
     Args:
         corners_m: (M, 3, 3) triangles.
         vertex_of_corner: (3 M,) which corners share a vertex.
     """
-    weighted = np.repeat(face_normals(corners_m), 3, axis=0)
-    unit = unit_rows(weighted)
+    unit = np.repeat(unit_rows(face_normals(corners_m)), 3, axis=0)
+    weighted = unit * _corner_angles(corners_m)[:, None]
     order = np.argsort(vertex_of_corner, kind="stable")
     vertex, weight, direction = vertex_of_corner[order], weighted[order], unit[order]
     total = weight.copy()
@@ -86,6 +103,13 @@ def smooth_corners(
     normals = np.empty_like(total)
     normals[order] = total
     return unit_rows(normals)
+
+
+def _corner_angles(corners_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    after = unit_rows((np.roll(corners_m, -1, axis=1) - corners_m).reshape(-1, 3))
+    before = unit_rows((np.roll(corners_m, 1, axis=1) - corners_m).reshape(-1, 3))
+    angles: NDArray[np.float64] = np.arccos(np.clip(np.einsum("ij,ij->i", after, before), -1, 1))
+    return angles
 
 
 def rounded_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gazelle.geometry.building import part_from_corners, part_from_soup
 from gazelle.geometry.mesh import MeshPart
 from gazelle.geometry.outlines import triangulate
+from gazelle.geometry.shading import group_points
 
 __all__ = ["heightmap_mesh", "polyline_mesh"]
 
@@ -66,8 +67,9 @@ def polyline_mesh(outlines_m: Sequence[Outline], height_m: float) -> MeshPart:
     corners = soup.vertices_m[soup.faces].reshape(-1, 3)
     normals = soup.normals[soup.faces].reshape(-1, 3)
     uv = np.where(np.abs(normals[:, 2:]) > 0.5, corners[:, :2], _along(corners))
-    vertex = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1)
-    return part_from_corners(corners, vertex, normals=normals, uv=uv, name="polyline")
+    return part_from_corners(
+        corners, group_points(corners), normals=normals, uv=uv, name="polyline"
+    )
 
 
 def _along(corners: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.geometry import MESH_SUFFIXES, MeshError, load_mesh, load_mesh_reported
+
+
+def test_an_unchanged_file_is_read_once(write, binary_stl):
+    path = write("a.stl", binary_stl())
+    first = load_mesh(path)
+    assert load_mesh(str(path)) is first
+    path.write_bytes(binary_stl(corners=first.vertices_m[first.faces] * 2))
+    os.utime(path, ns=(1, 1))
+    assert load_mesh(path).bounds_m[1] == (1, 2, 3)
+
+
+def test_shared_arrays_cannot_be_changed(write, binary_stl):
+    mesh = load_mesh(write("a.stl", binary_stl()))
+    for array in (mesh.vertices_m, mesh.faces, mesh.parts[0].normals):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+
+
+def test_a_collada_file_under_a_wrong_name_is_recognised(write):
+    with pytest.raises(MeshError, match="Collada"):
+        load_mesh(write("a.stl", "<?xml version='1.0'?><COLLADA></COLLADA>"))
+
+
+def test_an_unknown_format_says_which_are_known(write):
+    assert MESH_SUFFIXES == (".dae", ".glb", ".gltf", ".obj", ".stl")
+    with pytest.raises(MeshError) as caught:
+        load_mesh(write("a.blend", b"BLENDER"))
+    assert "'.blend' is no known mesh format; known are .dae, .glb, .gltf, .obj, .stl" in str(
+        caught.value
+    )
+
+
+def test_a_missing_file_says_so(tmp_path):
+    with pytest.raises(MeshError, match="cannot be read: No such file"):
+        load_mesh(tmp_path / "a.stl")
+    with pytest.raises(MeshError, match="cannot be read: Is a directory"):
+        load_mesh(tmp_path)
+
+
+def test_an_unreadable_mesh_is_reported_at_its_reference(tmp_path):
+    diagnostics = Diagnostics()
+    span = SourceSpan("robot.urdf", 12, 5)
+    assert load_mesh_reported(tmp_path / "a.stl", diagnostics, span) is None
+    (found,) = diagnostics.by_code("mesh.unreadable")
+    assert found.span == span
+    assert "No such file" in found.message
+    assert found.phrase == "Could not load resource"
+
+
+def test_notes_are_reported_with_the_file(write, binary_stl):
+    diagnostics = Diagnostics()
+    path = write("a.stl", binary_stl() + b"rest")
+    load_mesh_reported(path, diagnostics)
+    (found,) = diagnostics.by_code("mesh.extra-bytes")
+    assert found.message.startswith(f"mesh '{path}': 4 bytes after")
