@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+import pytest
+
+from gazelle.description.xml import Tag, parse_xml, read_xml
+from gazelle.diagnostics import Diagnostics
+
+
+def parse(text: str | bytes) -> tuple[Tag | None, Diagnostics]:
+    diagnostics = Diagnostics()
+    return parse_xml(text, "a.urdf", diagnostics), diagnostics
+
+
+def test_tags_know_their_line_and_column():
+    root, diagnostics = parse(
+        '<?xml version="1.0"?>\n<robot name="r">\n  <link name="a"/>\n</robot>'
+    )
+    assert not len(diagnostics)
+    link = root.find("link")
+    assert (str(root.span), str(link.span)) == ("a.urdf:2:1", "a.urdf:3:3")
+    assert link.span.length == len("<link")
+    assert link.attributes == {"name": "a"}
+
+
+def test_blank_lines_before_the_declaration_are_forgiven_and_counted():
+    root, diagnostics = parse('\n\n<?xml version="1.0"?>\n<a>\n<b></a>')
+    assert root is None
+    (found,) = diagnostics
+    assert found.span.line == 5
+    root, _ = parse('\n\n<?xml version="1.0"?>\n<a/>')
+    assert root.span.line == 4
+
+
+def test_text_is_stripped_and_joined_around_children():
+    root, _ = parse("<a>\n one <b/> two\n</a>")
+    assert root.text == "one two"
+    assert root.raw_text == "\n one  two\n"
+
+
+def test_undeclared_prefixes_are_kept():
+    root, diagnostics = parse('<r><controller:diff name="c"/></r>')
+    assert root.children[0].name == "controller:diff"
+    assert not len(diagnostics)
+
+
+def test_the_declared_encoding_counts_for_bytes_only():
+    text = '<?xml version="1.0" encoding="latin-1"?><a name="ä"/>'
+    assert parse(text.encode("latin-1"))[0].attributes["name"] == "ä"
+    assert parse(text)[0].attributes["name"] == "ä"
+
+
+@pytest.mark.parametrize(
+    ("text", "reason", "place"),
+    [
+        ("<a><b></a>", "mismatched tag", "a.urdf:1:9"),
+        ("<a name=b/>", "not well-formed", "a.urdf:1:9"),
+        ("<a/><b/>", "junk after document element", "a.urdf:1:5"),
+        ("", "no element found", "a.urdf:1:1"),
+        ("<a>", "no element found", "a.urdf:1:4"),
+        ("<a>&undefined;</a>", "undefined entity", "a.urdf:1:4"),
+    ],
+)
+def test_malformed_text_is_one_error_with_its_place(text, reason, place):
+    root, diagnostics = parse(text)
+    assert root is None
+    (found,) = diagnostics.by_code("xml.malformed")
+    assert reason in found.message
+    assert str(found.span) == place
+    assert found.phrase == "XML parsing error"
+
+
+@pytest.mark.parametrize(
+    "declaration",
+    ['<!ENTITY x "y">', '<!ENTITY x SYSTEM "file:///etc/passwd">', '<!ENTITY % x "y">'],
+)
+def test_entities_are_refused(declaration):
+    root, diagnostics = parse(f"<!DOCTYPE a [\n{declaration}]><a/>")
+    assert root is None
+    (found,) = diagnostics.by_code("xml.entity")
+    assert found.message == "entity 'x' is refused"
+    assert found.span.line == 2
+
+
+def test_a_missing_file_is_reported(tmp_path):
+    diagnostics = Diagnostics()
+    assert read_xml(tmp_path / "gone.urdf", diagnostics) is None
+    (found,) = diagnostics.by_code("xml.unreadable")
+    assert "No such file" in found.message
+    assert found.phrase == "Unable to open file"
+
+
+def test_a_file_is_read_under_its_path(tmp_path):
+    path = tmp_path / "a.urdf"
+    path.write_text("<a/>")
+    assert read_xml(path, Diagnostics()).span.file == str(path)
+
+
+def test_every_sample_file_parses(workspaces_dir):
+    diagnostics = Diagnostics()
+    patterns = ("*.urdf", "*.sdf", "*.launch", "*.world", "*.xacro", "package.xml")
+    files = [path for pattern in patterns for path in sorted(workspaces_dir.rglob(pattern))]
+    assert len(files) > 40
+    for path in files:
+        assert read_xml(path, diagnostics) is not None
+    assert not len(diagnostics)

@@ -1,0 +1,59 @@
+from __future__ import annotations
+
+import io
+
+from gazelle.diagnostics import Diagnostic, Severity, SourceSpan, render, render_text
+
+
+def finding(span: SourceSpan | None = None, fix: str = "", phrase: str = "") -> Diagnostic:
+    return Diagnostic("xml.unknown-tag", Severity.WARNING, "no such tag", span, fix, phrase)
+
+
+def test_the_source_line_is_shown_with_a_caret_under_the_place(tmp_path):
+    file = tmp_path / "a.urdf"
+    file.write_text("<robot>\n\t<lnik/>\n</robot>\n")
+    text = render_text(finding(SourceSpan(str(file), 2, 2, 5), "write <link>", "nothing"))
+    assert text.splitlines() == [
+        f"{file}:2:2: warning: no such tag [xml.unknown-tag]",
+        "      2 |  <lnik/>",
+        "        |  ^^^^^",
+        "  fix: write <link>",
+        "  ROS/Gazebo says: nothing",
+    ]
+
+
+def test_the_caret_stays_within_the_line():
+    sources = {"<robot_description>": "<a/>"}
+    text = render_text(finding(SourceSpan("<robot_description>", 1, 3, 99)), sources)
+    assert text.splitlines()[-1].endswith("|   ^^")
+
+
+def test_the_way_there_is_shown_innermost_first():
+    via = (SourceSpan("inner.xacro", 4, 1), SourceSpan("outer.xacro", 9, 2))
+    text = render_text(finding(SourceSpan("gone.xacro", 1, 1, 0, via)))
+    assert text.splitlines()[-2:] == ["  from inner.xacro:4:1", "  from outer.xacro:9:2"]
+
+
+def test_a_place_that_cannot_be_read_is_only_named():
+    for span in (SourceSpan("gone.urdf", 3, 1), SourceSpan("a\0b", 1), SourceSpan("x")):
+        assert len(render_text(finding(span)).splitlines()) == 1
+
+
+def test_a_line_beyond_the_end_is_only_named():
+    text = render_text(finding(SourceSpan("t", 9, 1)), {"t": "one line"})
+    assert len(text.splitlines()) == 1
+
+
+def test_printing_keeps_the_order_and_long_lines(tmp_path):
+    stream = io.StringIO()
+    long = Diagnostic("xml.malformed", Severity.ERROR, "x" * 300)
+    render([finding(), long], stream=stream)
+    lines = stream.getvalue().splitlines()
+    assert lines[0] == "warning: no such tag [xml.unknown-tag]"
+    assert lines[1] == f"error: {'x' * 300} [xml.malformed]"
+
+
+def test_brackets_in_messages_are_no_markup():
+    stream = io.StringIO()
+    render([Diagnostic("xml.malformed", Severity.ERROR, "[bold]a[/bold]")], stream=stream)
+    assert "[bold]a[/bold]" in stream.getvalue()
