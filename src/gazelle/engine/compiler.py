@@ -24,6 +24,9 @@ __all__ = ["Compiled", "compile_world"]
 SLEEP_TOLERANCE_M_S = 2e-5
 """Below this speed for 10 steps a body rests (1 mm in 50 s)."""
 
+FRICTION_RATIO = 100.0
+"""Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Compiled:
@@ -95,7 +98,7 @@ def _new_spec(world: World, step_s: float) -> Any:
     option.gravity = list(world.gravity_m_s2)
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    option.impratio = 10.0
+    option.impratio = FRICTION_RATIO
     option.tolerance = 1e-12
     option.sleep_tolerance = SLEEP_TOLERANCE_M_S
     option.magnetic = list(world.magnetic_field_t)
@@ -136,4 +139,7 @@ def _finish(
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
     if motors:
         mujoco.mj_setConst(model, mujoco.MjData(model))
+    # MuJoCo weighs turning speeds with the size of the geometry that turns; a joint that carries
+    # none would count as resting at any speed.
+    np.maximum(model.dof_length, 1.0, out=model.dof_length)
     return Compiled(model, names, ids, tuple(collisions), pairs, motors)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +65,7 @@ def _matrix(inertial: Inertial) -> NDArray[np.float64]:
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]], dtype=np.float64)
 
 
-def _is_legal(moments: NDArray[np.float64]) -> bool:
+def _is_legal(moments: NDArray[np.floating[Any]]) -> bool:
     low, middle, high = (float(value) for value in moments)
     if not np.isfinite(moments).all() or low <= 0 or low < _SMALLEST_RATIO * high * 1e-3:
         return False

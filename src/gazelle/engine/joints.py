@@ -149,8 +149,9 @@ class _Adder:
 
 
 def _add_floating(add: _Adder, name: str) -> None:
-    for axis, xyz in zip("xyz", np.eye(3).tolist(), strict=True):
-        add.slide(joint_part(name, axis), JointAxis(tuple(xyz)), unlimited=True)
+    axes: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    for axis, xyz in zip("xyz", axes, strict=True):
+        add.slide(joint_part(name, axis), JointAxis(xyz), unlimited=True)
     add.ball(name)
 
 

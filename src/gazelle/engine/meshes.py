@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,37 +12,129 @@ from numpy.typing import NDArray
 from gazelle.description.model import MeshShape, Polyline
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.outline import ear_clipped
-from gazelle.geometry import load_mesh
+from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
+from gazelle.engine.surface_pieces import surface_pieces
+from gazelle.geometry import (
+    Mesh,
+    MeshError,
+    convex_hull,
+    convex_parts,
+    is_closed,
+    load_mesh,
+    mesh_volume_m3,
+)
 
-__all__ = ["convex_pieces", "polyline_pieces"]
+__all__ = ["Piece", "convex_pieces", "polyline_pieces"]
 
 Array = NDArray[np.float64]
+
+CONVEX_SHARE = 0.9
+"""A moving mesh that fills this share of its hull collides as its hull."""
+
+
+class Piece(NamedTuple):
+    """One convex solid: the hull of points, or the round shape it is a tessellation of."""
+
+    points_m: Array
+    round_shape: RoundShape | None = None
+
+
+class _Decomposition(NamedTuple):
+    pieces: tuple[Piece, ...]
+    note: str
+
+
+class _MeshKey(NamedTuple):
+    path: Path
+    modified_ns: int
+    scale: tuple[float, float, float]
+    submesh: str
+    center: bool
+    static: bool
 
 
 def convex_pieces(
     shape: MeshShape, name: str, *, static: bool, diagnostics: Diagnostics
-) -> tuple[Array, ...]:
-    """Return point sets whose convex hulls together stand for a mesh."""
+) -> tuple[Piece, ...]:
+    """Return the convex solids that together stand for a mesh.
+
+    A convex mesh is its hull, or the cylinder or sphere it approximates. A hollow one is split
+    by CoACD where it is installed; without it a moving mesh is its hull, and a resting one is
+    made of thin solids along its surface, for the robot is usually inside its hull.
+
+    Args:
+        shape: the mesh.
+        name: of the collision, for messages.
+        static: it never moves.
+        diagnostics: takes ``engine.hollow-mesh`` and ``engine.bad-mesh``.
+    """
     if shape.path is None:
         return ()
-    mesh = load_mesh(shape.path).scaled(shape.scale)
-    if shape.submesh:
-        part = mesh.submesh(shape.submesh, shape.center_submesh)
-        if part is None:
-            return ()
-        mesh = part
-    return (mesh.vertices_m,)
+    try:
+        modified = shape.path.stat().st_mtime_ns
+        key = _MeshKey(
+            shape.path, modified, shape.scale, shape.submesh, shape.center_submesh, static
+        )
+        result = _decomposed(key)
+    except (MeshError, OSError, ValueError) as error:
+        diagnostics.report(
+            "engine.bad-mesh",
+            f"the mesh '{shape.uri}' of collision '{name}' cannot be used ({error}); it does not"
+            " collide",
+            shape.span,
+        )
+        return ()
+    if result.note:
+        diagnostics.report(
+            "engine.hollow-mesh",
+            f"the mesh '{shape.uri}' of collision '{name}' is not convex; {result.note}",
+            shape.span,
+        )
+    return result.pieces
 
 
-def polyline_pieces(shape: Polyline) -> tuple[Array, ...]:
+def polyline_pieces(shape: Polyline) -> tuple[Piece, ...]:
     """Return the prisms that make up extruded outlines."""
-    pieces: list[Array] = []
+    pieces: list[Piece] = []
     for outline in shape.outlines_m:
         for triangle in ear_clipped(outline):
-            pieces.append(_prism(triangle, shape.height_m))
+            base = np.array([[x, y, 0.0] for x, y in triangle])
+            pieces.append(Piece(np.vstack([base, base + np.array([0.0, 0.0, shape.height_m])])))
     return tuple(pieces)
 
 
-def _prism(corners: Sequence[tuple[float, float]], height_m: float) -> Array:
-    base = np.array([[x, y, 0.0] for x, y in corners])
-    return np.vstack([base, base + np.array([0.0, 0.0, height_m])])
+@lru_cache(maxsize=256)
+def _decomposed(key: _MeshKey) -> _Decomposition:
+    mesh = load_mesh(key.path).scaled(key.scale)
+    if key.submesh:
+        part = mesh.submesh(key.submesh, key.center)
+        if part is None:
+            raise ValueError(f"it has no part '{key.submesh}'")
+        mesh = part
+    hull = convex_hull(mesh.vertices_m)
+    hull_volume = mesh_volume_m3(Mesh((hull,)))
+    share = mesh_volume_m3(mesh) / hull_volume if is_closed(mesh) and hull_volume > 0 else 0.0
+    if share >= CONVEX_SHARE:
+        return _Decomposition((_piece(hull.vertices_m, hull_volume),), "")
+    return _hollow(mesh, hull.vertices_m, share, key.static)
+
+
+def _piece(points: Array, volume: float) -> Piece:
+    points = np.asarray(points, dtype=np.float64)
+    return Piece(points, fitted_round_shape(points, volume))
+
+
+def _hollow(mesh: Mesh, hull: Array, share: float, static: bool) -> _Decomposition:
+    filled = f"it fills {100 * share:.0f} % of its hull" if share > 0 else "it is not closed"
+    if is_closed(mesh):
+        parts = convex_parts(mesh)
+        if parts.is_exact:
+            pieces = tuple(Piece(np.asarray(part.vertices_m)) for part in parts.parts)
+            return _Decomposition(pieces, f"{filled} and collides as {len(pieces)} convex pieces")
+    if static:
+        solids = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
+        pieces = tuple(Piece(points) for points in solids)
+        note = f"{filled}; it rests, and its surface collides as {len(pieces)} thin pieces"
+        return _Decomposition(pieces, note)
+    note = f"{filled}; it collides as its convex hull (pip install 'gazelle-sim[convex]' splits it)"
+    return _Decomposition((Piece(hull),), note)

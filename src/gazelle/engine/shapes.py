@@ -24,7 +24,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.library import mujoco
-from gazelle.engine.meshes import convex_pieces, polyline_pieces
+from gazelle.engine.meshes import Piece, convex_pieces, polyline_pieces
 from gazelle.engine.terrain import read_terrain
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 
@@ -67,6 +67,7 @@ def geom_shapes(
         diagnostics: takes what cannot be represented.
     """
     types = mujoco.mjtGeom
+    shapes: tuple[GeomShape, ...]
     match collision.shape:
         case Box(size_m=size):
             shapes = (GeomShape(types.mjGEOM_BOX, tuple(edge / 2 for edge in size)),)
@@ -86,9 +87,9 @@ def geom_shapes(
             shapes = _terrain(collision.shape, collision, name, static, diagnostics)
         case MeshShape():
             pieces = convex_pieces(collision.shape, name, static=static, diagnostics=diagnostics)
-            shapes = tuple(_hull(piece) for piece in pieces)
+            shapes = tuple(_solid(piece) for piece in pieces)
         case Polyline():
-            shapes = tuple(_hull(piece) for piece in polyline_pieces(collision.shape))
+            shapes = tuple(_solid(piece) for piece in polyline_pieces(collision.shape))
     return tuple(shape for shape in shapes if _has_volume(shape, collision, name, diagnostics))
 
 
@@ -115,6 +116,16 @@ def add_geom(spec: Any, body: Any, name: str, shape: GeomShape, T_body_geom: Pos
 
 def _hull(points: Array) -> GeomShape:
     return GeomShape(mujoco.mjtGeom.mjGEOM_MESH, hull_m=np.ascontiguousarray(points, np.float64))
+
+
+def _solid(piece: Piece) -> GeomShape:
+    round_shape = piece.round_shape
+    if round_shape is None:
+        return _hull(piece.points_m)
+    radius, half_length, pose = round_shape
+    if half_length is None:
+        return GeomShape(mujoco.mjtGeom.mjGEOM_SPHERE, (radius,), pose)
+    return GeomShape(mujoco.mjtGeom.mjGEOM_CYLINDER, (radius, half_length), pose)
 
 
 def _cone_points(radius: float, length: float) -> Array:

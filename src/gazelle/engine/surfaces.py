@@ -36,8 +36,12 @@ MIN_MU = 1e-5
 RESOLVED = 0.25
 """Largest h² kp / m that one step of length h resolves as a spring; harder ones saturate."""
 
-HARD_IMPEDANCE = 0.99
-HARD_ERP = 0.05
+HARD_IMPEDANCE = 0.9
+"""Impedance of a saturated contact; the rest of the load is carried by the penetration."""
+
+HARD_RATE = 0.2
+"""Angular frequency of a saturated contact in units of 1/h: 32 steps a period, no overshoot."""
+
 BOUNCE_STEPS = 24.0
 HARD_SOLIMP = (HARD_IMPEDANCE, HARD_IMPEDANCE, 0.001, 0.5, 2.0)
 
@@ -138,8 +142,9 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
 
 
 def hard_spring(step_s: float) -> ContactSpring:
-    """Return the saturated contact: velocity stops in a step, depth fades within 20 steps."""
-    solref = (-HARD_ERP / (step_s * step_s), -1.0 / step_s)
+    """Return the saturated contact: critically damped, sinks (1 − d) g h² / 0.04 at rest."""
+    rate = HARD_RATE / step_s
+    solref = (-rate * rate, -2.0 * rate)
     return ContactSpring(solref, solref, HARD_SOLIMP)
 
 

@@ -54,6 +54,22 @@ ENTRIES = (
         "give it a positive size",
     ),
     Entry(
+        "engine.hollow-mesh",
+        "info",
+        "A collision mesh is not convex",
+        "The engine collides convex solids. A hollow mesh is split into some; where that is not"
+        " possible a moving one becomes its hull and a resting one a shell of thin pieces.",
+        "use boxes and cylinders, or a simpler mesh, for collisions",
+    ),
+    Entry(
+        "engine.bad-mesh",
+        "error",
+        "A collision mesh cannot be used",
+        "The file cannot be read or encloses nothing; the collision is left out.",
+        "check the file, or use a box, cylinder or sphere",
+        "Unable to load mesh",
+    ),
+    Entry(
         "engine.friction-direction",
         "info",
         "A friction direction (fdir1) cannot follow the body",
