@@ -11,6 +11,10 @@ from gazelle.description.model import LensDistortion
 
 __all__ = ["distort", "is_distorting", "source_pixels"]
 
+# In fractions of the picture: where to stop, what counts as not found, where to put that.
+_CLOSE, _LOST, _FAR = 1e-7, 1e-4, 3.0
+_STEPS = 60
+
 
 def is_distorting(distortion: LensDistortion | None) -> bool:
     """Return whether any coefficient is not zero."""
@@ -51,7 +55,8 @@ def source_pixels(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return for each pixel of the distorted picture its x and y in the undistorted one, (H, W).
 
-    The model is inverted by fixed-point iteration, which converges for lenses that do not fold.
+    The model is inverted by fixed-point iteration. Where a lens folds, so that nothing appears at
+    a pixel, the result lies outside the picture.
     """
     cx, cy = distortion.center
     u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
@@ -80,15 +85,17 @@ def _inverse(
     lens: LensDistortion, target_x: NDArray[np.float64], target_y: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     x, y = target_x.copy(), target_y.copy()
-    for _ in range(60):
+    for _ in range(_STEPS):
         got_x, got_y = _forward(lens, x, y)
         step_x, step_y = target_x - got_x, target_y - got_y
-        # Half steps converge where the slope of the lens is below two.
-        x += 0.7 * step_x
-        y += 0.7 * step_y
-        if max(np.abs(step_x).max(), np.abs(step_y).max()) < 1e-7:
+        if max(np.abs(step_x).max(), np.abs(step_y).max()) < _CLOSE:
             break
-    return x, y
+        # Shortened steps converge where the slope of the lens is below 2.8.
+        x = np.clip(x + 0.7 * step_x, -_FAR, _FAR)
+        y = np.clip(y + 0.7 * step_y, -_FAR, _FAR)
+    got_x, got_y = _forward(lens, x, y)
+    lost = np.maximum(np.abs(target_x - got_x), np.abs(target_y - got_y)) > _LOST
+    return np.where(lost, _FAR, x), np.where(lost, _FAR, y)
 
 
 @lru_cache(maxsize=8)
