@@ -102,10 +102,11 @@ def test_another_mesh_has_another_cache_file(bracket, own_cache):
     assert len(list((own_cache / "convex").iterdir())) == 2
 
 
-def test_a_damaged_cache_file_is_made_anew(bracket, own_cache):
+@pytest.mark.parametrize("damage", [b"", b"PK broken", b"PK\3\4 broken"])
+def test_a_damaged_cache_file_is_made_anew(bracket, own_cache, damage):
     pytest.importorskip("coacd")
     convex_parts(bracket)
     (file,) = (own_cache / "convex").iterdir()
-    file.write_bytes(b"PK broken")
+    file.write_bytes(damage)
     assert len(convex_parts(bracket).parts) >= 2
     assert file.stat().st_size > 100

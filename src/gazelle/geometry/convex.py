@@ -7,6 +7,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import NamedTemporaryFile
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,7 +149,7 @@ def _load(file: Path) -> tuple[MeshPart, ...]:
     try:
         with np.load(file, allow_pickle=False) as data:
             return tuple(convex_hull(data[name]) for name in sorted(data.files))
-    except (OSError, ValueError, KeyError, EOFError):
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         return ()
 
 
