@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint
@@ -36,14 +37,16 @@ def apply_to_joint(joint: Joint, blocks: list[Tag], context: ReadContext) -> Joi
 def _number(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
     def apply(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
         value = float_value(tag, context)
-        return joint if value is None else replace(joint, **{name: value})
+        changes: dict[str, Any] = {} if value is None else {name: value}
+        return replace(joint, **changes)
 
     return apply
 
 
 def _flag(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
     def apply(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
-        return replace(joint, **{name: bool_value(tag, False, context)})
+        changes: dict[str, Any] = {name: bool_value(tag, False, context)}
+        return replace(joint, **changes)
 
     return apply
 
@@ -57,7 +60,8 @@ def _spring(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
             message = f"<{tag.name}> has no effect: joint '{joint.name}' is {joint.type.value}"
             context.diagnostics.report("urdf.gazebo-no-axis", message, tag.span)
             return joint
-        return replace(joint, axis=replace(joint.axis, **{name: value}))
+        changes: dict[str, Any] = {name: value}
+        return replace(joint, axis=replace(joint.axis, **changes))
 
     return apply
 

@@ -13,11 +13,13 @@ from typing import Any, cast
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Collision, Link, Sensor, Surface
+from gazelle.description.sdf.lights import read_light
 from gazelle.description.sdf.sensors import read_sensor
 from gazelle.description.sdf.surfaces import read_surface
 from gazelle.description.urdf.gazebo_values import (
     bool_value,
     float_value,
+    report_passed_over,
     report_unknown,
     value_of,
 )
@@ -74,8 +76,11 @@ def _apply_collision_words(link: Link, tags: list[Tag], context: ReadContext) ->
     retro = _laser_retro(tags, context)
     if base is None and not changes and retro is None:
         return link
+    first = next(tag for tag in tags if tag.name in _COLLISION_WORDS)
     if not link.collisions:
-        _report_no_collision(link, tags, context)
+        message = f"<{first.name}> for link '{link.name}' has no effect: it has no <collision>"
+        context.diagnostics.report("urdf.gazebo-no-collision", message, first.span)
+    report_passed_over(link.name, link.collisions, first, context)
     return replace(
         link,
         collisions=tuple(
@@ -143,12 +148,6 @@ def _direction(tag: Tag, context: ReadContext) -> tuple[float, float, float] | N
     return cast(tuple[float, float, float], tuple(value / length for value in found))
 
 
-def _report_no_collision(link: Link, tags: list[Tag], context: ReadContext) -> None:
-    tag = next(tag for tag in tags if tag.name in _COLLISION_WORDS)
-    message = f"<{tag.name}> for link '{link.name}' has no effect: the link has no <collision> to touch with"
-    context.diagnostics.report("urdf.gazebo-no-collision", message, tag.span)
-
-
 def _turn_gravity_off(link: Link, tag: Tag, context: ReadContext) -> Link:
     return replace(link, gravity=not bool_value(tag, True, context))
 
@@ -176,8 +175,8 @@ def _velocity_decay(link: Link, tag: Tag, context: ReadContext) -> Link:
         return _damping_factor(link, tag, context)
     for child, name in ((linear, "linear_damping"), (angular, "angular_damping")):
         value = float_value(child, context) if child is not None else None
-        if value is not None:
-            link = replace(link, **{name: value})
+        changes: dict[str, Any] = {} if value is None else {name: value}
+        link = replace(link, **changes)
     return link
 
 
@@ -186,10 +185,16 @@ def _sensor(link: Link, tag: Tag, context: ReadContext) -> Link:
     return link if sensor is None else replace(link, sensors=(*link.sensors, sensor))
 
 
+def _light(link: Link, tag: Tag, context: ReadContext) -> Link:
+    light = read_light(tag, context)
+    return link if light is None else replace(link, lights=(*link.lights, light))
+
+
 _LINK_WORDS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
     "dampingFactor": _damping_factor,
     "gravity": _gravity,
     "kinematic": _kinematic,
+    "light": _light,
     "selfCollide": _self_collide,
     "self_collide": _self_collide,
     "sensor": _sensor,

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Joint, Link, Model, PluginTag
+from gazelle.description.model import ContactSpec, Joint, Link, Model, PluginTag
 from gazelle.description.sdf.plugins import read_plugin
 from gazelle.description.urdf.gazebo_joints import apply_to_joint
 from gazelle.description.urdf.gazebo_links import apply_to_link
@@ -19,6 +20,7 @@ __all__ = ["apply_gazebo"]
 _MODEL_WORDS = ("allow_auto_disable", "plugin", "self_collide", "static")
 _WITHOUT_EFFECT = ("canonicalBody", "enable_wind")
 _OLD_PREFIX = "controller:"
+_LUMP = "_fixed_joint_lump__"
 
 
 def apply_gazebo(model: Model, blocks: Mapping[str, list[Tag]], context: ReadContext) -> Model:
@@ -38,7 +40,12 @@ def apply_gazebo(model: Model, blocks: Mapping[str, list[Tag]], context: ReadCon
             joints[reference] = apply_to_joint(joints[reference], tags, context)
         elif reference:
             _report_reference(reference, tags, links, joints, context)
-    model = replace(model, links=tuple(links.values()), joints=tuple(joints.values()))
+    names = frozenset(item.name for link in links.values() for item in link.collisions)
+    model = replace(
+        model,
+        links=tuple(_with_watched_names(link, names) for link in links.values()),
+        joints=tuple(joints.values()),
+    )
     for block in blocks.get("", ()):
         for tag in block.children:
             model = _apply_model_word(model, tag, context)
@@ -80,6 +87,34 @@ def _old_controller(tag: Tag, context: ReadContext) -> PluginTag:
     fix = f'write <plugin name="{name}" filename="{library}">…</plugin>'
     context.diagnostics.report("urdf.old-controller", message, tag.span, fix=fix)
     return PluginTag(name, library, tag)
+
+
+def _with_watched_names(link: Link, names: frozenset[str]) -> Link:
+    """Return the link with its contact sensors watching collisions by their URDF names.
+
+    Files written for Gazebo name what lumping makes of a collision: ``base`` of link ``tip`` is
+    ``base_footprint_fixed_joint_lump__base_collision_2`` there.
+    """
+    sensors = tuple(
+        replace(sensor, spec=replace(sensor.spec, collisions=_watched(sensor.spec, names)))
+        if isinstance(sensor.spec, ContactSpec)
+        else sensor
+        for sensor in link.sensors
+    )
+    return replace(link, sensors=sensors)
+
+
+def _watched(spec: ContactSpec, names: frozenset[str]) -> tuple[str, ...]:
+    return tuple(
+        next((item for item in _readings(name) if item in names), name) for name in spec.collisions
+    )
+
+
+def _readings(name: str) -> tuple[str, ...]:
+    """Return what a collision of Gazebo's may be called in URDF, the likeliest first."""
+    own = name.rpartition(_LUMP)[2]
+    numbered = re.sub(r"_\d+$", "", own)
+    return name, own, numbered, numbered.removesuffix("_collision")
 
 
 def _report_reference(

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from gazelle.description.context import ReadContext
+from gazelle.description.model import Collision, Visual
 from gazelle.description.xml import Tag, bool_from, floats_from
 from gazelle.diagnostics import did_you_mean
 
@@ -13,6 +14,7 @@ __all__ = [
     "blocks_by_reference",
     "bool_value",
     "float_value",
+    "report_passed_over",
     "report_unknown",
     "value_of",
 ]
@@ -50,3 +52,16 @@ def report_unknown(tag: Tag, where: str, known: Iterable[str], context: ReadCont
     context.diagnostics.report(
         "xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known)
     )
+
+
+def report_passed_over(
+    link: str, shapes: Iterable[Visual | Collision], tag: Tag, context: ReadContext
+) -> None:
+    """Report shapes that sdformat would not apply a link's ``<gazebo>`` values to."""
+    names = [shape.name for shape in shapes if link not in shape.name]
+    if names:
+        shown = ", ".join(f"'{name}'" for name in names)
+        message = (
+            f"<{tag.name}> acts on all shapes of link '{link}'; Gazebo would pass over {shown}"
+        )
+        context.diagnostics.report("urdf.gazebo-named-shape", message, tag.span)

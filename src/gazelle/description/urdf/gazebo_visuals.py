@@ -7,9 +7,11 @@ from dataclasses import replace
 from gazelle.description.context import ReadContext
 from gazelle.description.materials import GAZEBO_MATERIAL_NAMES, gazebo_material
 from gazelle.description.model import Link, Material, Visual
+from gazelle.description.sdf.looks import read_material
 from gazelle.description.urdf.gazebo_values import (
     bool_value,
     float_value,
+    report_passed_over,
     report_unknown,
     value_of,
 )
@@ -18,7 +20,7 @@ from gazelle.diagnostics import did_you_mean
 
 __all__ = ["apply_visual_words"]
 
-_VISUAL_CHILDREN = ("cast_shadows", "laser_retro", "material", "plugin", "transparency")
+_VISUAL_CHILDREN = ("cast_shadows", "laser_retro", "material", "transparency")
 
 
 def apply_visual_words(link: Link, tags: list[Tag], context: ReadContext) -> Link:
@@ -32,6 +34,8 @@ def apply_visual_words(link: Link, tags: list[Tag], context: ReadContext) -> Lin
         context: where to report, and look-up of scripts.
     """
     visuals = link.visuals
+    if tags:
+        report_passed_over(link.name, visuals, tags[0], context)
     for tag in tags:
         if tag.name == "visual":
             visuals = tuple(_apply_block(visual, tag, context) for visual in visuals)
@@ -62,6 +66,8 @@ def _apply_block(visual: Visual, block: Tag, context: ReadContext) -> Visual:
         elif tag.name == "laser_retro":
             value = float_value(tag, context)
             visual = visual if value is None else replace(visual, laser_retro=value)
+        elif tag.name == "material":
+            visual = replace(visual, material=read_material(tag, context) or visual.material)
         elif tag.name not in _VISUAL_CHILDREN:
             report_unknown(tag, "a visual", _VISUAL_CHILDREN, context)
     return visual

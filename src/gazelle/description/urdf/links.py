@@ -120,7 +120,7 @@ def _read_visuals(
 
 
 def _shape_name(tag: Tag, link: str, index: int, taken: set[str]) -> str:
-    """Name shapes as sdformat's URDF conversion does: ``link_visual``, ``link_visual_1`` …"""
+    """Name shapes as sdformat's URDF conversion does: ``link_visual``, then ``link_visual_1``."""
     name = tag.attributes.get("name", "").strip()
     if name and name not in taken:
         return name

@@ -75,7 +75,7 @@ def _read(tag: Tag, context: ReadContext) -> Material | None:
     name = tag.attributes.get("name", "").strip()
     colour, texture = tag.find("color"), tag.find("texture")
     rgba = _rgba(colour, name, context) if colour is not None else None
-    if rgba is None and texture is None:
+    if colour is None and texture is None:
         return None
     rgba = rgba or (1.0, 1.0, 1.0, 1.0)
     image = None

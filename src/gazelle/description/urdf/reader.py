@@ -7,16 +7,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Link, Model, Ros2ControlTag, TransmissionTag
+from gazelle.description.model import Joint, Link, Model, Ros2ControlTag, TransmissionTag
 from gazelle.description.urdf.attributes import check_vocabulary, origin_of
 from gazelle.description.urdf.gazebo_model import apply_gazebo
 from gazelle.description.urdf.gazebo_values import blocks_by_reference
+from gazelle.description.urdf.inertia import with_inertia
 from gazelle.description.urdf.joints import ReadJoint, read_joint
 from gazelle.description.urdf.links import read_link
 from gazelle.description.urdf.materials import global_materials
 from gazelle.description.urdf.transmissions import read_transmission
 from gazelle.description.urdf.tree import check_tree, poses_of
 from gazelle.description.xml import Tag, parse_xml
+from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
 
 __all__ = ["read_urdf"]
@@ -64,13 +66,16 @@ def read_urdf(text: str | Tag, *, context: ReadContext, name: str | None = None)
     for sensor in robot.find_all("sensor"):
         message = "<sensor> directly under <robot> was never used by ROS or Gazebo; it is ignored"
         diagnostics.report("urdf.sensor-ignored", message, sensor.span)
-    root = check_tree(links, tuple(joints.values()), robot.span, context) if links else None
+    whole = len(joints) == len(robot.find_all("joint"))
+    root = check_tree(links, tuple(joints.values()), context, whole=whole) if links else None
     if root is None:
         return None
     model = _placed(name or own_name, robot, root, links, joints, context)
     model = apply_gazebo(model, blocks_by_reference(robot), context)
+    model = with_inertia(model, _broken_inertials(robot, links), context)
     return replace(
         model,
+        joints=tuple(_with_known_leader(joint, model, context) for joint in model.joints),
         transmissions=transmissions,
         ros2_controls=tuple(_read_ros2_control(tag) for tag in robot.find_all("ros2_control")),
     )
@@ -98,7 +103,8 @@ def _robot_name(robot: Tag, context: ReadContext) -> str:
 
 def _foreign(robot: Tag) -> tuple[str, ...]:
     """Elements with a prefix of their own are other programs' business."""
-    return tuple(child.name for child in robot.children if ":" in child.name)
+    prefixed = (child.name for child in robot.children if ":" in child.name)
+    return tuple(name for name in prefixed if not name.startswith("xacro:"))
 
 
 def _read_links(robot: Tag, context: ReadContext) -> dict[str, Link]:
@@ -158,6 +164,10 @@ def _placed(
     context: ReadContext,
 ) -> Model:
     poses: dict[str, Pose] = poses_of(root, tuple(joints.values()))
+    world = links[root] if root == _WORLD else None
+    if world is not None and (world.collisions or world.visuals or world.inertial):
+        message = "the root link 'world' is the world itself; its shapes and mass are left out"
+        context.diagnostics.report("urdf.world-link", message, world.span)
     kept = tuple(
         replace(link, T_model_link=poses[link.name])
         for link in links.values()
@@ -176,6 +186,37 @@ def _placed(
         file=path,
         span=robot.span,
     )
+
+
+def _broken_inertials(robot: Tag, links: Mapping[str, Link]) -> set[str]:
+    """Return the links whose ``<inertial>`` was written and could not be used."""
+    written = {
+        tag.attributes.get("name", "").strip()
+        for tag in robot.find_all("link")
+        if tag.find("inertial") is not None
+    }
+    return {name for name, link in links.items() if name in written and link.inertial is None}
+
+
+def _with_known_leader(joint: Joint, model: Model, context: ReadContext) -> Joint:
+    """Return the joint without a mimic that nothing can lead."""
+    if joint.mimic is None:
+        return joint
+    leader = model.joint(joint.mimic.joint)
+    if leader is not None and leader is not joint and leader.axis is not None and joint.axis:
+        return joint
+    if leader is None:
+        reason = f"joint '{joint.mimic.joint}', which does not exist"
+    elif leader is joint:
+        reason = "itself"
+    else:
+        reason = f"'{leader.name}', but one of the two has no axis to move along"
+    hint = did_you_mean(joint.mimic.joint, (item.name for item in model.joints if item.axis))
+    message = f"joint '{joint.name}' mimics {reason}; it moves freely"
+    context.diagnostics.report(
+        "urdf.mimic-unknown", message, joint.span, fix=hint if leader is None else ""
+    )
+    return replace(joint, mimic=None)
 
 
 def _canonical(root: str, links: tuple[Link, ...], joints: Mapping[str, ReadJoint]) -> str:

@@ -7,28 +7,28 @@ from collections.abc import Mapping, Sequence
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Link
 from gazelle.description.urdf.joints import ReadJoint
-from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["check_tree", "poses_of"]
 
 
 def check_tree(
-    links: Mapping[str, Link], joints: Sequence[ReadJoint], span: SourceSpan, context: ReadContext
+    links: Mapping[str, Link], joints: Sequence[ReadJoint], context: ReadContext, *, whole: bool
 ) -> str | None:
     """Return the root link's name; None when the links form no tree, every reason reported.
 
     Args:
         links: links by name.
         joints: joints with both ends named.
-        span: place of ``<robot>``.
         context: where to report.
+        whole: no joint was left out for a mistake of its own; otherwise loose links are no news.
     """
     known = _ends_exist(links, joints, context)
     single = _one_parent_each(joints, context)
     children = {item.joint.child for item in joints}
     roots = [name for name in links if name not in children]
-    if not known:
+    if not known or not whole:
         return None
     if len(roots) > 1:
         _report_roots(roots, links, joints, context)
@@ -40,7 +40,7 @@ def check_tree(
         start = "no root link found" if not roots else f"not all links hang on '{roots[0]}'"
         message = f"{start}: the joints of {names} form a loop"
         joint = next(item for item in joints if item.joint.child == stranded[0])
-        context.diagnostics.report("urdf.loop", message, joint.tag.span or span)
+        context.diagnostics.report("urdf.loop", message, joint.tag.span)
         return None
     return roots[0] if single else None
 

@@ -1,0 +1,204 @@
+"""Any description to models or a world: what it is is seen from its content, not its name."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import Model, World
+from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
+from gazelle.description.urdf import read_urdf
+from gazelle.description.xacro import expand_xacro
+from gazelle.description.xml import Tag, parse_xml, read_xml
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.workspace import Resolved, Workspace
+
+__all__ = ["TEXT_NAME", "load_models", "load_world"]
+
+TEXT_NAME = "<robot_description>"
+_SDF_ROOTS = frozenset({"light", "model", "sdf", "world"})
+_MODEL_CONFIG = "model.config"
+
+
+def load_models(
+    source: str | os.PathLike[str],
+    *,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None = None,
+) -> tuple[Model, ...]:
+    """Read URDF, xacro or SDF: a file, a model's folder, a URI, a model's name, or the text.
+
+    Args:
+        source: a path, ``package://…``, ``model://…``, the name of a known model, or XML text
+            (anything whose first character is ``<``).
+        workspace: finds packages, models and meshes.
+        diagnostics: receives every finding.
+        mappings: values of ``<xacro:arg>`` by name, for xacro files.
+
+    Returns:
+        The models; none when nothing could be read, with the reason reported as an error.
+    """
+    text = str(source)
+    if text.lstrip("\ufeff \t\r\n").startswith("<"):
+        return _models_of_text(text, workspace, diagnostics)
+    path = _locate(text, workspace, diagnostics)
+    if path is None:
+        return ()
+    if path.is_dir() or path.name == _MODEL_CONFIG:
+        folder = path if path.is_dir() else path.parent
+        model = read_model_file(folder, workspace=workspace, diagnostics=diagnostics)
+        return () if model is None else (model,)
+    return _models_of_file(path, workspace, diagnostics, mappings)
+
+
+def load_world(
+    source: str | os.PathLike[str],
+    *,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None = None,
+) -> World:
+    """Read a world: an SDF world file, or a robot or model that then is all there is in it.
+
+    Args:
+        source: a path, a URI, or a name such as ``worlds/empty.world`` on Gazebo's paths.
+        workspace: finds worlds, packages, models and meshes.
+        diagnostics: receives every finding.
+        mappings: values of ``<xacro:arg>`` by name, for xacro files.
+
+    Raises:
+        UserFileError: there is no world to be read; holds all findings.
+    """
+    text = str(source)
+    if text.lstrip("\ufeff \t\r\n").startswith("<"):
+        world = _world_of_text(text, workspace, diagnostics)
+    else:
+        world = _world_of_path(text, workspace, diagnostics, mappings)
+    if world is None:
+        if not diagnostics.errors:
+            shown = TEXT_NAME if text.lstrip().startswith("<") else text
+            diagnostics.report("load.nothing", f"'{shown}' holds no world", SourceSpan(shown))
+        diagnostics.raise_if_errors()
+        raise AssertionError("an error was reported")
+    return world
+
+
+def _world_of_text(
+    text: str, workspace: Workspace | None, diagnostics: Diagnostics
+) -> World | None:
+    context = ReadContext(workspace, diagnostics, TEXT_NAME, None)
+    root = parse_xml(text, TEXT_NAME, diagnostics)
+    if root is None:
+        return None
+    if root.name in _SDF_ROOTS:
+        document = read_sdf(root, context=context)
+        if document.worlds:
+            return document.worlds[0]
+        return World(models=document.models) if document.models else None
+    models = _models_of_root(root, context)
+    return World(models=models) if models else None
+
+
+def _world_of_path(
+    text: str,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None,
+) -> World | None:
+    found = _resolved(text, workspace)
+    if found.path is None and workspace is not None:
+        found = workspace.world_file(text)
+    if found.path is None:
+        _report_not_found("world", text, found, diagnostics)
+        return None
+    root = _peek(found.path) if found.path.is_file() else None
+    if root in _SDF_ROOTS:
+        return read_world_file(found.path, workspace=workspace, diagnostics=diagnostics)
+    models = load_models(
+        found.path, workspace=workspace, diagnostics=diagnostics, mappings=mappings
+    )
+    return World(models=models, file=found.path) if models else None
+
+
+def _peek(path: Path) -> str:
+    """Return the name of a file's outermost element, empty when it cannot be read."""
+    root = read_xml(path, Diagnostics())
+    return "" if root is None else root.name
+
+
+def _models_of_text(
+    text: str, workspace: Workspace | None, diagnostics: Diagnostics
+) -> tuple[Model, ...]:
+    root = parse_xml(text, TEXT_NAME, diagnostics)
+    context = ReadContext(workspace, diagnostics, TEXT_NAME, None)
+    return () if root is None else _models_of_root(root, context)
+
+
+def _models_of_file(
+    path: Path,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None,
+) -> tuple[Model, ...]:
+    root = read_xml(path, diagnostics)
+    if root is None:
+        return ()
+    if path.suffix == ".xacro" or _has_xacro(root):
+        expanded = expand_xacro(
+            path, mappings=mappings, workspace=workspace, diagnostics=diagnostics
+        )
+        root = None if expanded is None else expanded.tag(diagnostics)
+        if root is None:
+            return ()
+    context = ReadContext(workspace, diagnostics, str(path), path.resolve().parent)
+    return tuple(replace(model, file=path) for model in _models_of_root(root, context))
+
+
+def _has_xacro(root: Tag) -> bool:
+    return any(tag.name.startswith("xacro:") for tag in root.walk())
+
+
+def _models_of_root(root: Tag, context: ReadContext) -> tuple[Model, ...]:
+    if root.name == "robot":
+        model = read_urdf(root, context=context)
+        return () if model is None else (model,)
+    if root.name in _SDF_ROOTS:
+        document = read_sdf(root, context=context)
+        models = document.models or tuple(
+            model for world in document.worlds for model in world.models
+        )
+        if not models and not context.diagnostics.errors:
+            message = f"'{context.file}' holds no model"
+            context.diagnostics.report("load.nothing", message, root.span)
+        return models
+    message = f"the outermost element of '{context.file}' is <{root.name}>"
+    context.diagnostics.report("load.unknown-format", message, root.span)
+    return ()
+
+
+def _locate(text: str, workspace: Workspace | None, diagnostics: Diagnostics) -> Path | None:
+    found = _resolved(text, workspace)
+    if found.path is None and workspace is not None and "/" not in text:
+        folder = workspace.model_dir(text)
+        found = Resolved(folder) if folder is not None else workspace.resolve(f"model://{text}")
+    if found.path is None:
+        _report_not_found("robot or model", text, found, diagnostics)
+    return found.path
+
+
+def _resolved(text: str, workspace: Workspace | None) -> Resolved:
+    path = Path(text)
+    if path.exists():
+        return Resolved(path)
+    if workspace is not None:
+        return workspace.resolve(text)
+    return Resolved(None, (str(path.absolute()),))
+
+
+def _report_not_found(kind: str, text: str, found: Resolved, diagnostics: Diagnostics) -> None:
+    message = f"{kind} {found.explain(text)}"
+    diagnostics.report("load.not-found", message, SourceSpan(text))
