@@ -52,6 +52,12 @@ class ReadContext:
         path = (self.base_dir or Path()) / text
         return Resolved(path if path.exists() else None, (str(path),))
 
+    def first_time(self, *key: Hashable) -> bool:
+        """Tell whether this is asked for the first time, to report equal things once."""
+        is_first = ("told", *key) not in self.cache
+        self.cache["told", *key] = True
+        return is_first
+
     def for_version(self, version: tuple[int, int]) -> ReadContext:
         """Return the same context for a document of this SDF version."""
         return replace(self, version=version)

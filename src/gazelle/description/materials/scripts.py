@@ -42,6 +42,8 @@ def material_from_scripts(
     if wanted in materials:
         return _compiled(materials, wanted, _texture_folders(folders), context)
     own = gazebo_material(wanted)
+    if not context.first_time("material", wanted, context.file):
+        return own
     if own is None:
         _report_unknown(wanted, materials, context, span)
     elif picture_colour(wanted):
@@ -62,7 +64,7 @@ def _locate(uri: str, context: ReadContext, span: SourceSpan | None) -> Path | N
     if uri.strip().endswith("/gazebo.material") or "://media/materials" in uri:
         return None  # Gazebo's own scripts: their facts are in our table
     found = context.resolve(uri)
-    if found.path is None:
+    if found.path is None and context.first_time("script", uri, context.file):
         context.diagnostics.report("material.script-missing", found.explain(uri.strip()), span)
     return found.path
 
@@ -134,6 +136,8 @@ def _texture(material: OgreMaterial, folders: Sequence[Path], context: ReadConte
         path = folder / material.texture
         if path.is_file():
             return path
+    if not context.first_time("texture", material.span):
+        return None
     places = "".join(f"\n    {folder}" for folder in folders)
     message = f"picture '{material.texture}' of '{material.name}' not found; looked in:{places}"
     context.diagnostics.report("material.texture-missing", message, material.span)

@@ -14,7 +14,7 @@ from gazelle.description.sdf.model_config import model_file_in
 from gazelle.description.sdf.models import included_model, read_model
 from gazelle.description.sdf.parts import ModelParts
 from gazelle.description.sdf.versions import version_of
-from gazelle.description.sdf.worlds import read_world
+from gazelle.description.sdf.worlds import read_world, report_actor
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.workspace import Workspace
@@ -62,6 +62,9 @@ def read_sdf(source: str | bytes | Tag, *, context: ReadContext) -> SdfDocument:
         return SdfDocument()
     context = context.for_version(version_of(root, context) if root.name == "sdf" else (1, 12))
     check_elements(root, context)
+    for tag in content:
+        if tag.name == "actor":
+            report_actor(tag, context)
     models = [_model(tag, context) for tag in content if tag.name in ("model", "include")]
     lights = [read_light(tag, context) for tag in content if tag.name == "light"]
     return SdfDocument(

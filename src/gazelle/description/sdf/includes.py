@@ -55,7 +55,8 @@ def share_findings(inner: Diagnostics, tag: Tag, context: ReadContext) -> None:
     """
     for item in inner:
         span = item.span and replace(item.span, via=(*item.span.via, tag.span))
-        context.diagnostics.add(replace(item, span=span))
+        severity = min(item.severity, Severity.WARNING) if context.in_world else item.severity
+        context.diagnostics.add(replace(item, span=span, severity=severity))
 
 
 def _short(path: Path) -> str:

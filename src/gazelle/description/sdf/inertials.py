@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Collision, Inertial
@@ -11,6 +12,7 @@ from gazelle.description.sdf.poses import pose_of
 from gazelle.description.sdf.values import child_float
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Severity
+from gazelle.geometry.mass import MassProperties, inertia_problems, legalised_inertia
 
 __all__ = ["read_inertial"]
 
@@ -42,9 +44,7 @@ def read_inertial(
         inertia_kg_m2=_tensor(tag.find("inertia"), context),
         span=tag.span,
     )
-    if not static:
-        _check(inertial, link, tag, context)
-    return inertial
+    return inertial if static else _checked(inertial, link, tag, context)
 
 
 def _tensor(tag: Tag | None, context: ReadContext) -> Inertia6:
@@ -57,32 +57,25 @@ def _tensor(tag: Tag | None, context: ReadContext) -> Inertia6:
     return ixx, ixy, ixz, iyy, iyz, izz
 
 
-def _check(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> None:
-    """Report a mass or tensor that no body can have."""
-    import numpy as np
-
+def _checked(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> Inertial:
+    """Report a mass or tensor that no body can have; return one that a body can have."""
     name = link.attributes.get("name", "")
     if inertial.mass_kg <= 0.0:
         place = tag.find("mass") or tag
-        message = f"link '{name}' has the mass {inertial.mass_kg:g} kg; it must be positive"
+        message = f"link '{name}' has the mass {inertial.mass_kg:g} kg; 1 kg is used"
         context.diagnostics.report("sdf.bad-inertia", message, place.span)
-        return
-    ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia_kg_m2
-    moments = np.linalg.eigvalsh([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-    least, middle, most = (float(value) for value in moments)
-    shown = f"{least:.3g}, {middle:.3g}, {most:.3g} kg·m²"
+        inertial = replace(inertial, mass_kg=1.0)
+    problems = inertia_problems(inertial.inertia_kg_m2)
+    if not problems:
+        return inertial
     place = tag.find("inertia") or tag
-    if least <= 0.0:
-        message = f"the inertia of link '{name}' is not positive: principal moments {shown}"
-        context.diagnostics.report("sdf.bad-inertia", message, place.span)
-    elif least + middle < most * (1.0 - _TOLERANCE):
-        message = (
-            f"no body has the inertia of link '{name}': of its principal moments {shown} the "
-            "largest is more than the sum of the others; the nearest possible ones are used"
-        )
-        context.diagnostics.report(
-            "sdf.bad-inertia", message, place.span, severity=Severity.WARNING
-        )
-
-
-_TOLERANCE = 1e-6
+    message = (
+        f"no body has the inertia of link '{name}': {'; '.join(problems)}; "
+        "the nearest possible tensor is used"
+    )
+    positive = min(
+        MassProperties(1.0, inertia_kg_m2=inertial.inertia_kg_m2).principal_moments_kg_m2
+    )
+    severity = Severity.WARNING if positive > 0.0 else Severity.ERROR
+    context.diagnostics.report("sdf.bad-inertia", message, place.span, severity=severity)
+    return replace(inertial, inertia_kg_m2=legalised_inertia(inertial.inertia_kg_m2))

@@ -1,7 +1,8 @@
-"""``model.config``: which SDF file of a model's folder to read."""
+"""``model.config``: a model's name, author and SDF files."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.description.context import ReadContext
@@ -9,31 +10,82 @@ from gazelle.description.sdf.versions import NEWEST_VERSION, version_from
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["model_file_in"]
+__all__ = ["ModelConfig", "model_file_in", "read_model_config"]
 
 _CONFIGS = ("model.config", "manifest.xml")
 _USUAL_FILE = "model.sdf"
 
 
+@dataclass(frozen=True, slots=True)
+class ModelConfig:
+    """What a model's folder says about itself.
+
+    Attributes:
+        file: the ``model.config``.
+        name: name shown to people; the model's own name stands in its SDF file.
+        version: the model's version.
+        description: free text.
+        authors: name and e-mail address of each author.
+        sdf_files: SDF version and file name, in document order.
+    """
+
+    file: Path
+    name: str = ""
+    version: str = ""
+    description: str = ""
+    authors: tuple[tuple[str, str], ...] = ()
+    sdf_files: tuple[tuple[tuple[int, int], str], ...] = ()
+
+    @property
+    def best_file(self) -> str:
+        """The file of the newest version up to 1.12, empty when there is none."""
+        readable = [item for item in self.sdf_files if item[0] <= NEWEST_VERSION]
+        # max() keeps the first of equals, as Gazebo does.
+        return max(readable, key=lambda item: item[0])[1] if readable else ""
+
+
+def read_model_config(folder: Path, context: ReadContext) -> ModelConfig | None:
+    """Return a model folder's ``model.config``; None when there is none or it is broken."""
+    file = next((folder / name for name in _CONFIGS if (folder / name).is_file()), None)
+    if file is None:
+        return None
+    root = _root(file, context)
+    if root is None:
+        return None
+    return ModelConfig(
+        file=file,
+        name=root.text_of("name"),
+        version=root.text_of("version"),
+        description=" ".join(root.text_of("description").split()),
+        authors=tuple(
+            (item.text_of("name"), item.text_of("email")) for item in root.find_all("author")
+        ),
+        sdf_files=tuple(
+            (version_from(item.attributes.get("version")) or (0, 0), item.text)
+            for item in root.find_all("sdf")
+            if item.text
+        ),
+    )
+
+
 def model_file_in(folder: Path, context: ReadContext) -> Path | None:
     """Return the SDF file of a model's folder: the newest version that can be read.
 
-    Without a ``model.config`` (or one that names a missing file) ``model.sdf`` is taken.
+    Without a ``model.config`` (or with one that names no usable file) ``model.sdf`` is taken.
 
     Args:
         folder: the model's folder.
         context: hears of problems with the configuration.
     """
-    config = next((folder / name for name in _CONFIGS if (folder / name).is_file()), None)
+    config = read_model_config(folder, context)
     usual = folder / _USUAL_FILE
-    if config is None:
-        return usual if usual.is_file() else None
-    named = _best(_root(config, context), context, config)
-    if named is not None and (folder / named).is_file():
-        return folder / named
-    if named is not None:
-        message = f"'{config}' names '{named}', which is not in its folder"
-        context.diagnostics.report("sdf.model-config", message, SourceSpan(str(config)))
+    if config is not None:
+        best = config.best_file
+        if best and (folder / best).is_file():
+            return folder / best
+        wrong = f"names '{best}', which is not in its folder" if best else "names no SDF file"
+        message = f"'{config.file}' {wrong}; model.sdf is tried"
+        context.diagnostics.report("sdf.model-config", message, SourceSpan(str(config.file)))
     return usual if usual.is_file() else None
 
 
@@ -45,22 +97,3 @@ def _root(config: Path, context: ReadContext) -> Tag | None:
         message = f"{item.message}; model.sdf is tried"
         context.diagnostics.report("sdf.model-config", message, item.span)
     return root
-
-
-def _best(root: Tag | None, context: ReadContext, config: Path) -> str | None:
-    if root is None:
-        return None
-    candidates = [
-        (version_from(tag.attributes.get("version")), tag) for tag in root.find_all("sdf")
-    ]
-    readable = [
-        (version or (0, 0), tag.text)
-        for version, tag in candidates
-        if tag.text and (version or (0, 0)) <= NEWEST_VERSION
-    ]
-    if not readable:
-        message = f"'{config}' names no SDF file of version 1.12 or older; model.sdf is tried"
-        context.diagnostics.report("sdf.model-config", message, root.span)
-        return None
-    # max() keeps the first of equals, as Gazebo does.
-    return max(readable, key=lambda item: item[0])[1]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Frame, Joint, Model
+from gazelle.description.model import Frame, Joint, Link, Model
 from gazelle.description.sdf.checking import check_elements
 from gazelle.description.sdf.frames import MODEL_FRAME, FrameGraph, FramePoint
 from gazelle.description.sdf.includes import closes_circle, included_file, share_findings
@@ -22,7 +23,9 @@ from gazelle.description.sdf.versions import version_of
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 
-__all__ = ["included_model", "overridden", "place_models", "read_model"]
+__all__ = ["included_model", "read_model"]
+
+_Named = TypeVar("_Named", Link, Joint)
 
 
 def read_model(tag: Tag, context: ReadContext) -> ModelParts | None:
@@ -57,10 +60,10 @@ def included_model(
     if key not in context.cache:
         context.cache[key] = _model_of_file(path, tag, context)
     parts: ModelParts | None = context.cache[key]
-    return None if parts is None else overridden(parts, tag, context)
+    return None if parts is None else _overridden(parts, tag, context)
 
 
-def overridden(parts: ModelParts, tag: Tag, context: ReadContext) -> ModelParts:
+def _overridden(parts: ModelParts, tag: Tag, context: ReadContext) -> ModelParts:
     """Return a model with an include's name, pose, static flag, frame and plug-ins."""
     model = parts.model
     name = tag.text_of("name", default=model.name)
@@ -80,7 +83,7 @@ def overridden(parts: ModelParts, tag: Tag, context: ReadContext) -> ModelParts:
     return _with_placement(parts, placement, tag, context) if placement else parts
 
 
-def place_models(
+def _placed_models(
     models: Sequence[ModelParts], frames: FrameGraph, *, in_static: bool
 ) -> tuple[Flattened, ...]:
     """Return what nested models add to the model whose frames these are."""
@@ -132,16 +135,31 @@ def _model_of_file(path: Path, tag: Tag, context: ReadContext) -> ModelParts | N
     root = read_xml(path, found)
     parts = None
     if root is not None:
-        versioned = inner.for_version(version_of(root, inner))
-        check_elements(root, versioned)
-        model = root if root.name == "model" else root.find("model")
-        if model is not None:
-            parts = read_model(model, versioned)
-        else:
-            message = f"'{path}' holds no <model>"
-            found.report("sdf.no-model", message, root.span, severity=Severity.WARNING)
+        parts = _urdf_parts(path, inner) if root.name == "robot" else _first_model(root, inner)
     share_findings(found, tag, context)
     return parts and replace(parts, model=replace(parts.model, file=path))
+
+
+def _first_model(root: Tag, context: ReadContext) -> ModelParts | None:
+    versioned = context.for_version(version_of(root, context))
+    check_elements(root, versioned)
+    model = root if root.name == "model" else root.find("model")
+    if model is not None:
+        return read_model(model, versioned)
+    message = f"'{context.file}' holds no <model>"
+    context.diagnostics.report("sdf.no-model", message, root.span)
+    return None
+
+
+def _urdf_parts(path: Path, context: ReadContext) -> ModelParts | None:
+    """Return a URDF robot, which an ``<include>`` may name as well."""
+    from gazelle.description.urdf import read_urdf
+
+    model = read_urdf(path.read_text(encoding="utf-8"), context=context)
+    if model is None:
+        return None
+    frames = {link.name: link.T_model_link for link in model.links}
+    return ModelParts(model, frames=frames, attached={name: name for name in frames})
 
 
 class _ModelReader:
@@ -235,21 +253,21 @@ class _ModelReader:
         self, resolver: PoseResolver, points: Mapping[str, FramePoint], canonical: str
     ) -> Model:
         context, graph = self._context, resolver.frames
-        inner = place_models(self._nested, graph, in_static=self._static)
+        inner = _placed_models(self._nested, graph, in_static=self._static)
         links = tuple(
             read_link(
                 tag, graph.pose(tag.attributes["name"].strip()), resolver, static=self._static
             )
             for tag in self._links
         )
+        joints = self._own_joints(resolver, points)
         return Model(
             name=self._name,
             static=self._static,
             self_collide=child_bool(self._tag, "self_collide", False, context),
             allow_auto_disable=child_bool(self._tag, "allow_auto_disable", True, context),
-            links=links + tuple(link for item in inner for link in item.links),
-            joints=self._own_joints(resolver, points)
-            + tuple(joint for item in inner for joint in item.joints),
+            links=self._unique((*links, *(link for item in inner for link in item.links))),
+            joints=self._unique((*joints, *(joint for item in inner for joint in item.joints))),
             frames=self._own_frames(graph)
             + tuple(frame for item in inner for frame in item.frames),
             canonical_link=canonical,
@@ -258,6 +276,19 @@ class _ModelReader:
             source_format="sdf",
             span=self._tag.span,
         )
+
+    def _unique(self, items: tuple[_Named, ...]) -> tuple[_Named, ...]:
+        """Leave out what a merged model brings under a name that is taken."""
+        found: dict[str, _Named] = {}
+        for item in items:
+            if found.setdefault(item.name, item) is not item:
+                kind = type(item).__name__.lower()
+                message = (
+                    f"{kind} with name '{item.name}' comes into model '{self._name}' twice by "
+                    "merging; the second one is left out"
+                )
+                self._context.diagnostics.report("sdf.duplicate-name", message, item.span)
+        return tuple(found.values())
 
     def _own_frames(self, graph: FrameGraph) -> tuple[Frame, ...]:
         names = [tag.attributes["name"].strip() for tag in self._frames]

@@ -85,7 +85,7 @@ def _report_type(tag: Tag, kind: str, context: ReadContext) -> None:
 
 def _topic(tag: Tag) -> str:
     """Return the topic; ``__default__`` is Gazebo's word for none."""
-    topic = tag.text_of("topic")
+    topic = tag.text_of("topic") or tag.text_of("imu", "topic") or tag.text_of("gps", "topic")
     return "" if topic == "__default__" else topic
 
 

@@ -171,9 +171,10 @@ def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
         return None
     found = context.resolve(uri)
     if found.path is None or found.path.is_dir():
-        context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
+        if context.first_time("missing file", uri, context.file):
+            context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
         return None
-    if found.note:
+    if found.note and context.first_time("note", uri, context.file):
         message = f"'{uri}': {found.note}"
         context.diagnostics.report("sdf.bad-value", message, place.span)
     return found.path

@@ -26,7 +26,7 @@ from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["read_world"]
+__all__ = ["read_world", "report_actor"]
 
 _DEFAULTS = World()
 
@@ -120,7 +120,7 @@ class _WorldReader:
             elif child.name == "population":
                 yield from populated(child, self._context)
             elif child.name == "actor":
-                _report_actor(child, self._context)
+                report_actor(child, self._context)
 
     def _included(self, tag: Tag) -> Iterable[ModelParts]:
         """Yield the model that an include brings; keep the lights it brings instead."""
@@ -171,9 +171,10 @@ def _unique_names(parts: Iterable[ModelParts], context: ReadContext) -> tuple[Mo
     return tuple(found.values())
 
 
-def _report_actor(tag: Tag, context: ReadContext) -> None:
+def report_actor(tag: Tag, context: ReadContext) -> None:
+    """Say that an ``<actor>`` is left out."""
     name = tag.attributes.get("name", "")
-    message = f"actor '{name}' is an animation; it is left out of the world"
+    message = f"actor '{name}' is an animation; it is left out"
     context.diagnostics.report("sdf.actor", message, tag.span)
 
 

@@ -109,7 +109,8 @@ ENTRIES = (
         "error",
         "A link's mass or inertia is impossible",
         "The mass must be positive, the tensor positive definite, and no principal moment larger "
-        "than the sum of the other two. The moments of a box of this mass are used.",
+        "than the sum of the other two. What is used instead stands in the message. Gazebo refuses "
+        "such a world or moves the link in impossible ways.",
         "compute the tensor from the shape, or leave <inertia> out",
         "A link named ... has invalid inertia.",
     ),
