@@ -1,6 +1,9 @@
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from xml.etree import ElementTree
 
 import pytest
@@ -87,6 +90,25 @@ def test_worlds_and_models_include_only_builtin_models(discover, path):
         assert workspace.resolve(uri).path is not None
     names = [model.get("name") for model in root.iter("model")]
     assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize("name", ["xacro", "xacro.py"])
+def test_the_xacro_command_of_launch_files_runs(discover, tmp_path, name):
+    script = discover().package("xacro").find_file(name)
+    assert os.access(script, os.X_OK)
+    file = tmp_path / "a.xacro"
+    file.write_text(
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro" name="${1 + 1}"><link name="a"/></robot>'
+    )
+    done = subprocess.run(
+        [sys.executable, script, "--inorder", file],
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert '<robot name="2">' in done.stdout
 
 
 def test_every_model_has_a_config_that_names_its_sdf():
