@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cache
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
 
@@ -19,6 +21,8 @@ __all__ = [
     "twist_message",
     "vector_message",
 ]
+
+Vector = tuple[float, ...] | NDArray[np.floating[Any]]
 
 NS_PER_S = 1_000_000_000
 
@@ -50,7 +54,7 @@ def header(time_ns: int, frame_id: str) -> Any:
     return message_class("std_msgs/Header")(stamp=stamp(time_ns), frame_id=frame_id)
 
 
-def vector_message(xyz: Sequence[float]) -> Any:
+def vector_message(xyz: Vector) -> Any:
     """Return a ``geometry_msgs/Vector3``."""
     return message_class("geometry_msgs/Vector3")(x=float(xyz[0]), y=float(xyz[1]), z=float(xyz[2]))
 
@@ -62,7 +66,7 @@ def pose_message(pose: Pose) -> Any:
     )
 
 
-def twist_message(linear: Sequence[float], angular: Sequence[float]) -> Any:
+def twist_message(linear: Vector, angular: Vector) -> Any:
     """Return a ``geometry_msgs/Twist``, m/s and rad/s."""
     return message_class("geometry_msgs/Twist")(
         linear=vector_message(linear), angular=vector_message(angular)
@@ -88,10 +92,10 @@ def pose_from_message(message: Any) -> Pose:
     return Pose((float(p.x), float(p.y), float(p.z)), quat)
 
 
-def _point(xyz: Sequence[float]) -> Any:
+def _point(xyz: Vector) -> Any:
     return message_class("geometry_msgs/Point")(x=float(xyz[0]), y=float(xyz[1]), z=float(xyz[2]))
 
 
-def _quaternion(xyzw: Sequence[float]) -> Any:
+def _quaternion(xyzw: Vector) -> Any:
     x, y, z, w = xyzw
     return message_class("geometry_msgs/Quaternion")(x=float(x), y=float(y), z=float(z), w=float(w))

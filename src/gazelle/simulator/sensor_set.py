@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, Model, World
+from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, Light, Model, World
 from gazelle.geometry import Pose
 from gazelle.simulator.plugins.context import SensorPlace
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine, Snapshot
-    from gazelle.sensors import CameraRecord, LidarRecord, NoiseSource, RayScene
-    from gazelle.sensors.imu import ImuNoise, ImuRecord
+    from gazelle.sensors import (
+        CameraRecord,
+        ImuNoise,
+        ImuRecord,
+        LidarRecord,
+        NoiseSource,
+        RayScene,
+    )
 
 __all__ = ["SensorSet", "View", "sensor_places"]
 
@@ -27,7 +30,7 @@ class _ImuState:
     """What an IMU carries from one reading to the next."""
 
     noise: ImuNoise
-    reference_quat_xyzw: tuple[float, float, float, float]
+    initial_xyzw: tuple[float, float, float, float]
     last_ns: int
 
 
@@ -78,13 +81,25 @@ class SensorSet:
         self._scenes: dict[str, tuple[RayScene, World]] = {}
         self._noises: dict[str, NoiseSource] = {}
         self._imus: dict[str, _ImuState] = {}
+        self._lights: tuple[Light, ...] | None = None
+        self._lit: tuple[World, World] | None = None
         self._lock = threading.Lock()
         self.computed = 0
         """Readings computed so far; idle sensors do not count up."""
 
     def view(self) -> View:
         """Return the world as it stands now; for the thread that owns it."""
-        return View(self._engine.world, self._engine.snapshot())
+        return View(self._lit_world(), self._engine.snapshot())
+
+    @property
+    def lights(self) -> tuple[Light, ...]:
+        """The world's lights as cameras see them; assign to change them."""
+        return self._engine.world.lights if self._lights is None else self._lights
+
+    @lights.setter
+    def lights(self, lights: tuple[Light, ...]) -> None:
+        self._lights = lights
+        self._lit = None
 
     def restart(self) -> None:
         """Start all noise over, as after a reset."""
@@ -137,37 +152,51 @@ class SensorSet:
         assert isinstance(spec, ImuSpec)
         return self.imu_at(place.name, place.link_name, place.sensor.T_link_sensor, spec)
 
-    def imu_at(self, name: str, link_name: str, T_link_sensor: Pose, spec: ImuSpec) -> ImuRecord:
-        """Read an IMU that need not be in the model: some plug-ins describe their own."""
-        from gazelle.sensors.imu import LinkMotion, imu_noise, imu_reading, reference_orientation
+    def imu_at(
+        self,
+        name: str,
+        link_name: str,
+        T_link_sensor: Pose,
+        spec: ImuSpec,
+        *,
+        relative: bool = False,
+    ) -> ImuRecord:
+        """Read an IMU that need not be in the model: some plug-ins describe their own.
+
+        With `relative` its orientation refers to the one it had at the first reading, unless the
+        spec names a frame; else to the world.
+        """
+        from gazelle.sensors import ImuNoise, LinkMotion, imu_reading
 
         link = self._engine.link(link_name)
-        velocity, acceleration = link.velocity_world(), link.acceleration_world()
+        linear, angular = link.acceleration_world()
         T_world_link = link.T_world_link()
-        motion = LinkMotion(
-            T_world_link,
-            _triple(velocity[0]),
-            _triple(velocity[1]),
-            _triple(acceleration[0]),
-            _triple(acceleration[1]),
-        )
+        motion = LinkMotion(T_world_link, link.velocity_world()[1], linear, angular)
         now_ns = self._engine.time_ns
         state = self._imus.get(name)
         if state is None:
-            reference = reference_orientation(spec, T_world_link @ T_link_sensor)
-            state = _ImuState(imu_noise(spec, self._seed, name), reference, now_ns)
-            self._imus[name] = state
+            initial = (T_world_link @ T_link_sensor).quat_xyzw
+            state = self._imus[name] = _ImuState(ImuNoise(spec, self._seed, name), initial, now_ns)
         dt_s = (now_ns - state.last_ns) * 1e-9
         state.last_ns = now_ns
         self.computed += 1
         return imu_reading(
             motion,
-            T_link_sensor,
+            spec,
             self._engine.gravity_m_s2,
+            T_link_sensor=T_link_sensor,
             noise=state.noise,
             dt_s=dt_s,
-            reference_quat_xyzw=state.reference_quat_xyzw,
+            initial_xyzw=state.initial_xyzw if relative else (0.0, 0.0, 0.0, 1.0),
         )
+
+    def _lit_world(self) -> World:
+        world = self._engine.world
+        if self._lights is None:
+            return world
+        if self._lit is None or self._lit[0] is not world:
+            self._lit = (world, replace(world, lights=self._lights))
+        return self._lit[1]
 
     def _scene(self, kind: str, view: View) -> RayScene:
         from gazelle.sensors import RayScene
@@ -191,8 +220,3 @@ class SensorSet:
         if place.name not in self._noises:
             self._noises[place.name] = NoiseSource(spec.noise, self._seed, place.name)
         return self._noises[place.name]
-
-
-def _triple(vector: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = vector.tolist()
-    return (x, y, z)

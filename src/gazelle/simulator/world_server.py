@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from gazelle.description.model import Model, OtherSensorSpec, PluginTag, World
+from gazelle.description.model import CameraSpec, Model, OtherSensorSpec, PluginTag, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.simulator.commands import CommandQueue
@@ -56,6 +56,7 @@ class WorldServer:
         seed: int = 0,
         mode: Mode = Mode.LOCKSTEP,
         paused: bool = False,
+        warm_cameras: bool = False,
     ) -> None:
         """Build the engine and start the plug-ins of every model.
 
@@ -68,6 +69,7 @@ class WorldServer:
             mode: of `run`; `step` is always as fast as possible, and waits for frames in
                 lock-step.
             paused: `run` waits for `unpause` before the first step.
+            warm_cameras: load the cameras' kernels in a thread as soon as there is a camera.
         """
         from gazelle.engine import Engine
 
@@ -84,6 +86,7 @@ class WorldServer:
         self.frames = FrameWorker()
         self.pace = Pace(self._wanted_factor())
         self._stop = threading.Event()
+        self._warms_cameras = warm_cameras
         self._resources: dict[str, Resources] = {}
         self._world_resources = Resources(self)
         self._load_world_plugins()
@@ -193,10 +196,11 @@ class WorldServer:
         self.scheduler.set_step(self.engine.step_ns)
         self.pace.restart(self.engine.time_ns)
 
-    def set_real_time_factor(self, factor: float) -> None:
-        """Change the wanted real-time factor; 0 is as fast as possible."""
-        self.pace.factor = factor
-        self.pace.restart(self.engine.time_ns)
+    def set_update_rate(self, steps_per_s: float) -> None:
+        """Change the wanted steps per real second; 0 is as fast as possible."""
+        if self.mode is Mode.REAL_TIME:
+            self.pace.factor = max(0.0, steps_per_s) * self.engine.step_ns * 1e-9
+            self.pace.restart(self.engine.time_ns)
 
     def close(self) -> None:
         """Release topics, services and threads; closing twice does nothing."""
@@ -245,6 +249,17 @@ class WorldServer:
         else:
             self._advance(_FAST_SLICE)
 
+    def _warm_cameras(self) -> None:
+        if self._warms_cameras:
+            from gazelle.sensors import warm_up
+
+            self._warms_cameras = False
+
+            def warm() -> None:
+                warm_up(lambda text: self.node.log("INFO", text))
+
+            threading.Thread(target=warm, name="gazelle-warm-up", daemon=True).start()
+
     def _advance(self, count: int) -> None:
         engine, scheduler = self.engine, self.scheduler
         remaining = count
@@ -258,11 +273,9 @@ class WorldServer:
     def _wanted_factor(self) -> float:
         if self.mode is not Mode.REAL_TIME:
             return 0.0
-        physics = self.engine.world.physics
-        if physics.real_time_update_rate_hz <= 0:
-            return 0.0
         # Gazebo's target is rate × step; real_time_factor is what it should come to.
-        return physics.real_time_update_rate_hz * self.engine.step_ns * 1e-9
+        rate_hz = self.engine.world.physics.real_time_update_rate_hz
+        return max(0.0, rate_hz) * self.engine.step_ns * 1e-9
 
     def _load_world_plugins(self) -> None:
         world = self.engine.world
@@ -281,6 +294,8 @@ class WorldServer:
                 text = f"sensor '{place.name}' is of type '{place.sensor.type}', which is not "
                 code = "simulator.sensor-not-simulated"
                 self.diagnostics.report(code, text + "simulated", place.sensor.span)
+            if isinstance(place.sensor.spec, CameraSpec):
+                self._warm_cameras()
             for plugin in place.sensor.plugins:
                 load(plugin, place)
         for plugin in model.plugins:

@@ -63,6 +63,7 @@ class CameraStream:
         self._outputs: list[_Output] = []
         self._infos: list[PublisherPort] = []
         self._set_info: Any = None
+        self._dropped = False
         self._resources = context.resources
         self._task = context.resources.task(
             place.name,
@@ -101,9 +102,11 @@ class CameraStream:
         if self._host.lockstep:
             self._produce(time_ns, view, outputs)
         else:
-            self._host.frames.submit(
+            started = self._host.frames.submit(
                 self._place.name, lambda: self._produce(time_ns, view, outputs)
             )
+            if not started:
+                self._report_drop()
 
     def _produce(self, time_ns: int, view: View, outputs: list[_Output]) -> None:
         record = self._host.sensors.render(
@@ -115,6 +118,16 @@ class CameraStream:
         for item in outputs:
             item.publisher.publish(item.build(time_ns, record))
         self._publish_infos(time_ns)
+
+    def _report_drop(self) -> None:
+        if self._dropped:
+            return
+        self._dropped = True
+        sensor = self._place.sensor
+        text = f"camera '{self._place.name}' is late for its {sensor.update_rate_hz:g} Hz: frames "
+        text += "are dropped"
+        self._host.diagnostics.report("simulator.frames-dropped", text, sensor.span)
+        self._host.node.log("WARN", text)
 
     def _publish_infos(self, time_ns: int) -> None:
         for publisher in self._infos:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,7 @@ from gazelle.simulator.plugins.parameters import ParameterReader
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from gazelle.sensors import CameraRecord, PointCloud
+    from gazelle.sensors import CameraRecord
 
 __all__ = ["DepthLimits", "add_colour", "add_depth", "cut_depth", "load", "load_openni"]
 
@@ -140,13 +141,12 @@ def _start(
     check_frame(context, place, frame)
 
 
-def _cloud_message(time_ns: int, frame: str, cloud: PointCloud) -> Any:
+def _cloud_message(time_ns: int, frame: str, points: NDArray[np.void]) -> Any:
     """Return a ``sensor_msgs/PointCloud2`` that shares the cloud's memory."""
-    points = cloud.points
     height, width = points.shape
     step = points.dtype.itemsize
     field = message_class("sensor_msgs/PointField")
-    fields = points.dtype.fields or {}
+    fields: Mapping[str, Any] = points.dtype.fields or {}
     return message_class("sensor_msgs/PointCloud2")(
         header=header(time_ns, frame),
         height=height,
@@ -159,5 +159,5 @@ def _cloud_message(time_ns: int, frame: str, cloud: PointCloud) -> Any:
         point_step=step,
         row_step=step * width,
         data=points.reshape(-1).view(np.uint8),
-        is_dense=cloud.is_dense,
+        is_dense=not bool(np.isnan(points["z"]).any()),
     )

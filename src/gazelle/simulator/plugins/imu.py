@@ -20,7 +20,7 @@ from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Top
 from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, sensor_period_in_steps
 
 if TYPE_CHECKING:
-    from gazelle.sensors.imu import ImuRecord
+    from gazelle.sensors import ImuRecord
 
 __all__ = ["HECTOR_TABLE", "SENSOR_TABLE", "TABLE", "load", "load_hector", "load_sensor"]
 
@@ -82,8 +82,14 @@ SENSOR_TABLE = PluginTable(
         Parameter(
             "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
         ),
-        Parameter("initialOrientationAsReference", "none", "", "orientations are in the world"),
-        Parameter("initial_orientation_as_reference", "none", "", "orientations are in the world"),
+        Parameter(
+            "initialOrientationAsReference",
+            "flag",
+            False,
+            "orientations refer to the first one, not to the world",
+            "",
+            ("initial_orientation_as_reference",),
+        ),
         *_OFFSETS,
     ),
 )
@@ -186,12 +192,15 @@ def load_sensor(context: PluginContext) -> None:
         if sigma > 0 or not isinstance(spec, ImuSpec):
             spec = _spec((sigma,) * 3, (sigma,) * 3)
         T_link_imu = sensor.T_link_sensor @ offset
+        relative = parameters.flag("initialOrientationAsReference")
         _publish_readings(
             context,
             topic,
             frame,
             period,
-            lambda: host.sensors.imu_at(place.name, place.link_name, T_link_imu, spec),
+            lambda: host.sensors.imu_at(
+                place.name, place.link_name, T_link_imu, spec, relative=relative
+            ),
         )
     parameters.report_unread()
 
@@ -225,7 +234,7 @@ def _publish_readings(
 
 def imu_message(time_ns: int, frame: str, record: ImuRecord) -> Any:
     """Return a ``sensor_msgs/Imu``; variances are the squares of the noise's sigma."""
-    x, y, z, w = record.quat_xyzw
+    x, y, z, w = record.orientation_xyzw
     quaternion = message_class("geometry_msgs/Quaternion")
     return message_class("sensor_msgs/Imu")(
         header=header(time_ns, frame),

@@ -1,0 +1,1 @@
+"""What `gazebo_ros` offers: topics, services and parameters under ``/gazebo``."""

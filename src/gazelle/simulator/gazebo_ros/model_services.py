@@ -1,0 +1,174 @@
+"""Services and topics about models."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.simulator.gazebo_ros.entities import Entities, Entity, Row
+from gazelle.simulator.messages import header, pose_from_message, pose_message, twist_message
+
+if TYPE_CHECKING:
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["ModelServices"]
+
+
+class ModelServices:
+    """``get/set_model_state``, ``set_model_configuration`` and their kin."""
+
+    def __init__(self, server: WorldServer, entities: Entities) -> None:
+        self._server = server
+        self._entities = entities
+
+    def rows(self) -> list[Row]:
+        """Return the services below ``/gazebo``."""
+        return [
+            Row("get_model_state", "gazebo_msgs/GetModelState", self._get_state),
+            Row("set_model_state", "gazebo_msgs/SetModelState", self._set_state),
+            Row("get_model_properties", "gazebo_msgs/GetModelProperties", self._get_properties),
+            Row(
+                "set_model_configuration",
+                "gazebo_msgs/SetModelConfiguration",
+                self._set_configuration,
+            ),
+        ]
+
+    def ros2_rows(self) -> list[Row]:
+        """Return the services of gazebo_ros in ROS 2."""
+        return [
+            Row("get_entity_state", "gazebo_msgs/GetEntityState", self._get_entity_state),
+            Row("set_entity_state", "gazebo_msgs/SetEntityState", self._set_entity_state),
+            Row("get_model_list", "gazebo_msgs/GetModelList", self._get_list),
+        ]
+
+    def set_state(self, state: Any) -> str:
+        """Apply a ``gazebo_msgs/ModelState``; returns what went wrong, empty when nothing did."""
+        if self._entities.model(state.model_name) is None:
+            return "SetModelState: model does not exist" + self._entities.hint(state.model_name)
+        frame = self._entities.frame(state.reference_frame)
+        if frame is None:
+            return "SetModelState: specified reference frame entity does not exist"
+        wanted = state_from(state).in_world(frame)
+        engine = self._server.engine
+        engine.set_model_pose(state.model_name, wanted.T_world_entity)
+        linear, angular = wanted.linear_m_s, wanted.angular_rad_s
+        engine.set_model_velocity(state.model_name, linear, angular)
+        return ""
+
+    def _get_state(self, request: Any, response: Any) -> None:
+        state = self._entities.model(request.model_name)
+        if state is None:
+            text = "GetModelState: model does not exist"
+            _fail(response, text + self._entities.hint(request.model_name))
+            return
+        response.header = header(self._server.time_ns, request.relative_entity_name)
+        frame = self._entities.frame(request.relative_entity_name)
+        if frame is None:
+            text = "GetModelState: reference relative_entity_name not found, did you forget to "
+            _fail(response, text + "scope the body by model name?")
+            return
+        relative = state.relative_to(frame)
+        response.pose = pose_message(relative.T_world_entity)
+        response.twist = twist_message(relative.linear_m_s, relative.angular_rad_s)
+        _succeed(response, "GetModelState: got properties")
+
+    def _set_state(self, request: Any, response: Any) -> None:
+        problem = self.set_state(request.model_state)
+        if problem:
+            _fail(response, problem)
+        else:
+            _succeed(response, "SetModelState: set model state done")
+
+    def _get_properties(self, request: Any, response: Any) -> None:
+        model = self._server.engine.world.model(request.model_name)
+        if model is None:
+            text = "GetModelProperties: model does not exist"
+            _fail(response, text + self._entities.hint(request.model_name))
+            return
+        response.canonical_body_name = model.canonical_link
+        response.body_names = [link.name for link in model.links]
+        response.geom_names = [item.name for link in model.links for item in link.collisions]
+        response.joint_names = [joint.name for joint in model.joints]
+        response.is_static = model.static
+        _succeed(response, "GetModelProperties: got properties")
+
+    def _set_configuration(self, request: Any, response: Any) -> None:
+        if self._entities.model(request.model_name) is None:
+            text = "SetModelConfiguration: model does not exist"
+            _fail(response, text + self._entities.hint(request.model_name))
+            return
+        if len(request.joint_names) != len(request.joint_positions):
+            text = "SetModelConfiguration: joint name and position list have different lengths"
+            _fail(response, text)
+            return
+        engine = self._server.engine
+        missing = []
+        for joint, position in zip(request.joint_names, request.joint_positions, strict=True):
+            full = joint if "::" in joint else f"{request.model_name}::{joint}"
+            if full in engine.joint_names:
+                engine.joint(full).set_state(float(position), 0.0)
+            else:
+                missing.append(joint)
+        if missing:
+            # Gazebo drops unknown joints in silence and reports success.
+            text = "SetModelConfiguration: no such joint: " + ", ".join(missing)
+            _fail(response, text)
+            return
+        _succeed(response, "SetModelConfiguration: success")
+
+    def _get_entity_state(self, request: Any, response: Any) -> None:
+        entity = self._entities.model(request.name) or self._entities.link(request.name)
+        frame = self._entities.frame(request.reference_frame)
+        response.header = header(self._server.time_ns, request.reference_frame or "world")
+        response.success = entity is not None and frame is not None
+        if entity is not None and frame is not None:
+            relative = entity.relative_to(frame)
+            response.state.name = request.name
+            response.state.pose = pose_message(relative.T_world_entity)
+            response.state.twist = twist_message(relative.linear_m_s, relative.angular_rad_s)
+            response.state.reference_frame = request.reference_frame
+
+    def _set_entity_state(self, request: Any, response: Any) -> None:
+        state = request.state
+        frame = self._entities.frame(state.reference_frame)
+        is_model = self._entities.model(state.name) is not None
+        is_link = self._entities.link(state.name) is not None
+        response.success = frame is not None and (is_model or is_link)
+        if frame is None or not response.success:
+            return
+        wanted = state_from(state).in_world(frame)
+        engine = self._server.engine
+        if is_model:
+            engine.set_model_pose(state.name, wanted.T_world_entity)
+            engine.set_model_velocity(state.name, wanted.linear_m_s, wanted.angular_rad_s)
+        else:
+            link = engine.link(state.name)
+            link.set_pose(wanted.T_world_entity)
+            link.set_velocity(wanted.linear_m_s, wanted.angular_rad_s)
+
+    def _get_list(self, request: Any, response: Any) -> None:
+        response.header = header(self._server.time_ns, "")
+        response.model_names = [model.name for model in self._server.engine.world.models]
+        response.success = True
+
+
+def state_from(message: Any) -> Entity:
+    """Read the pose and twist of a ModelState, LinkState or EntityState."""
+    linear, angular = message.twist.linear, message.twist.angular
+    return Entity(
+        pose_from_message(message.pose),
+        np.array([linear.x, linear.y, linear.z], float),
+        np.array([angular.x, angular.y, angular.z], float),
+    )
+
+
+def _succeed(response: Any, text: str) -> None:
+    response.success = True
+    response.status_message = text
+
+
+def _fail(response: Any, text: str) -> None:
+    response.success = False
+    response.status_message = text

@@ -1,0 +1,87 @@
+"""``/gazebo``'s dynamic parameters: step, rate and gravity act, ODE's words are only kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
+
+if TYPE_CHECKING:
+    from gazelle.simulator.plugins.context import Resources
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["PhysicsParameters"]
+
+_ODE = "A word of ODE; kept and returned, MuJoCo does the physics."
+
+
+class PhysicsParameters:
+    """The one place that physics settings are changed through."""
+
+    def __init__(self, server: WorldServer, resources: Resources) -> None:
+        self._server = server
+        self._dynamic = DynamicParameters(
+            resources,
+            server.node.parameters,
+            "/gazebo",
+            _rows(server),
+            changed=self._apply,
+        )
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Present values by name."""
+        return self._dynamic.values
+
+    def set(self, values: dict[str, Any]) -> None:
+        """Change some values, as ``set_physics_properties`` does."""
+        self._dynamic.values.update(values)
+        self._apply(self._dynamic.values)
+        self._dynamic.announce()
+
+    def _apply(self, values: dict[str, Any]) -> None:
+        server, engine = self._server, self._server.engine
+        gravity = tuple(float(values[f"gravity_{axis}"]) for axis in "xyz")
+        if gravity != engine.gravity_m_s2:
+            engine.set_gravity((gravity[0], gravity[1], gravity[2]))
+        step_s = float(values["time_step"])
+        if step_s > 0 and round(step_s * 1e9) != engine.step_ns:
+            server.set_step(step_s)
+        server.set_update_rate(float(values["max_update_rate"]))
+
+
+def _rows(server: WorldServer) -> tuple[DynamicParameter, ...]:
+    physics, engine = server.engine.world.physics, server.engine
+    gravity = engine.gravity_m_s2
+
+    def ode(
+        name: str, kind: str, value: bool | float, most: float | None = 1e7
+    ) -> DynamicParameter:
+        low = None if most is None else 0.0
+        return DynamicParameter(name, kind, value, _ODE, low, most)
+
+    return (
+        DynamicParameter("time_step", "double", engine.step_ns * 1e-9, "Step, seconds.", 0.0, 10.0),
+        DynamicParameter(
+            "max_update_rate",
+            "double",
+            physics.real_time_update_rate_hz,
+            "Steps per real second, 0 for as fast as possible.",
+            0.0,
+            1e6,
+        ),
+        *(
+            DynamicParameter(f"gravity_{axis}", "double", value, "Gravity, m/s².", -100.0, 100.0)
+            for axis, value in zip("xyz", gravity, strict=True)
+        ),
+        ode("auto_disable_bodies", "bool", False, None),
+        ode("sor_pgs_precon_iters", "int", physics.solver_precon_iters),
+        ode("sor_pgs_iters", "int", physics.solver_iters),
+        ode("sor_pgs_w", "double", physics.solver_sor),
+        ode("sor_pgs_rms_error_tol", "double", physics.solver_rms_error_tol),
+        ode("cfm", "double", physics.cfm),
+        ode("erp", "double", physics.erp),
+        ode("contact_surface_layer", "double", physics.contact_surface_layer_m),
+        ode("contact_max_correcting_vel", "double", physics.contact_max_correcting_vel_m_s),
+        ode("max_contacts", "int", physics.max_contacts),
+    )

@@ -1,0 +1,76 @@
+"""``/clock``, ``/gazebo/link_states`` and ``/gazebo/model_states``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from gazelle.geometry import Pose
+from gazelle.simulator.messages import message_class, pose_message, stamp, twist_message
+from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
+
+if TYPE_CHECKING:
+    from gazelle.simulator.plugins.context import Resources
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["offer_states"]
+
+_EVERY_STEP = Fraction(1)
+
+
+def offer_states(server: WorldServer, resources: Resources) -> None:
+    """Publish clock and states every step while somebody listens.
+
+    The ROS parameter ``/gazebo/pub_clock_frequency`` lowers the clock's rate, as in gazebo_ros.
+    """
+    engine = server.engine
+    clock = resources.publisher("/clock", "rosgraph_msgs/Clock")
+    rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
+
+    def publish_clock() -> None:
+        clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
+
+    resources.task(
+        "/clock",
+        period_in_steps(rate_hz, engine.step_ns),
+        publish_clock,
+        order=ORDER_CLOCK,
+        wanted=lambda: clock.matched,
+    )
+    links = resources.publisher("/gazebo/link_states", "gazebo_msgs/LinkStates", reliable=False)
+    models = resources.publisher("/gazebo/model_states", "gazebo_msgs/ModelStates", reliable=False)
+    resources.task(
+        "/gazebo/link_states",
+        _EVERY_STEP,
+        lambda: links.publish(_link_states(server)),
+        order=ORDER_STATE,
+        wanted=lambda: links.matched,
+    )
+    resources.task(
+        "/gazebo/model_states",
+        _EVERY_STEP,
+        lambda: models.publish(_model_states(server)),
+        order=ORDER_STATE,
+        wanted=lambda: models.matched,
+    )
+
+
+def _link_states(server: WorldServer) -> Any:
+    engine = server.engine
+    snapshot = engine.snapshot()
+    message = message_class("gazebo_msgs/LinkStates")(name=list(snapshot.link_names))
+    for name, row in zip(snapshot.link_names, snapshot.T.tolist(), strict=True):
+        pose = Pose((row[0], row[1], row[2]), (row[3], row[4], row[5], row[6]))
+        message.pose.append(pose_message(pose))
+        message.twist.append(twist_message(*engine.link(name).velocity_world()))
+    return message
+
+
+def _model_states(server: WorldServer) -> Any:
+    engine = server.engine
+    names = [model.name for model in engine.world.models]
+    message = message_class("gazebo_msgs/ModelStates")(name=names)
+    for name in names:
+        message.pose.append(pose_message(engine.model_pose(name)))
+        message.twist.append(twist_message(*engine.model_velocity(name)))
+    return message

@@ -1,0 +1,35 @@
+"""Changes a model's description while it runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gazelle.description.model import Model
+
+if TYPE_CHECKING:
+    from gazelle.engine import Engine
+
+__all__ = ["replace_model"]
+
+
+def replace_model(engine: Engine, model: Model) -> None:
+    """Put a changed description in the place of the model of the same name.
+
+    Pose, velocity and joint state stay; motor commands and efforts on its joints end, their
+    plug-ins give them again.
+    """
+    name = model.name
+    pose = engine.model_pose(name)
+    linear, angular = engine.model_velocity(name)
+    joints = {
+        item: (engine.joint(item).position, engine.joint(item).velocity)
+        for item in engine.joint_names
+        if item.startswith(f"{name}::") and engine.joint(item).is_driveable
+    }
+    engine.delete(name)
+    engine.spawn(model, name=name)
+    engine.set_model_pose(name, pose)
+    if not model.static:
+        engine.set_model_velocity(name, linear, angular)
+    for item, (position, velocity) in joints.items():
+        engine.joint(item).set_state(position, velocity)

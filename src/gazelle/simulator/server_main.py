@@ -1,0 +1,134 @@
+"""The process that launch files start as gzserver or gazebo."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Protocol
+
+from gazelle._version import __version__
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, did_you_mean, render
+from gazelle.errors import GazelleError, NotFoundError
+from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.plugins.registry import known_names, plain_name
+from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
+from gazelle.simulator.sources import world_from
+from gazelle.simulator.world_server import WorldServer
+from gazelle.workspace import Workspace
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph
+
+__all__ = ["serve"]
+
+
+class _Arguments(Protocol):
+    """What a node is told when it starts."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def namespace(self) -> str: ...
+    @property
+    def remappings(self) -> Mapping[str, str]: ...
+    @property
+    def params(self) -> Mapping[str, Any]: ...
+    @property
+    def rest(self) -> tuple[str, ...]: ...
+
+
+def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
+    """Run a world on a graph until told to stop.
+
+    Args:
+        arguments: node name, namespace, remappings and the words of gzserver.
+        graph: where topics and services go.
+        stop: set from outside (signals) to end.
+
+    Returns:
+        the exit code: 0, or 1 when the world cannot be read or the physics diverged.
+    """
+    diagnostics = Diagnostics()
+    options = read_server_options(arguments.rest, diagnostics)
+    if options.shows_help or options.shows_version:
+        sys.stdout.write(HELP if options.shows_help else f"Gazelle {__version__}\n")
+        return 0
+    node = graph.create_node(
+        _node_name(arguments.name),
+        namespace=arguments.namespace,
+        remappings=dict(arguments.remappings),
+    )
+    try:
+        return _serve_world(options, node, diagnostics, stop)
+    except GazelleError as error:
+        _show(diagnostics)
+        if not isinstance(error, NotFoundError) or error.kind != "world":
+            node.log("fatal", str(error))
+        else:
+            node.log("fatal", f"Could not open file: {error}")
+        return 1
+    finally:
+        node.shutdown()
+
+
+def _serve_world(
+    options: ServerOptions, node: Any, diagnostics: Diagnostics, stop: threading.Event
+) -> int:
+    workspace = Workspace.discover()
+    world = world_from(options.world or "empty", workspace, diagnostics)
+    server = WorldServer(
+        world,
+        node=node,
+        workspace=workspace,
+        diagnostics=diagnostics,
+        seed=options.seed,
+        mode=options.mode,
+        paused=options.paused,
+        warm_cameras=True,
+    )
+    _check_server_plugins(options, diagnostics)
+    _show(diagnostics, verbose=options.verbose)
+    offer_gazebo_ros(server, report=lambda found: _show(found, verbose=options.verbose))
+    node.log("info", "Finished loading Gazebo ROS API Plugin.")
+    node.log("info", "Physics dynamic reconfigure ready.")
+    threading.Thread(target=_stop_with, args=(stop, server), daemon=True).start()
+    try:
+        if options.iterations:
+            server.step(options.iterations)
+        else:
+            server.run()
+    finally:
+        server.close()
+        dropped = sum(server.frames.dropped.values())
+        if dropped:
+            node.log("info", f"{dropped} camera frames were dropped, rendering was late")
+    return 0
+
+
+def _node_name(name: str) -> str:
+    """Gazebo's own node is called gazebo whatever the executable was."""
+    return "gazebo" if name in {"gzserver", "debug", "perf"} else name
+
+
+def _stop_with(stop: threading.Event, server: WorldServer) -> None:
+    stop.wait()
+    server.stop()
+
+
+def _check_server_plugins(options: ServerOptions, diagnostics: Diagnostics) -> None:
+    known = known_names()
+    for library in options.plugins:
+        name = plain_name(library)
+        if name in known:
+            text = f"server plug-in '{library}' is part of Gazelle"
+            diagnostics.report("simulator.server-plugin", text)
+        else:
+            text = f"server plug-in '{library}' is compiled code that Gazelle does not have"
+            diagnostics.report("plugin.unknown", text, fix=did_you_mean(name, known))
+
+
+def _show(found: Iterable[Diagnostic], *, verbose: bool = True) -> None:
+    """Print findings on standard error; notices only when asked to be verbose."""
+    least = Severity.INFO if verbose else Severity.WARNING
+    render([item for item in found if item.severity >= least])
