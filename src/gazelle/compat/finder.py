@@ -92,6 +92,8 @@ class _InterfaceFinder(MetaPathFinder):
         part, _, name = rest.partition(".")
         if (part and part not in _PARTS) or not self._defines(package):
             return None
+        if name and not name.startswith("_"):
+            return None
         if name:
             # genpy's own layout: from std_msgs.msg._String import String
             return spec_from_loader(fullname, _AliasLoader(f"{package}.{part}", name))

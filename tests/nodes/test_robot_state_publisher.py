@@ -1,0 +1,88 @@
+"""Joint states to tf: poses, rates, mimic joints, time jumps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from gazelle.interfaces import message_type
+from gazelle.nodes.robot_state_publisher import StateToTf
+from gazelle.nodes.tree import joint_tree, read_description
+
+ROBOT = """<robot name="r">
+  <link name="base"/><link name="arm"/><link name="slide"/><link name="cam"/><link name="twin"/>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>
+    <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="lift" type="prismatic"><parent link="arm"/><child link="slide"/>
+    <axis xyz="0 0 1"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="mount" type="fixed"><parent link="slide"/><child link="cam"/>
+    <origin xyz="0 0 0.5"/></joint>
+  <joint name="copy" type="continuous"><parent link="base"/><child link="twin"/>
+    <axis xyz="0 0 1"/><mimic joint="turn" multiplier="-2" offset="0.1"/></joint>
+</robot>"""
+
+
+def _states(**options: Any) -> StateToTf:
+    return StateToTf(joint_tree(read_description(ROBOT)), **options)
+
+
+def _joint_state(stamp_ns: int, **positions: float) -> Any:
+    message: Any = message_type("sensor_msgs/msg/JointState")()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    message.name = list(positions)
+    message.position = list(positions.values())
+    return message
+
+
+def _by_child(transforms: list[Any]) -> dict[str, Any]:
+    return {item.child_frame_id: item for item in transforms}
+
+
+def test_fixed_joints_are_static_and_moving_ones_are_not() -> None:
+    (fixed,) = _states().fixed(0)
+    assert (fixed.header.frame_id, fixed.child_frame_id) == ("slide", "cam")
+    assert fixed.transform.translation.z == 0.5
+
+
+def test_turning_joint_turns_about_its_axis_after_its_origin() -> None:
+    found = _by_child(_states().moving(_joint_state(10**9, turn=math.pi / 2)))["arm"]
+    assert found.header.frame_id == "base"
+    assert found.transform.translation.x == pytest.approx(1.0)
+    # 90° of the origin and 90° of the joint.
+    assert abs(found.transform.rotation.z) == pytest.approx(1.0)
+
+
+def test_sliding_joint_moves_along_its_axis() -> None:
+    found = _by_child(_states().moving(_joint_state(10**9, lift=0.25)))["slide"]
+    assert found.transform.translation.z == pytest.approx(0.25)
+
+
+def test_mimic_joint_follows_with_multiplier_and_offset() -> None:
+    found = _by_child(_states().moving(_joint_state(10**9, turn=0.2)))["twin"]
+    angle = 2 * math.atan2(found.transform.rotation.z, found.transform.rotation.w)
+    assert angle == pytest.approx(-2 * 0.2 + 0.1)
+
+
+def test_no_joint_is_published_more_often_than_the_frequency() -> None:
+    states = _states(period_ns=20_000_000)
+    stamps = range(10**9, 10**9 + 10**9, 10_000_000)
+    sent = sum(bool(states.moving(_joint_state(stamp, lift=0.1))) for stamp in stamps)
+    assert sent == 50
+
+
+def test_time_that_jumps_back_starts_anew() -> None:
+    states = _states(period_ns=20_000_000)
+    assert states.moving(_joint_state(5 * 10**9, lift=0.1))
+    assert states.moving(_joint_state(10**9, lift=0.1))
+
+
+def test_unknown_joints_of_a_message_change_nothing() -> None:
+    assert _states().moving(_joint_state(10**9, nobody=1.0)) == []
+
+
+def test_prefix_stands_before_every_frame() -> None:
+    (fixed,) = _states(prefix="/r1/").fixed(0)
+    assert (fixed.header.frame_id, fixed.child_frame_id) == ("r1/slide", "r1/cam")
