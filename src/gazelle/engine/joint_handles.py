@@ -13,7 +13,7 @@ from gazelle.engine.records import Wrench
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
-    from gazelle.engine.engine import Engine
+    from gazelle.engine.core import EngineCore
 
 __all__ = ["JointHandle"]
 
@@ -30,7 +30,7 @@ class JointHandle:
 
     __slots__ = ("_dof", "_element", "_engine", "_qpos", "_revision", "axis_index", "name")
 
-    def __init__(self, engine: Engine, name: str, axis_index: int = 0) -> None:
+    def __init__(self, engine: EngineCore, name: str, axis_index: int = 0) -> None:
         self.name = name
         self.axis_index = axis_index
         self._engine = engine

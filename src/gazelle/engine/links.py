@@ -13,7 +13,7 @@ from gazelle.geometry import Pose
 
 if TYPE_CHECKING:
     from gazelle.description.model import Link
-    from gazelle.engine.engine import Engine
+    from gazelle.engine.core import EngineCore
 
 __all__ = ["LinkHandle"]
 
@@ -27,7 +27,7 @@ class LinkHandle:
 
     __slots__ = ("_body", "_engine", "_revision", "name")
 
-    def __init__(self, engine: Engine, name: str) -> None:
+    def __init__(self, engine: EngineCore, name: str) -> None:
         self.name = name
         self._engine = engine
         self._revision = -1

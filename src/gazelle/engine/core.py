@@ -1,0 +1,339 @@
+"""What engine and handles share: the compiled world, its state and what is read from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import Joint, Link, Model, World
+from gazelle.diagnostics import Diagnostics, nearest_names
+from gazelle.engine.compiler import Compiled, compile_world
+from gazelle.engine.joint_handles import JointHandle
+from gazelle.engine.library import mujoco
+from gazelle.engine.links import LinkHandle
+from gazelle.engine.motor_bank import MotorBank
+from gazelle.engine.motors import MotorCommand
+from gazelle.engine.moving import move_root, set_root_velocity
+from gazelle.engine.names import joint_part, scoped
+from gazelle.engine.reading import joint_reaction
+from gazelle.engine.records import Contact, Wrench
+from gazelle.engine.state import carry_over, initial_data, joint_names_of
+from gazelle.engine.wrenches import TimedWrench, WrenchTable
+from gazelle.errors import EngineError, NotFoundError
+from gazelle.geometry import Pose
+
+__all__ = ["EngineCore"]
+
+Array = NDArray[np.float64]
+_NS = 1_000_000_000
+
+
+class EngineCore:
+    """The compiled world behind `Engine`; handles talk to this."""
+
+    def __init__(
+        self, world: World, *, diagnostics: Diagnostics | None = None, seed: int = 0
+    ) -> None:
+        """Build a world.
+
+        Args:
+            world: what to simulate.
+            diagnostics: takes what is mapped, clipped or ignored.
+            seed: kept for reports; the engine itself draws no random numbers.
+
+        Raises:
+            EngineError: MuJoCo cannot build the world.
+        """
+        self.diagnostics = Diagnostics() if diagnostics is None else diagnostics
+        self.seed = seed
+        self.revision = 0
+        self.iteration = 0
+        self.time_ns = 0
+        self._world = world
+        self._step_ns = max(1, round(world.physics.max_step_size_s * _NS))
+        self._motors = MotorBank()
+        self._efforts: dict[str, float] = {}
+        self._wrenches = WrenchTable()
+        self._must_compile = False
+        self._fresh = 0
+        self._accelerated = False
+        self._contacts: tuple[Contact, ...] | None = None
+        self._adopt(self._compile(world), None)
+
+    # --- what there is -------------------------------------------------------------------
+
+    @property
+    def world(self) -> World:
+        """The world as it is now: spawned models in, deleted ones out."""
+        return self._world
+
+    @property
+    def model(self) -> Any:
+        """MuJoCo's model; replaced when `revision` grows."""
+        return self._compiled.model
+
+    @property
+    def data(self) -> Any:
+        """MuJoCo's data; replaced when `revision` grows."""
+        return self._data
+
+    @property
+    def step_ns(self) -> int:
+        """Length of a step."""
+        return self._step_ns
+
+    @property
+    def gravity_m_s2(self) -> tuple[float, float, float]:
+        """Acceleration of free fall, world frame."""
+        return self._world.gravity_m_s2
+
+    @property
+    def link_names(self) -> tuple[str, ...]:
+        """``model::link`` of every link, in the order of the world."""
+        return self._compiled.link_names
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """``model::joint`` of every joint, fixed ones too."""
+        return tuple(name for model in self._world.models for name in joint_names_of(model))
+
+    def link(self, name: str) -> LinkHandle:
+        """Return the handle of ``model::link``.
+
+        Raises:
+            NotFoundError: there is none, with the nearest names.
+        """
+        return LinkHandle(self, name)
+
+    def joint(self, name: str, *, axis: int = 0) -> JointHandle:
+        """Return the handle of ``model::joint``; `axis` 1 is a universal joint's second axis.
+
+        Raises:
+            NotFoundError: there is none, with the nearest names.
+        """
+        return JointHandle(self, name, axis)
+
+    def description_of_link(self, name: str) -> Link:
+        """Return the description of ``model::link``."""
+        model_name, _, link_name = name.partition("::")
+        model = self._world.model(model_name)
+        link = model.link(link_name) if model is not None else None
+        if link is None:
+            raise NotFoundError("link", name, nearest=nearest_names(name, self.link_names))
+        return link
+
+    def description_of_joint(self, name: str) -> Joint:
+        """Return the description of ``model::joint``."""
+        model_name, _, joint_name = name.partition("::")
+        model = self._world.model(model_name)
+        joint = model.joint(joint_name) if model is not None else None
+        if joint is None:
+            raise NotFoundError("joint", name, nearest=nearest_names(name, self.joint_names))
+        return joint
+
+    # --- for handles ---------------------------------------------------------------------
+
+    def fresh_data(self) -> Any:
+        """Return MuJoCo's data with the poses of now (a step leaves those of its start)."""
+        if self._must_compile:
+            self._ensure_compiled()
+        if self._fresh < 1:
+            mujoco.mj_kinematics(self.model, self._data)
+            self._fresh = 1
+        return self._data
+
+    def data_with_velocities(self) -> Any:
+        """Return MuJoCo's data with poses and velocities of now."""
+        self.fresh_data()
+        if self._fresh < 2:
+            mujoco.mj_comPos(self.model, self._data)
+            mujoco.mj_comVel(self.model, self._data)
+            self._fresh = 2
+        return self._data
+
+    def data_with_accelerations(self) -> Any:
+        """Return MuJoCo's data with accelerations and joint reactions of the last step."""
+        self.data_with_velocities()
+        if not self._accelerated:
+            mujoco.mj_rnePostConstraint(self.model, self._data)
+            self._accelerated = True
+        return self._data
+
+    def state_changed(self) -> None:
+        """Forget what was computed from the state: someone changed it."""
+        self._fresh, self._accelerated, self._contacts = 0, False, None
+
+    def body_id(self, name: str) -> int:
+        """Return the MuJoCo body of a link.
+
+        Raises:
+            NotFoundError: there is none.
+        """
+        self._ensure_compiled()
+        index = int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, name))
+        if index <= 0 or name not in self._compiled.link_names:
+            raise NotFoundError("link", name, nearest=nearest_names(name, self.link_names))
+        return index
+
+    def joint_address(self, name: str, axis: int) -> tuple[str, int, int]:
+        """Return MuJoCo's name, position address and dof of a joint's axis; −1 for none."""
+        self._ensure_compiled()
+        self.description_of_joint(name)
+        element = joint_part(name, "axis2") if axis else name
+        index = int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, element))
+        kinds = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+        if index < 0 or self.model.jnt_type[index] not in [int(kind) for kind in kinds]:
+            return element, -1, -1
+        return element, int(self.model.jnt_qposadr[index]), int(self.model.jnt_dofadr[index])
+
+    def is_asleep(self, body: int) -> bool:
+        """Whether a body rests and is not computed."""
+        return int(self._data.body_awake[body]) == int(mujoco.mjtSleepState.mjS_ASLEEP)
+
+    def set_joint_effort(self, element: str, dof: int, effort: float) -> None:
+        """Apply an effort to a degree of freedom until it is changed."""
+        self._efforts[element] = effort
+        self._data.qfrc_applied[dof] = effort
+
+    def command_motor(self, element: str, command: MotorCommand | None) -> None:
+        """Command or release the motor of a joint; it is built before the next step."""
+        if self._motors.command(element, command):
+            self._must_compile = True
+
+    def motor_effort(self, element: str) -> float:
+        """Return what a joint's motor delivered in the last step."""
+        return self._motors.effort(element, self._data)
+
+    def reaction_wrench(self, name: str) -> Wrench:
+        """Return what a joint transmits; see `JointHandle.reaction_wrench`."""
+        joint = self.description_of_joint(name)
+        child = self.link(scoped(name.partition("::")[0], joint.child))
+        data = self.data_with_accelerations()
+        T_world_joint = (
+            child.T_world_link() @ child.link.T_model_link.inverse() @ (joint.T_model_joint)
+        )
+        return joint_reaction(
+            self.model, data, self.body_id(child.name), np.asarray(T_world_joint.position_m)
+        )
+
+    def add_wrench(
+        self, link: str, force_n: Array, torque_nm: Array, duration_ns: int | None
+    ) -> None:
+        """Let a wrench about a link's centre of mass act for a time; None for ever."""
+        until = None
+        if duration_ns is not None:
+            steps = max(1, -(-duration_ns // self._step_ns))
+            until = self.iteration + steps
+        self._wrenches.add(TimedWrench(link, force_n, torque_nm, until))
+
+    def clear_wrenches(self, link: str | None = None) -> None:
+        """End the wrenches on a link, or all."""
+        self._wrenches.clear(None if link is None else frozenset((link,)))
+
+    def model_pose(self, name: str) -> Pose:
+        """Return where a model's frame is: it moves with the canonical link.
+
+        Raises:
+            NotFoundError: there is no such model.
+        """
+        _, link = self._canonical(name)
+        pose = self.link(scoped(name, link.name)).T_world_link()
+        return pose @ link.T_model_link.inverse()
+
+    def set_model_pose(self, name: str, T_world_model: Pose) -> None:
+        """Put a model somewhere else; joints and velocities stay as they are.
+
+        Raises:
+            NotFoundError: there is no such model.
+        """
+        model, _ = self._canonical(name)
+        now = self.model_pose(name)
+        roots = [self.body_id(scoped(name, link.name)) for link in model.links]
+        if not move_root(self.model, self._data, roots, T_world_model @ now.inverse()):
+            moved = tuple(
+                replace(item, T_world_model=T_world_model) if item.name == name else item
+                for item in self._world.models
+            )
+            self._rebuild(replace(self._world, models=moved))
+        self.state_changed()
+
+    def move_tree(self, body: int, now: Pose, wanted: Pose) -> None:
+        """Move the robot that a body belongs to so that the body has a pose."""
+        if not move_root(self.model, self._data, [body], wanted @ now.inverse()):
+            name = self.model.body(body).name.partition("::")[0]
+            self.set_model_pose(name, wanted @ now.inverse() @ self.model_pose(name))
+        self.state_changed()
+
+    def set_tree_velocity(self, body: int, linear_m_s: Array, angular_rad_s: Array) -> None:
+        """Move the robot that a body belongs to so that the body's origin has a velocity.
+
+        Raises:
+            EngineError: it is fixed to the world.
+        """
+        handle = self.link(self.model.body(body).name)
+        now = handle.velocity_world()
+        origin = np.asarray(handle.T_world_link().position_m)
+        change = (linear_m_s - now.linear_m_s, angular_rad_s - now.angular_rad_s)
+        if not set_root_velocity(self.model, self.fresh_data(), body, origin, change):
+            raise EngineError(f"link '{handle.name}' is fixed to the world and cannot be pushed")
+        self.state_changed()
+
+    # --- inside --------------------------------------------------------------------------
+
+    def _compile(self, world: World) -> Compiled:
+        return compile_world(
+            world,
+            self._motors.installed,
+            step_s=self._step_ns / _NS,
+            diagnostics=self.diagnostics,
+        )
+
+    def _rebuild(self, world: World) -> None:
+        compiled = self._compile(world)
+        self._world = world
+        self._adopt(compiled, (self._compiled, self._data))
+
+    def _ensure_compiled(self) -> None:
+        if self._must_compile:
+            self._must_compile = False
+            self._rebuild(self._world)
+
+    def _adopt(self, compiled: Compiled, old: tuple[Compiled, Any] | None) -> None:
+        data = initial_data(compiled, self._world)
+        if old is not None:
+            carry_over(*old, compiled, data)
+        self._compiled, self._data = compiled, data
+        self._must_compile = False
+        self.revision += 1
+        for element, effort in self._efforts.items():
+            index = int(mujoco.mj_name2id(compiled.model, mujoco.mjtObj.mjOBJ_JOINT, element))
+            data.qfrc_applied[compiled.model.jnt_dofadr[index]] = effort
+        self._motors.bind(compiled)
+        self._wrenches.changed = bool(self._wrenches.items)
+        self.state_changed()
+
+    def _write_wrenches(self) -> None:
+        self._data.xfrc_applied[:] = 0.0
+        for name, total in self._wrenches.sums().items():
+            self._data.xfrc_applied[self.body_id(name)] = total
+        self._wrenches.changed = False
+
+    def _wake_all(self) -> None:
+        self._data.qvel[self._data.qvel == 0] = -0.0
+
+    def _model_named(self, name: str) -> Model:
+        model = self._world.model(name)
+        if model is None:
+            names = [item.name for item in self._world.models]
+            raise NotFoundError("model", name, nearest=nearest_names(name, names))
+        return model
+
+    def _canonical(self, name: str) -> tuple[Model, Link]:
+        model = self._model_named(name)
+        link = model.link(model.canonical_link) if model.canonical_link else None
+        if link is None and not model.links:
+            raise EngineError(f"model '{name}' has no links and so no pose of its own")
+        return model, link or model.links[0]
