@@ -34,7 +34,8 @@ def test_same_word_elsewhere_is_another_finding(model, diagnostics):
 
 def test_word_in_the_wrong_place_is_unknown(model, diagnostics):
     model(
-        "<link name='l'><collision name='c'><geometry><box/></geometry><mu>1</mu></collision></link>"
+        "<link name='l'><collision name='c'><geometry><box/></geometry><mu>1</mu></collision>"
+        "</link>"
     )
     assert (
         "<mu> is not known inside <collision>" in diagnostics.by_code("xml.unknown-tag")[0].message

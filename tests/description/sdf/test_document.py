@@ -8,7 +8,8 @@ MODEL = "<model name='m'><pose>1 0 0 0 0 0</pose><link name='l'/></model>"
 
 
 def test_text_with_everything(context):
-    text = f"<sdf version='1.8'><world name='w'>{MODEL}</world>{MODEL}<light name='s' type='point'/></sdf>"
+    light = "<light name='s' type='point'/>"
+    text = f"<sdf version='1.8'><world name='w'>{MODEL}</world>{MODEL}{light}</sdf>"
     found = read_sdf(text, context=context)
     assert (found.version, len(found.worlds), len(found.models), len(found.lights)) == (
         "1.8",

@@ -145,8 +145,8 @@ def test_placement_frame_of_an_include(world, models_folder):
         "box", BOX.replace("</model>", "<frame name='f'><pose>0 0 2 0 0 0</pose></frame></model>")
     )
     found = world(
-        "<include><uri>model://box</uri><pose>0 0 5 0 0 0</pose><placement_frame>f</placement_frame>"
-        "</include>"
+        "<include><uri>model://box</uri><pose>0 0 5 0 0 0</pose>"
+        "<placement_frame>f</placement_frame></include>"
     )
     assert found.models[0].T_world_model.position_m == pytest.approx((0, 0, 3))
 

@@ -90,7 +90,8 @@ def test_two_halves_weigh_as_much_as_the_whole(model):
     ],
 )
 def test_volume_of_every_shape(model, shape, volume):
-    body = f"<inertial auto='true'><density>1</density></inertial><collision name='c'><geometry>{shape}</geometry></collision>"
+    collision = f"<collision name='c'><geometry>{shape}</geometry></collision>"
+    body = f"<inertial auto='true'><density>1</density></inertial>{collision}"
     found = _inertial(model, body, version="1.11")
     assert found.mass_kg == pytest.approx(volume)
     a, b, c = np.sort(np.asarray(found.inertia_kg_m2)[[0, 3, 5]])

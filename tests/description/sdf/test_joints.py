@@ -166,11 +166,12 @@ def test_unknown_type_is_reported_with_the_nearest(model, diagnostics):
 
 
 def test_parent_may_be_the_world_but_not_the_child(model, diagnostics):
-    body = "<link name='b'/><joint name='j' type='fixed'><parent>world</parent><child>b</child></joint>"
-    assert model(body).joint("j").parent == "world"
-    swapped = body.replace("parent", "x").replace("child", "parent").replace("x>", "child>")
-    assert model(swapped).joints == ()
-    assert diagnostics.by_code("sdf.bad-joint")
+    body = (
+        "<link name='b'/><joint name='j' type='fixed'><parent>{}</parent><child>{}</child></joint>"
+    )
+    assert model(body.format("world", "b")).joint("j").parent == "world"
+    assert model(body.format("b", "world")).joints == ()
+    assert "child frame with name 'world'" in diagnostics.by_code("sdf.bad-joint")[0].message
 
 
 def test_ends_may_be_frames(model):

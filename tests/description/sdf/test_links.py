@@ -7,7 +7,8 @@ from gazelle.description.model import Box, LightType
 
 def test_everything_a_link_carries(model):
     link = model(
-        "<link name='base'><gravity>0</gravity><self_collide>1</self_collide><kinematic>1</kinematic>"
+        "<link name='base'><gravity>0</gravity><self_collide>1</self_collide>"
+        "<kinematic>1</kinematic>"
         "<velocity_decay><linear>0.1</linear><angular>0.2</angular></velocity_decay>"
         "<collision name='c'><pose>0 0 1 0 0 0</pose><max_contacts>4</max_contacts>"
         "<laser_retro>2</laser_retro><geometry><box><size>1 2 3</size></box></geometry></collision>"
@@ -34,7 +35,7 @@ def test_self_collide_is_none_when_the_file_is_silent(model):
 
 def test_second_collision_of_a_name_is_reported(model, diagnostics):
     shape = "<geometry><box/></geometry>"
-    body = f"<link name='l'><collision name='c'>{shape}</collision>" * 1
+    body = f"<link name='l'><collision name='c'>{shape}</collision>"
     body += f"<collision name='c'>{shape}</collision></link>"
     assert len(model(body).link("l").collisions) == 1
     (found,) = diagnostics.by_code("sdf.duplicate-name")

@@ -10,8 +10,9 @@ MODEL = "<model name='m'><link name='l'/></model>"
 def _config(*files):
     lines = "".join(f"<sdf version='{version}'>{name}</sdf>" for version, name in files)
     return (
-        "<model><name>Nice Box</name><version>1.2</version><author><name>A</name><email>a@b.c</email>"
-        f"</author><author><name>B</name></author>{lines}<description> two\n lines</description></model>"
+        "<model><name>Nice Box</name><version>1.2</version><author><name>A</name>"
+        f"<email>a@b.c</email></author><author><name>B</name></author>{lines}"
+        "<description> two\n lines</description></model>"
     )
 
 

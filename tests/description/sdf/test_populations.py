@@ -7,7 +7,10 @@ POPULATION = (
     "<population name='p'><model name='can'><link name='l'/></model><pose>1 2 3 0 0 0</pose>"
     "{}</population>"
 )
-BOX = "<box><size>4 6 2</size></box><model_count>{}</model_count><distribution><type>{}</type></distribution>"
+BOX = (
+    "<box><size>4 6 2</size></box><model_count>{}</model_count>"
+    "<distribution><type>{}</type></distribution>"
+)
 
 
 def _places(world, body):
@@ -24,7 +27,8 @@ def test_copies_are_named_as_in_gazebo(world):
 def test_grid_is_centred_on_its_pose(world):
     places = _places(
         world,
-        "<distribution><type>grid</type><rows>2</rows><cols>3</cols><step>0.5 1 0</step></distribution>",
+        "<distribution><type>grid</type><rows>2</rows><cols>3</cols><step>0.5 1 0</step>"
+        "</distribution>",
     )
     assert places.shape == (6, 3)
     assert places.mean(axis=0) == pytest.approx((1, 2, 3))

@@ -209,7 +209,10 @@ def test_negative_deviation_is_reported(sensor, diagnostics):
 
 
 def test_contact_sensor(sensor):
-    body = "<contact><collision>a</collision><collision>b</collision><topic>__default_topic__</topic></contact>"
+    body = (
+        "<contact><collision>a</collision><collision>b</collision>"
+        "<topic>__default_topic__</topic></contact>"
+    )
     assert sensor("contact", body).spec == ContactSpec(("a", "b"), "")
 
 

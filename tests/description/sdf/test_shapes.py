@@ -44,7 +44,10 @@ def test_plain_shapes(shape, text, expected, diagnostics):
 
 
 def test_every_polyline_is_an_outline(shape):
-    outer = "<polyline><point>0 0</point><point>4 0</point><point>0 4</point><height>2</height></polyline>"
+    outer = (
+        "<polyline><point>0 0</point><point>4 0</point><point>0 4</point><height>2</height>"
+        "</polyline>"
+    )
     inner = "<polyline><point>1 1</point><point>2 1</point><point>1 2</point></polyline>"
     found = shape(outer + inner)
     assert isinstance(found, Polyline)

@@ -84,15 +84,16 @@ class _ScriptReader:
         self._diagnostics = diagnostics
         self._blocks: list[str] = []
         self._header: list[str] = []
+        self._header_line = 0
         self._material: OgreMaterial | None = None
 
     def take(self, line: int, words: list[str]) -> None:
         if words == ["{"]:
-            self._open(line)
+            self._open()
         elif words == ["}"]:
             self._close(line)
         else:
-            self._header = words
+            self._header, self._header_line = words, line
             self._statement(line, words)
 
     def finish(self) -> None:
@@ -100,10 +101,10 @@ class _ScriptReader:
             message = f"material script ends inside '{self._blocks[-1]}': a '}}' is missing"
             self._diagnostics.report("material.bad-script", message, SourceSpan(self._file))
 
-    def _open(self, line: int) -> None:
+    def _open(self) -> None:
         kind = self._header[0] if self._header else ""
         if kind == "material" and not self._blocks:
-            self._start_material(line)
+            self._start_material()
         elif kind == "technique" and self._material is not None:
             self._material.techniques += 1
         self._blocks.append(kind)
@@ -118,9 +119,10 @@ class _ScriptReader:
         if self._blocks.pop() == "material" and not self._blocks:
             self._material = None
 
-    def _start_material(self, line: int) -> None:
+    def _start_material(self) -> None:
         name, _, base = " ".join(self._header[1:]).partition(":")
-        self._material = OgreMaterial(name.strip(), base.strip(), SourceSpan(self._file, line))
+        span = SourceSpan(self._file, self._header_line)
+        self._material = OgreMaterial(name.strip(), base.strip(), span)
         self.found.setdefault(self._material.name, self._material)
 
     def _statement(self, line: int, words: list[str]) -> None:
