@@ -118,7 +118,14 @@ def convert(msg: Message | Ros1Message, cls: type[_T]) -> _T:
     return from_cdr(cls, to_cdr(msg))
 
 
+def _checked(cls: type[Any]) -> None:
+    if getattr(cls, "TYPE_NAME", "*") == "*":
+        what = "keeps the bytes of any type" if cls is AnyMsg else "is not a message class"
+        raise InterfaceError(f"{cls.__name__} {what}; it has no layout of its own")
+
+
 def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
+    _checked(cls)
     from gazelle.interfaces.binding import Wire, bind
     from gazelle.interfaces.convert import CONVERTED
     from gazelle.interfaces.writer import compile_writer
@@ -131,6 +138,7 @@ def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
 
 
 def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") -> _Reader:
+    _checked(cls)
     from gazelle.interfaces.binding import Wire, bind
     from gazelle.interfaces.convert import CONVERTED
     from gazelle.interfaces.reader import compile_reader
@@ -162,7 +170,5 @@ def _read_error(cls: type[Any], buffer: Any, error: Exception) -> InterfaceError
 def _write_error(msg: Any, error: Exception) -> InterfaceError:
     from gazelle.interfaces.check import find_problem
 
-    if not hasattr(msg, "TYPE_NAME"):
-        return InterfaceError(f"{type(msg).__name__} is not a message class")
     found = find_problem(msg)
     return InterfaceError(found or f"{msg.TYPE_NAME} cannot be written: {error}")

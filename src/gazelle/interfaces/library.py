@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.errors import NotFoundError
+from gazelle.errors import NotFoundError, UserFileError
 from gazelle.interfaces.definition import Generation
 
 __all__ = ["Source", "add_package", "add_search_path", "block_names", "find_source", "revision"]
@@ -85,12 +85,15 @@ def find_source(package: str, part: str, name: str, generation: Generation) -> S
         part: ``msg``, ``srv`` or ``action``.
         name: such as ``Header``.
         generation: which ROS it must be written for.
+
+    Raises:
+        UserFileError: the file is there and cannot be read.
     """
     if package in _user_packages:
         folder, written_for = _user_packages[package]
         file = folder / part / f"{name}.{part}"
         if written_for in (None, generation) and file.is_file():
-            text = file.read_text(encoding="utf-8", errors="replace")
+            text = _read(file)
             if written_for is generation or _fits(text, generation):
                 return Source(text, str(file), generation)
     text_of = _blocks(package, generation).get(f"{part}/{name}")
@@ -109,6 +112,19 @@ def block_names(generation: Generation) -> Iterator[tuple[str, str, str]]:
             for part in _PARTS:
                 for file in sorted((path / part).glob(f"*.{part}")):
                     yield package, part, file.stem
+
+
+def _read(file: Path) -> str:
+    """Text of a user's file; letters of other encodings stand in comments only."""
+    try:
+        return file.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        from gazelle.diagnostics import Diagnostics, SourceSpan
+
+        diagnostics = Diagnostics()
+        message = f"cannot read it: {error.strerror}"
+        diagnostics.report("interfaces.unreadable", message, SourceSpan(str(file)))
+        raise UserFileError(tuple(diagnostics)) from error
 
 
 @cache

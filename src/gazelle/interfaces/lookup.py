@@ -6,7 +6,7 @@ import re
 import threading
 from typing import TYPE_CHECKING
 
-from gazelle.errors import NotFoundError
+from gazelle.errors import GazelleError, NotFoundError
 from gazelle.interfaces import library
 from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
 from gazelle.interfaces.parser import parse_message, split_parts
@@ -15,7 +15,7 @@ from gazelle.interfaces.translate import as_generation, definition_text
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics
 
-__all__ = ["definition", "exists", "known_types", "split_name"]
+__all__ = ["definition", "exists", "is_current", "known_types", "split_name"]
 
 _SERVICE_PARTS = ("_Request", "_Response")
 _ACTION_PARTS = ("_Goal", "_Result", "_Feedback")
@@ -70,6 +70,14 @@ def exists(name: str) -> bool:
     """Return whether something defines this message, without reading its text."""
     package, part, bare = split_name(name)
     return any(_where(package, part, bare, one) is not None for one in Generation)
+
+
+def is_current(known: Definition) -> bool:
+    """Return whether a definition is still what its name means, packages being added since."""
+    try:
+        return definition(known.name, known.generation) == known
+    except GazelleError:
+        return False
 
 
 def known_types(part: str = "msg", package: str = "") -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.lookup import definition, is_current, split_name
 
 __all__ = ["Message", "canonical_name", "forget", "message_type", "values_equal"]
 
@@ -106,7 +106,7 @@ def forget() -> None:
         return
     _revision = library.revision()
     for name, cls in list(_classes.items()):
-        if definition(cls.TYPE_NAME, Generation.ROS2) != cls.DEFINITION:
+        if not is_current(cls.DEFINITION):
             del _classes[name]
 
 

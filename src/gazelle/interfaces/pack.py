@@ -78,11 +78,11 @@ def _fits(array: np.ndarray[Any, Any], kind: np.dtype[Any]) -> bool:
     return bool(array.min() >= limits.min and array.max() <= limits.max)
 
 
-def too_long(label: str, value: Any, bound: int) -> NoReturn:
+def too_long(label: str, count: int, bound: int) -> NoReturn:
     """Raise that a value is longer than its bound."""
-    raise InterfaceError(f"{label} takes at most {bound} items, has {len(value)}")
+    raise InterfaceError(f"{label} takes at most {bound} items, has {count}")
 
 
-def wrong_length(label: str, value: Any, size: int, count: int | None = None) -> NoReturn:
+def wrong_length(label: str, count: int, size: int) -> NoReturn:
     """Raise that a fixed array has another length."""
-    raise InterfaceError(f"{label} has {size} items, got {len(value) if count is None else count}")
+    raise InterfaceError(f"{label} has {size} items, got {count}")

@@ -6,6 +6,7 @@ The rules are those of the ROS YAML command line, http://wiki.ros.org/ROS/YAMLCo
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -109,7 +110,7 @@ def _set(msg: Any, item: Field, value: Any, keys: Mapping[str, Any], prefix: str
     elif item.type.is_message or item.type.base in _TIMES:
         setattr(msg, name, _one(item.type.base, getattr(msg, name), value, keys, path))
     else:
-        setattr(msg, name, value)
+        setattr(msg, name, _scalar(item, value))
 
 
 def _one(base: str, present: Any, value: Any, keys: Mapping[str, Any], path: str) -> Any:
@@ -121,7 +122,7 @@ def _one(base: str, present: Any, value: Any, keys: Mapping[str, Any], path: str
                 f"field '{path}' is a {base}; '{value}' does not stand for one{known} "
                 f"(ROS: No key named [{value}])"
             )
-        return keys[value]
+        return deepcopy(keys[value])
     if value == "":
         value = []
     is_time = base in _TIMES or base in _TIME_MESSAGES
@@ -177,7 +178,13 @@ def _sequence(msg: Any, item: Field, value: Any, keys: Mapping[str, Any], path: 
         return made
     if kind.base in FORMATS and not is_ros1:
         return _array(msg, item, list(value))
-    return list(value)
+    return [_scalar(item, one) for one in value]
+
+
+def _scalar(item: Field, value: Any) -> Any:
+    """Whole numbers in a field of floats become floats, as they would on the wire."""
+    is_whole = isinstance(value, int) and not isinstance(value, bool)
+    return float(value) if is_whole and FORMATS.get(item.type.base) in ("f", "d") else value
 
 
 def _array(msg: Any, item: Field, values: list[Any]) -> Any:
@@ -207,7 +214,7 @@ def _no_field(msg: Any, prefix: str, name: str, names: tuple[str, ...]) -> Inter
     near = did_you_mean(name, names)
     return InterfaceError(
         f"{_where(msg, prefix)} has no field '{name}'"
-        + (f"; {near}" if near else "")
+        + (f"; {near}" if near else ".")
         + f" Its fields are {', '.join(names)} (ROS: No field name [{prefix}{name}])"
     )
 

@@ -14,7 +14,7 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.lookup import definition, is_current, split_name
 from gazelle.interfaces.message import values_equal
 from gazelle.interfaces.naming import ros1_name
 from gazelle.interfaces.ros1_time import Duration, Time
@@ -203,7 +203,7 @@ def ros1_class(full: str) -> type[Ros1Message]:
         if _revision != library.revision():
             _revision = library.revision()
             for name, cls in list(_classes.items()):
-                if definition(name, Generation.ROS1) != cls.DEFINITION:
+                if not is_current(cls.DEFINITION):
                     del _classes[name]
         if full not in _classes:
             _classes[full] = _make_class(definition(full, Generation.ROS1))

@@ -63,7 +63,7 @@ class _Printer:
             return self._sequence(value, indent)
         return str(value)
 
-    def _number(self, value: float) -> str:
+    def _number(self, value: Any) -> str:
         if self._width is None:
             return str(value)
         if isinstance(value, float):
@@ -96,10 +96,15 @@ class _Printer:
             return _string_list(values, indent)
         if isinstance(first, int | float):
             if self._width is None or isinstance(first, bool):
-                return str(list(values))
+                return str([_python_number(item) for item in values])
             return "[" + ", ".join(self.text(item, indent) for item in values) + "]"
         lines = (f"{indent}- {self.text(item, indent + '  ')}" for item in values)
         return "\n" + "\n".join(lines)
+
+
+def _python_number(value: Any) -> Any:
+    """Return Python's own number: numpy's show their type in a list."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def _quoted(text: str) -> str:

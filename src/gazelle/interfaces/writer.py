@@ -110,9 +110,7 @@ class _Writer(Emitter):
         wide = slot.base == "wstring"
         encode = f"{value}.encode('utf-16-le')" if wide else f"{value}.encode()"
         self.line(f"{text} = {encode}")
-        if slot.string_bound:
-            self.line(f"if len({text}) > {slot.string_bound}: too_long({label!r}, {text}, "
-                      f"{slot.string_bound})")  # fmt: skip
+        self._bound(slot.string_bound, f"len({text})", label)
         extra = "" if not self.aligned or wide else " + 1"
         count = f"len({text}) // 2" if wide else f"len({text}){extra}"
         self._number("I", count)
@@ -127,10 +125,9 @@ class _Writer(Emitter):
             self._numbers(slot, name, label)
             return
         if slot.array is Array.FIXED:
-            self.line(f"if len({name}) != {slot.size}: wrong_length({label!r}, {name}, "
-                      f"{slot.size})")  # fmt: skip
+            self._length(slot.size, f"len({name})", label)
         else:
-            self._bound(slot, name, f"len({name})", label)
+            self._bound(slot.size, f"len({name})", label)
             self._number("I", f"len({name})")
         leaves = None
         if slot.child is not None:
@@ -140,9 +137,12 @@ class _Writer(Emitter):
         else:
             self._loop(slot, name, label)
 
-    def _bound(self, slot: Slot, name: str, count: str, label: str) -> None:
-        if slot.size:
-            self.line(f"if {count} > {slot.size}: too_long({label!r}, {name}, {slot.size})")
+    def _bound(self, bound: int, count: str, label: str) -> None:
+        if bound:
+            self.line(f"if {count} > {bound}: too_long({label!r}, {count}, {bound})")
+
+    def _length(self, size: int, count: str, label: str) -> None:
+        self.line(f"if {count} != {size}: wrong_length({label!r}, {count}, {size})")
 
     def _numbers(self, slot: Slot, name: str, label: str) -> None:
         """A numeric array: numpy arrays as they are, anything else is packed one by one."""
@@ -155,13 +155,12 @@ class _Writer(Emitter):
         self.line(f" {name} = {name}.tobytes() if {count} < {_COPY_BELOW} else contiguous({name})")
         self.line(f"else: {name}, {count} = {pack}({name})")
         if slot.array is Array.FIXED:
-            self.line(f"if {count} != {slot.size}: wrong_length({label!r}, {name}, {slot.size},"
-                      f" {count})")  # fmt: skip
+            self._length(slot.size, count, label)
             self._align(size)
             self._chunk(name)
             self.advance(slot.size * size)
             return
-        self._bound(slot, name, count, label)
+        self._bound(slot.size, count, label)
         self._number("I", count)
         if size == 8 and self.aligned:
             self._flush()

@@ -11,8 +11,8 @@ ENTRIES = (
         "interfaces.unreadable",
         "error",
         "A definition file cannot be read",
-        "It does not exist, is not readable by this user, or is not UTF-8 text.",
-        "check the path, its permissions and its encoding (UTF-8)",
+        "The file system refuses it, so the types it defines cannot be used.",
+        "check the file's permissions",
         "Unable to load msg",
     ),
     Entry(

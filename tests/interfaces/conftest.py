@@ -1,0 +1,103 @@
+"""Random messages of every type, and a clean list of users' packages for each test."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gazelle.interfaces import Duration, Time, known_types, library, message_type
+from gazelle.interfaces.definition import (
+    FORMATS,
+    NUMPY_NAMES,
+    Array,
+    FieldType,
+    Generation,
+    attribute_name,
+)
+from gazelle.interfaces.ros1_message import ros1_class
+
+Maker = Callable[[str, Generation, int], Any]
+
+
+@pytest.fixture(autouse=True)
+def own_packages(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Packages that a test adds are gone after it."""
+    monkeypatch.setattr(library, "_user_packages", {})
+    monkeypatch.setattr(library, "_revision", library.revision() + 1)
+    yield
+    monkeypatch.undo()
+    library._revision += 2
+
+
+@pytest.fixture(scope="session")
+def every_message() -> tuple[str, ...]:
+    """Full names of all messages shipped, parts of services and actions too."""
+    names = list(known_types())
+    names += [name + end for name in known_types("srv") for end in ("_Request", "_Response")]
+    ends = ("_Goal", "_Result", "_Feedback", "_SendGoal_Request", "_GetResult_Response")
+    names += [name + end for name in known_types("action") for end in ends]
+    return tuple(names)
+
+
+@pytest.fixture(scope="session")
+def make_message() -> Maker:
+    """A function: full name, generation, seed → a message full of random values."""
+    return lambda name, generation, seed: _message(name, generation, random.Random(seed))
+
+
+def _message(name: str, generation: Generation, rng: random.Random) -> Any:
+    cls = message_type(name) if generation is Generation.ROS2 else ros1_class(name)
+    made = cls()
+    if name in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
+        made.sec, made.nanosec = rng.randrange(2**31), rng.randrange(10**9)
+        return made
+    for item in cls.FIELDS:
+        setattr(made, attribute_name(item.name), _value(item.type, generation, rng))
+    if name == "rosgraph_msgs/msg/Log":
+        made.level = 8
+    if name == "shape_msgs/msg/SolidPrimitive":
+        made.dimensions = made.dimensions[:3]
+    if name == "rcl_interfaces/msg/ParameterDescriptor":
+        made.floating_point_range, made.integer_range = [], []
+    return made
+
+
+def _value(kind: FieldType, generation: Generation, rng: random.Random) -> Any:
+    if kind.array is not Array.ONE:
+        return _values(kind, generation, rng)
+    if kind.base == "time":
+        return Time(rng.randrange(2**31), rng.randrange(10**9))
+    if kind.base == "duration":
+        return Duration(rng.randrange(-(2**31), 2**31), rng.randrange(10**9))
+    if kind.is_message:
+        return _message(kind.base, generation, rng)
+    if kind.is_string:
+        return "".join(rng.choice("abc äß€😀") for _ in range(rng.randrange(9)))
+    return _number(FORMATS[kind.base], kind.base, rng)
+
+
+def _number(letter: str, base: str, rng: random.Random) -> Any:
+    if letter == "?":
+        return rng.random() < 0.5
+    if letter in "fd":
+        return float(np.float32(rng.uniform(-1e6, 1e6)))
+    bits = np.dtype(NUMPY_NAMES[letter]).itemsize * 8
+    if base == "byte":
+        return rng.randrange(128)
+    low = 0 if letter.isupper() else -(2 ** (bits - 1))
+    return low + rng.randrange(2**bits)
+
+
+def _values(kind: FieldType, generation: Generation, rng: random.Random) -> Any:
+    count = kind.size if kind.array is Array.FIXED else rng.randrange(min(4, kind.size or 4) + 1)
+    one = FieldType(kind.base)
+    found = [_value(one, generation, rng) for _ in range(count)]
+    if kind.base not in FORMATS:
+        return found
+    if generation is Generation.ROS2:
+        return np.array(found, NUMPY_NAMES[FORMATS[kind.base]])
+    return bytes(found) if kind.base in ("uint8", "char") else tuple(found)
