@@ -22,6 +22,7 @@ from gazelle.description.model import (
 )
 from gazelle.geometry import Pose
 from gazelle.sensors import NoiseSource, camera_intrinsics, render
+from gazelle.sensors.pixel_kernels import mark_edges
 
 CAMERA = CameraSpec(width_px=160, height_px=120, horizontal_fov_rad=1.05, near_m=0.05, far_m=50.0)
 WHITE = Material(ambient=(1, 1, 1, 1), diffuse=(1, 1, 1, 1))
@@ -330,6 +331,15 @@ def test_antialiasing_smooths_edges_and_leaves_flat_parts(scene_of, link) -> Non
     assert 0.002 < between.mean() < 0.05
     assert set(np.unique(soft).tolist()) <= {0, 64, 128, 191, 255}
     assert soft.mean() == pytest.approx(hard.mean(), rel=0.01)
+
+
+def test_only_tiles_with_steps_of_colour_are_smoothed() -> None:
+    rgb = np.full((12, 16, 3), 100, np.uint8)
+    rgb[:, :, 1] += np.arange(16, dtype=np.uint8) * 5
+    rgb[5, 9] = 0
+    tiles = np.zeros((3, 4), np.uint8)
+    mark_edges(rgb, tiles, 0, 12, 24)
+    assert tiles.tolist() == [[0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0]]
 
 
 def test_noise_is_one_sample_per_pixel_of_the_sigma_asked_for(scene_of) -> None:

@@ -24,12 +24,13 @@ def mark_edges(rgb, tiles, first_row, last_row, threshold):
                     left = max(x - 1, 0)
                     above = max(y - 1, 0)
                     for c in range(3):
-                        here = int(rgb[y, x, c])
+                        # Signed: numba keeps bytes unsigned, and differences would wrap.
+                        here = np.int32(rgb[y, x, c])
                         step = max(
-                            abs(here - rgb[y, right, c]),
-                            abs(here - rgb[y, left, c]),
-                            abs(here - rgb[below, x, c]),
-                            abs(here - rgb[above, x, c]),
+                            abs(here - np.int32(rgb[y, right, c])),
+                            abs(here - np.int32(rgb[y, left, c])),
+                            abs(here - np.int32(rgb[below, x, c])),
+                            abs(here - np.int32(rgb[above, x, c])),
                         )
                         if step > threshold:
                             edge = 1
