@@ -134,3 +134,37 @@ def test_placement_frame_puts_that_frame_at_the_pose(model):
         "<frame name='flange'><pose>1 0 0 0 0 0</pose></frame></model>"
     )
     assert found.link("arm::l").T_model_link.position_m == pytest.approx((4, 0, 0))
+
+
+def test_unknown_frame_of_the_times_when_gazebo_ignored_it_is_a_warning(model, diagnostics):
+    body = "<link name='a'><pose frame='nowhere'>0 0 1 0 0 0</pose></link>"
+    assert model(body, version="1.6").link("a").T_model_link.position_m == (0, 0, 1)
+    assert not diagnostics.errors
+    model(body, version="1.7")
+    assert diagnostics.errors[0].code == "sdf.unknown-frame"
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_model_written_with_other_frames_is_the_same_model(model, seed):
+    """Law: relative_to changes how a pose is written, not where the link is."""
+    rng = np.random.default_rng(seed)
+    truth = {f"l{number}": _random_pose(rng) for number in range(6)}
+
+    def text(name, base, relative_to):
+        pose = base.inverse() @ truth[name]
+        numbers = " ".join(repr(float(value)) for value in (*pose.position_m, *pose.quat_xyzw))
+        attribute = f"relative_to='{relative_to}'" if relative_to else ""
+        return (
+            f"<link name='{name}'><pose rotation_format='quat_xyzw' {attribute}>{numbers}</pose>"
+            "</link>"
+        )
+
+    plain = model("".join(text(name, IDENTITY_POSE, "") for name in truth))
+    names = list(truth)
+    bases = {name: names[int(rng.integers(n))] if n else "" for n, name in enumerate(names)}
+    lines = [text(n, truth[bases[n]] if bases[n] else IDENTITY_POSE, bases[n]) for n in names]
+    rng.shuffle(lines)
+    turned = model("".join(lines))
+    assert all(
+        _close(turned.link(name).T_model_link, plain.link(name).T_model_link) for name in names
+    )

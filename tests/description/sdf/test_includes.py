@@ -203,3 +203,9 @@ def test_urdf_robot_can_be_included(world, tmp_path, diagnostics):
     assert [(item.name, item.T_world_model.position_m) for item in found.models] == [
         ("r", (1, 0, 0))
     ]
+
+
+def test_merging_into_a_world_is_plain_including(world, models_folder):
+    models_folder("box", BOX)
+    found = world("<include merge='1'><uri>model://box</uri><pose>1 0 0 0 0 0</pose></include>")
+    assert found.model("box").T_world_model.position_m == (1, 0, 0)

@@ -131,3 +131,9 @@ def test_static_models_may_weigh_nothing(model, diagnostics):
     body = "<static>1</static><link name='base'><inertial><mass>0</mass></inertial></link>"
     assert model(body).link("base").inertial.mass_kg == 0
     assert not len(diagnostics)
+
+
+def test_density_of_zero_is_reported_and_waters_used(model, diagnostics):
+    text = "<inertial auto='true'><density>0</density></inertial>" + BOX.format(extra="")
+    assert _inertial(model, text).mass_kg == pytest.approx(6000)
+    assert "<density> is 0" in diagnostics.by_code("sdf.bad-value")[0].message

@@ -45,3 +45,8 @@ def test_deleted_models_are_gone(world):
     assert [
         item.name for item in world(MODEL.format("a", "") + MODEL.format("b", "") + state).models
     ] == ["b"]
+
+
+def test_inserted_models_are_there(world):
+    state = f"<state world_name='w'><insertions>{MODEL.format('c', '')}</insertions></state>"
+    assert [item.name for item in world(MODEL.format("a", "") + state).models] == ["a", "c"]

@@ -104,3 +104,9 @@ def test_world_without_name_is_called_default(context, diagnostics):
     found = read_sdf("<sdf version='1.6'><world/></sdf>", context=context).worlds[0]
     assert found.name == "default"
     assert "'default' is used" in diagnostics.errors[0].message
+
+
+def test_windows_of_gazebo_are_told_of(world, diagnostics):
+    world("<gui fullscreen='0'><plugin name='p' filename='GzScene3D'><any/></plugin></gui>")
+    (found,) = diagnostics
+    assert found.message == "<plugin> in <gui> is legal and not simulated"

@@ -52,9 +52,9 @@ def computed_inertial(
         collisions: its collisions as read.
         context: where problems are reported.
     """
-    usual = child_float(tag, "density", _WATER_KG_M3, context)
+    usual = _density(tag, _WATER_KG_M3, context)
     densities = {
-        child.attributes.get("name", ""): child_float(child, "density", usual, context)
+        child.attributes.get("name", "").strip(): _density(child, usual, context)
         for child in link.find_all("collision")
     }
     bodies = []
@@ -74,6 +74,16 @@ def computed_inertial(
     return Inertial(
         whole.mass_kg, Pose(whole.center_m), whole.inertia_kg_m2, estimated=True, span=tag.span
     )
+
+
+def _density(tag: Tag, usual: float, context: ReadContext) -> float:
+    value = child_float(tag, "density", usual, context)
+    if value > 0.0:
+        return value
+    place = tag.find("density") or tag
+    message = f"<density> is {value:g} kg/m³; it must be positive, {usual:g} is used"
+    context.diagnostics.report("sdf.bad-value", message, place.span)
+    return usual
 
 
 def _body(

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
-from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.diagnostics import Severity, SourceSpan, did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["MODEL_FRAME", "WORLD_FRAME", "FrameGraph", "FramePoint"]
@@ -62,6 +62,9 @@ class FrameGraph:
     ) -> None:
         self._points = points
         self._diagnostics = context.diagnostics
+        # Up to SDF 1.6 Gazebo read the word and did nothing with it.
+        old = context.version < (1, 7)
+        self._unknown_severity = Severity.WARNING if old else Severity.ERROR
         self._scope = scope
         self._root = root
         self._default_attached = default_attached
@@ -144,7 +147,9 @@ class FrameGraph:
             f"model of {self._scope}; the default frame is used"
         )
         fix = did_you_mean(name, self.names) or "write one of: " + ", ".join(self.names[:12])
-        self._diagnostics.report("sdf.unknown-frame", message, user.span, fix=fix)
+        self._diagnostics.report(
+            "sdf.unknown-frame", message, user.span, fix=fix, severity=self._unknown_severity
+        )
 
     def _report_circle(self, names: list[str], point: FramePoint, word: str) -> None:
         message = f"{word} goes in a circle in {self._scope}: " + " → ".join(names)

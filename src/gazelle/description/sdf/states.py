@@ -19,7 +19,8 @@ def with_state(world: World, tag: Tag, context: ReadContext) -> World:
 
     As Gazebo Classic's World::Load, the first state counts. Poses of models and lights are taken
     over, those of links in models without joints too. Links held by joints keep their place: a
-    saved joint position cannot be told from a changed description.
+    saved joint position cannot be told from a changed description. Models that the state deletes
+    are gone; those it inserts have been read already.
     """
     deleted = {item.text for item in tag.children if item.name == "deletions"}
     deleted |= {name.text for item in tag.find_all("deletions") for name in item.find_all("name")}

@@ -48,8 +48,8 @@ WORLD_ROWS: dict[str, tuple[str, str]] = {
         "pose model include model_count distribution box cylinder framework!",
     ),
     "distribution": ("", "type rows cols step"),
-    # Windows of Gazebo's own program; the page has its own.
-    "gui": ("*", ""),
-    # Read for poses; the many other words of a saved state are told of where it is applied.
+    # Windows and cameras of Gazebo's own program.
+    "gui": ("fullscreen", "camera! plugin!"),
+    # Read for poses; what else a saved state holds is told of where it is applied.
     "state": ("*", ""),
 }

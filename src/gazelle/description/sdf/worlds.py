@@ -121,6 +121,10 @@ class _WorldReader:
                 yield from populated(child, self._context)
             elif child.name == "actor":
                 report_actor(child, self._context)
+        inserted = self._tag.find("state", "insertions")
+        for child in inserted.find_all("model") if inserted is not None else ():
+            parts = read_model(child, self._context)
+            yield from () if parts is None else (parts,)
 
     def _included(self, tag: Tag) -> Iterable[ModelParts]:
         """Yield the model that an include brings; keep the lights it brings instead."""
@@ -133,7 +137,7 @@ class _WorldReader:
             return
         parts = included_model(tag, self._context, file=file)
         if parts is not None:
-            yield parts
+            yield replace(parts, merged=False)  # a world has no links to merge into
 
     def _all_points(self) -> dict[str, FramePoint]:
         points: dict[str, FramePoint] = {}

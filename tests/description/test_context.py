@@ -1,0 +1,27 @@
+from __future__ import annotations
+
+from gazelle.description.context import ReadContext
+from gazelle.diagnostics import Diagnostics
+
+
+def test_without_workspace_only_paths_are_found(tmp_path):
+    context = ReadContext(None, Diagnostics(), "a.sdf", tmp_path)
+    (tmp_path / "a.stl").write_bytes(b"")
+    assert context.resolve("a.stl").path == tmp_path / "a.stl"
+    assert context.resolve(f"file://{tmp_path}/a.stl").path == tmp_path / "a.stl"
+    assert context.resolve("b.stl").tried == (str(tmp_path / "b.stl"),)
+    assert context.resolve("model://box").note == "there is no workspace to look in"
+
+
+def test_included_files_extend_the_chain_and_share_the_cache(tmp_path):
+    outer = ReadContext(None, Diagnostics(), "a.sdf", tmp_path)
+    inner = outer.for_file(tmp_path / "deep" / "b.sdf").for_version((1, 4))
+    assert inner.include_chain == (tmp_path / "deep" / "b.sdf",)
+    assert (inner.base_dir, inner.version) == (tmp_path / "deep", (1, 4))
+    assert inner.cache is outer.cache
+
+
+def test_equal_things_are_new_once(tmp_path):
+    context = ReadContext(None, Diagnostics(), "a.sdf")
+    assert [context.first_time("mesh", "a.stl") for _ in range(3)] == [True, False, False]
+    assert context.for_file(tmp_path / "b.sdf").first_time("mesh", "a.stl") is False
