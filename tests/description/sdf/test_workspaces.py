@@ -189,3 +189,33 @@ def test_defaults_are_those_that_sdformat_prints(oracles_dir, found):
     assert world.scene.ambient == numbers("ambient")
     assert world.scene.background == numbers("background")
     assert not len(found)
+
+
+@pytest.mark.reference
+def test_sdformats_own_conversion_of_a_urdf_is_read_with_the_urdfs_numbers(oracles_dir, found):
+    """Joints relative to their parent link, links relative to their joint, as sdformat writes."""
+    model = read_model_file(oracles_dir / "sdf/gz_urdf.sdf", workspace=None, diagnostics=found)
+    assert model.canonical_link == "base_footprint"
+    assert model.link("arm").T_model_link.position_m == pytest.approx((0, 0, 0.4))
+    wheel, joint = model.link("left_wheel"), model.joint("left_joint")
+    assert wheel.T_model_link == joint.T_model_joint
+    assert wheel.T_model_link.position_m == pytest.approx((0, 0.22, 0.1))
+    assert wheel.T_model_link.rpy_rad == pytest.approx((-1.5707963, 0, 0))
+    assert (joint.axis.damping, joint.axis.friction) == (0.1, 0.2)
+    assert (joint.axis.spring_stiffness, joint.axis.spring_reference) == (5, 0.2)
+    assert (joint.provide_feedback, joint.implicit_spring_damper) == (True, True)
+    assert (joint.limit_cfm, joint.limit_erp) == (0.1, 0.3)
+    base = model.link("base_footprint")
+    assert [item.surface.mu1 for item in base.collisions] == [0.5, 0.2]
+    assert [item.surface.mu2 for item in base.collisions] == [0.5, None]
+    assert base.inertial.mass_kg == 20.3
+    assert base.visuals[0].material.diffuse == (0, 0, 1, 1)
+    assert wheel.visuals[0].material.name == "Gazebo/Black"
+    assert (wheel.gravity, wheel.self_collide, wheel.linear_damping) == (False, True, 0.3)
+    arm = model.joint("arm_joint")
+    assert arm.axis.xyz == pytest.approx((0, math.sqrt(0.5), math.sqrt(0.5)))
+    assert (arm.axis.lower, arm.axis.upper, arm.axis.effort) == (-0.1, 0.4, 100)
+    sensor = base.sensors[0]
+    assert (sensor.type, sensor.update_rate_hz, sensor.spec.samples) == ("ray", 10, 360)
+    assert [plugin.name for plugin in model.plugins] == ["diff", "p3d"]
+    assert {item.code for item in found} == {"sdf.missing-file"}

@@ -35,7 +35,7 @@ ENTRIES = (
         "info",
         "An element is known and has no effect in Gazelle",
         "It is legal SDF; nothing that robots measure here depends on it.",
-        "nothing",
+        "nothing to do",
     ),
     Entry(
         "sdf.extension",
@@ -43,7 +43,7 @@ ENTRIES = (
         "An element of a private namespace",
         "Elements with a prefix belong to one program; Gazelle uses those it knows by name and "
         "keeps the rest for plug-ins.",
-        "nothing",
+        "nothing to do",
     ),
     Entry(
         "sdf.model-without-link",
