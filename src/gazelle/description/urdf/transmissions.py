@@ -54,7 +54,7 @@ def read_transmission(
     members = tuple(_read_joint(child, joints, name, context) for child in tag.find_all("joint"))
     if not kind or not (members or any(child.name in _PR2_MEMBERS for child in tag.children)):
         lacking = "a <type>" if not kind else "a <joint>"
-        message = f"transmission '{name}' has not {lacking} and is left out"
+        message = f"transmission '{name}' lacks {lacking} and is left out"
         context.diagnostics.report("urdf.transmission-incomplete", message, tag.span)
         return None
     reduction = float_from(tag.find("mechanicalReduction"), 1.0, context.diagnostics)
