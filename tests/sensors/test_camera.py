@@ -359,6 +359,16 @@ def test_distortion_bends_the_picture_and_not_the_depth(scene_of, link) -> None:
     assert np.array_equal(plain.depth_m, lens.depth_m)
 
 
+def test_wide_angle_lens_is_reported_and_drawn_as_a_pinhole(scene_of, link) -> None:
+    scene = scene_of(link("ball", Sphere(0.5), Pose((4, 0, 0))))
+    fisheye = replace(CAMERA, kind="wideangle", horizontal_fov_rad=4.0)
+    assert np.isfinite(render(scene, fisheye, Pose(), want_depth=True).depth_m).sum() <= 4
+    (found,) = scene.diagnostics.by_code("sensors.wide-angle-lens")
+    assert found.message == (
+        "camera 'camera' has a wide-angle lens of 229 degrees; it is drawn as a pinhole"
+    )
+
+
 def test_moved_things_are_seen_where_they_are_now(scene_of, link, poses) -> None:
     scene = scene_of(link("ball", Sphere(0.5), Pose((4, 0, 0))))
     render(scene, CAMERA, Pose())

@@ -171,6 +171,11 @@ def test_ray_sensors_see_collisions_and_gpu_rays_visuals() -> None:
     assert scene_kind(LidarSpec(on_collisions=False)) == "visuals"
 
 
+def test_hidden_visuals_are_not_met(scene_of, link) -> None:
+    scene = scene_of(link("ghost", Sphere(0.5), Pose((2.0, 0.0, 0.0)), visibility_flags=0))
+    assert np.isinf(scan(scene, FORWARD, Pose()).ranges_m[0, 0])
+
+
 def test_noise_has_the_mean_and_sigma_asked_for(scene_of, link) -> None:
     scene = scene_of(link("shell", Sphere(2.0)), kind="collisions")
     count, sigma = 10_000, 0.01

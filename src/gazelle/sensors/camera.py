@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import weakref
 from dataclasses import dataclass
 
@@ -82,6 +83,8 @@ def render(
     depth = np.empty((spec.height_px, spec.width_px), np.float32) if want_depth else None
     if not (want_rgb or want_depth):
         return CameraRecord(None, None)
+    if spec.kind == "wideangle":
+        _report_lens(scene, spec)
     with scene.lock:
         exposure = _Exposure(scene, spec, T_world_camera, rgb, depth)
         exposure.run(default_threads() if threads is None else threads, antialias)
@@ -177,6 +180,12 @@ class _Exposure:
             )  # fmt: skip
 
         each_band(threads, row_bands(self._rows, threads, multiple=4), band)
+
+
+def _report_lens(scene: RayScene, spec: CameraSpec) -> None:
+    degrees = math.degrees(spec.horizontal_fov_rad)
+    text = f"camera '{spec.name}' has a wide-angle lens of {degrees:.0f} degrees; it is drawn as a"
+    scene.diagnostics.report("sensors.wide-angle-lens", f"{text} pinhole")
 
 
 def _noisy(rgb: NDArray[np.uint8], noise: NoiseSource) -> NDArray[np.uint8]:

@@ -13,11 +13,11 @@ from gazelle.description.model import LidarSpec
 from gazelle.geometry import Pose
 from gazelle.sensors.embree import NOTHING, PACKET, PACKET_BYTES, library, packet_buffer
 from gazelle.sensors.noise import NoiseSource
-from gazelle.sensors.ray_scene import RayScene
+from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
 
 __all__ = ["LidarRecord", "ScanAngles", "cast", "scan", "scan_angles", "scene_kind"]
 
-_EVERYTHING = 0xFFFFFFFF
+_EVERYTHING = 0xFFFFFFFF & ~SHADOW_BIT
 _SHORT_SCAN = 64
 """Packets (of 2 µs) below which a scan keeps the interpreter lock."""
 

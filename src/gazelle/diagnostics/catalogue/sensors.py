@@ -29,4 +29,11 @@ ENTRIES = (
         "check the path, and save the image as PNG or JPEG",
         "Texture file not found",
     ),
+    Entry(
+        "sensors.wide-angle-lens",
+        "warning",
+        "A wide-angle lens is drawn as a pinhole",
+        "The picture shows the right things; straight lines stay straight, as they would not.",
+        'use type="camera" with a field of view below 180 degrees, and <distortion> for its lens',
+    ),
 )
