@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 
 __all__ = [
@@ -27,8 +27,9 @@ ORDER_CONTROL = 10
 ORDER_SENSOR = 20
 ORDER_STATE = 30
 
-# A task nobody wants looks again this often, in simulated time.
-_IDLE_NS = 20_000_000
+# Tasks nobody wants are asked again this often, in simulated time: a question costs up to some
+# microseconds, and none of them may cut the engine's steps into smaller pieces.
+_LOOK_NS = 50_000_000
 
 
 @dataclass(slots=True, eq=False)
@@ -41,7 +42,8 @@ class Task:
             first step that is not early.
         action: what to do, called with the world standing at that step.
         order: tasks due at the same step run in this order, then as they were added.
-        wanted: asked before `action`; False skips the tick and looks again 20 ms later.
+        wanted: asked before `action`; when it says no the task sleeps and is asked again at least
+            every 50 ms, and whenever `Scheduler.look` is called.
         runs: how often `action` has run.
     """
 
@@ -53,11 +55,21 @@ class Task:
     runs: int = 0
     _start: int = 0
     _tick: int = 0
+    _ratio: tuple[int, int] = (1, 1)
     _sequence: int = 0
-    _alive: bool = field(default=True, repr=False)
 
     def _due(self) -> int:
-        return self._start + math.ceil(self._tick * self.period_steps)
+        # The ceiling of tick × period in whole numbers; Fraction's own arithmetic is slow.
+        numerator, denominator = self._ratio
+        return self._start - (-self._tick * numerator // denominator)
+
+    def _skip_to(self, iteration: int) -> None:
+        """Take the first tick that is not before an iteration."""
+        numerator, denominator = self._ratio
+        passed = max(0, iteration - self._start - 1)
+        self._tick = max(self._tick, passed * denominator // numerator)
+        while self._due() < iteration:
+            self._tick += 1
 
 
 def period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
@@ -85,9 +97,11 @@ class Scheduler:
 
     def __init__(self, step_ns: int) -> None:
         self._heap: list[tuple[int, int, int, Task]] = []
+        self._asleep: list[Task] = []
         self._sequence = 0
         self._now = 0
         self._step_ns = step_ns
+        self._next_look = 0
 
     def set_step(self, step_ns: int) -> None:
         """Take over a new step size; every task keeps its rate, counted from now."""
@@ -102,15 +116,14 @@ class Scheduler:
     def add(self, task: Task, *, first: int | None = None) -> Task:
         """Add a task; its first tick is one period from now, or at iteration `first`."""
         task._sequence = self._sequence
-        task._alive = True
         self._sequence += 1
         task._start, task._tick = (self._now, 1) if first is None else (first, 0)
-        self._push(task)
+        self._enter(task)
         return task
 
     def remove(self, task: Task) -> None:
         """Drop a task; removing it twice does nothing."""
-        task._alive = False
+        self._asleep = [item for item in self._asleep if item is not task]
         self._heap = [entry for entry in self._heap if entry[3] is not task]
         heapq.heapify(self._heap)
 
@@ -118,46 +131,68 @@ class Scheduler:
         """Give a task another period, counted from now."""
         self.remove(task)
         task.period_steps = period_steps
-        self.add(task)
+        task._start, task._tick = self._now, 1
+        self._enter(task)
 
     def next_due(self) -> int:
-        """Return the iteration of the next tick, `NEVER` when there is no task."""
-        return self._heap[0][0] if self._heap else NEVER
+        """Return the iteration to call `run_due` at, `NEVER` when there is no task."""
+        due = self._heap[0][0] if self._heap else NEVER
+        # Looking after sleeping tasks waits for the next tick of others, but not for long.
+        return min(due, self._next_look + self._look_steps()) if self._asleep else due
 
     def run_due(self, iteration: int) -> int:
         """Run every task due at or before `iteration`, in order; return how many ran."""
         self._now = iteration
-        ran = 0
-        while self._heap and self._heap[0][0] <= iteration:
-            task = heapq.heappop(self._heap)[3]
-            if task.wanted is None or task.wanted():
-                task._tick += 1
-                self._push(task)
-                task.runs += 1
-                ran += 1
-                task.action()
-            else:
-                task._tick += self._idle_ticks(task)
-                self._push(task)
+        if self._asleep and iteration >= self._next_look:
+            self.look()
+        heap, ran = self._heap, 0
+        while heap and heap[0][0] <= iteration:
+            task = heap[0][3]
+            if task.wanted is not None and not task.wanted():
+                heapq.heappop(heap)
+                self._asleep.append(task)
+                continue
+            task._tick += 1
+            heapq.heapreplace(heap, (task._due(), task.order, task._sequence, task))
+            task.runs += 1
+            ran += 1
+            task.action()
+            heap = self._heap
         return ran
+
+    def look(self) -> None:
+        """Ask the sleeping tasks whether they are wanted now; those that are keep their ticks."""
+        self._next_look = self._now + self._look_steps()
+        if not self._asleep:
+            return
+        sleepers, self._asleep = self._asleep, []
+        for task in sleepers:
+            if task.wanted is None or task.wanted():
+                task._skip_to(self._now)
+                self._push(task)
+            else:
+                self._asleep.append(task)
 
     def restart(self) -> None:
         """Start all tasks over after simulated time went back to zero."""
-        self._now = 0
-        tasks = sorted((entry[3] for entry in self._heap), key=lambda task: task._sequence)
-        self._heap = []
+        tasks = tuple(self)
+        self._now = self._next_look = 0
+        self._heap, self._asleep = [], []
         for task in tasks:
             task._start, task._tick = 0, 1
             self._push(task)
 
     def __iter__(self) -> Iterator[Task]:
         """Iterate over the tasks in the order they were added."""
-        return iter(sorted((entry[3] for entry in self._heap), key=lambda task: task._sequence))
+        tasks = [*(entry[3] for entry in self._heap), *self._asleep]
+        return iter(sorted(tasks, key=lambda task: task._sequence))
 
-    def _idle_ticks(self, task: Task) -> int:
-        period_ns = task.period_steps * self._step_ns
-        return max(1, int(_IDLE_NS // period_ns))
+    def _look_steps(self) -> int:
+        return max(1, _LOOK_NS // self._step_ns)
+
+    def _enter(self, task: Task) -> None:
+        task._ratio = (task.period_steps.numerator, task.period_steps.denominator)
+        self._push(task)
 
     def _push(self, task: Task) -> None:
-        if task._alive:
-            heapq.heappush(self._heap, (task._due(), task.order, task._sequence, task))
+        heapq.heappush(self._heap, (task._due(), task.order, task._sequence, task))

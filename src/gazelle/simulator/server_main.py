@@ -22,6 +22,16 @@ if TYPE_CHECKING:
 
 __all__ = ["serve"]
 
+_ROS2_PLUGINS = frozenset(
+    {
+        "gazebo_ros_init",
+        "gazebo_ros_factory",
+        "gazebo_ros_state",
+        "gazebo_ros_force_system",
+        "gazebo_ros_properties",
+    }
+)
+
 
 class _Arguments(Protocol):
     """What a node is told when it starts."""
@@ -89,7 +99,11 @@ def _serve_world(
     )
     _check_server_plugins(options, diagnostics)
     _show(diagnostics, verbose=options.verbose)
-    offer_gazebo_ros(server, report=lambda found: _show(found, verbose=options.verbose))
+    offer_gazebo_ros(
+        server,
+        ros2=any(plain_name(name) in _ROS2_PLUGINS for name in options.plugins),
+        report=lambda found: _show(found, verbose=options.verbose),
+    )
     node.log("info", "Finished loading Gazebo ROS API Plugin.")
     node.log("info", "Physics dynamic reconfigure ready.")
     threading.Thread(target=_stop_with, args=(stop, server), daemon=True).start()

@@ -110,6 +110,8 @@ class WorldServer:
             SimulationDivergedError: the state became non-finite.
         """
         self.commands.own()
+        # Whoever subscribed since the last call gets the very next frame.
+        self.scheduler.look()
         try:
             self._advance(count)
         finally:

@@ -23,12 +23,16 @@ __all__ = ["offer_gazebo_ros"]
 
 
 def offer_gazebo_ros(
-    server: WorldServer, *, report: Callable[[Diagnostics], None] = lambda found: None
+    server: WorldServer,
+    *,
+    ros2: bool = False,
+    report: Callable[[Diagnostics], None] = lambda found: None,
 ) -> None:
-    """Offer ``/clock``, ``/gazebo/*`` and the ROS 2 names at the root; set ``/use_sim_time``.
+    """Offer ``/clock`` and ``/gazebo/*``, and set ``/use_sim_time``.
 
     Args:
         server: the world.
+        ros2: offer the services of ROS 2's gazebo_ros (``/spawn_entity`` …) as well.
         report: called with what was found about each spawned model.
     """
     resources = server.world_resources
@@ -45,7 +49,7 @@ def offer_gazebo_ros(
     for group in (models, links, joints, spawns, world):
         for row in group.rows():
             resources.service(join_names("/gazebo", row.name), row.type, row.handler)
-        for row in group.ros2_rows():
+        for row in group.ros2_rows() if ros2 else ():
             resources.service(join_names("/", row.name), row.type, row.handler)
 
     def log_problem(problem: str) -> None:

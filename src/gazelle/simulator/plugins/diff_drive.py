@@ -77,6 +77,9 @@ class _Drive:
         self._odometry = EncoderOdometry(self._separation_m, self._radius_m, self._exchanged)
         self._last_angles = self._angles()
         self._command = (0.0, 0.0)
+        # Motors keep their orders until the engine is compiled anew.
+        self._ordered: tuple[float, float] | None = None
+        self._revision = -1
         self._source = _odometry_source(context, parameters)
         self._covariance = _covariance(parameters)
         self._offer(parameters)
@@ -125,9 +128,10 @@ class _Drive:
         self._command = (float(twist.linear.x), float(twist.angular.z))
 
     def _update(self) -> None:
-        angles = self._angles()
-        last, self._last_angles = self._last_angles, angles
-        self._odometry.update(angles[0] - last[0], angles[1] - last[1], self._period_s)
+        if self._source == "encoder":
+            angles = self._angles()
+            last, self._last_angles = self._last_angles, angles
+            self._odometry.update(angles[0] - last[0], angles[1] - last[1], self._period_s)
         self._publish()
         linear, angular = self._command
         self._drive(wheel_speeds(linear, angular, self._separation_m, exchanged=self._exchanged))
@@ -136,6 +140,10 @@ class _Drive:
         left, right = self._wheels[0]
         actual = (left.velocity * self._radius_m, right.velocity * self._radius_m)
         speeds = self._ramp.command(target_m_s, actual, self._period_s)
+        revision = self._engine.revision
+        if speeds == self._ordered and revision == self._revision:
+            return
+        self._ordered, self._revision = speeds, revision
         for pair in self._wheels:
             for joint, speed in zip(pair, speeds, strict=True):
                 joint.set_velocity_target(speed / self._radius_m, self._torque_nm)
@@ -224,6 +232,7 @@ class _Drive:
         self._ramp.reset()
         self._odometry.reset()
         self._last_angles = self._angles()
+        self._ordered = None
         self._drive((0.0, 0.0))
 
     def _release(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.simulator.plugins.camera_stream import CameraStream
@@ -90,7 +91,16 @@ def add_transports(
         context.resources.publisher(join_names(topic, "compressed"), compressed_type)
         depth_topic = join_names(topic, "compressedDepth")
         stream.add(depth_topic, compressed_type, compressed_depth, depth=True)
+    _learn_theora()
     context.resources.publisher(join_names(topic, "theora"), "theora_image_transport/Packet")
     idle = "compressedDepth and theora send" if depth_of is None else "compressed and theora send"
     text = f"'{topic}' is listed with its image transports; {idle} nothing"
     context.report("plugin.no-encoder", text)
+
+
+def _learn_theora() -> None:
+    """The one message type that only this module names."""
+    from gazelle.interfaces import add_package
+
+    folder = Path(__file__).with_name("definitions") / "theora_image_transport"
+    add_package("theora_image_transport", folder, "ros1")

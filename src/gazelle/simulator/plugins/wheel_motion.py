@@ -46,12 +46,13 @@ class WheelRamp:
         self, target: tuple[float, float], actual: tuple[float, float], period_s: float
     ) -> tuple[float, float]:
         """Return the rim speeds to command, from the targets and the measured ones (m/s)."""
-        gaps = (target[0] - actual[0], target[1] - actual[1])
-        if self._acceleration_m_s2 == 0 or min(abs(gap) for gap in gaps) < _NEAR_M_S:
+        left, right = target[0] - actual[0], target[1] - actual[1]
+        near = abs(left) < _NEAR_M_S or abs(right) < _NEAR_M_S
+        if near or self._acceleration_m_s2 == 0:
             return target
         most = self._acceleration_m_s2 * period_s
-        for side, gap in enumerate(gaps):
-            self._issued[side] += max(-most, min(gap, most))
+        self._issued[0] += max(-most, min(left, most))
+        self._issued[1] += max(-most, min(right, most))
         return self._issued[0], self._issued[1]
 
     def reset(self) -> None:
