@@ -168,3 +168,10 @@ def test_model_written_with_other_frames_is_the_same_model(model, seed):
     assert all(
         _close(turned.link(name).T_model_link, plain.link(name).T_model_link) for name in names
     )
+
+
+def test_unknown_placement_frame_of_a_model_is_reported(model, diagnostics):
+    model("<link name='flange'/>", attributes="placement_frame='flang'")
+    (found,) = diagnostics.by_code("sdf.unknown-frame")
+    assert "placement_frame 'flang' is no frame of model 'm'" in found.message
+    assert found.fix == "did you mean 'flange'?"

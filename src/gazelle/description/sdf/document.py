@@ -80,8 +80,7 @@ def read_world_file(
 ) -> World | None:
     """Read a world file; its first world counts.
 
-    A file that holds models only becomes a world with these models, as ``gz sim`` does it not but
-    people expect.
+    A file that holds models only becomes a world with these models.
 
     Args:
         path: the file.

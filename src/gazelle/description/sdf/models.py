@@ -193,15 +193,15 @@ class _ModelReader:
         )
         resolver = PoseResolver(self._context, graph)
         model = self._model(resolver, points, canonical)
-        # A joint may share its name with a link; both have a point, under different keys.
-        return ModelParts(
+        parts = ModelParts(
             model=model,
             pose=pose_of(self._tag, self._context),
             relative_to=relative_to_of(self._tag),
-            placement_frame=self._tag.attributes.get("placement_frame", "").strip(),
             frames={name: graph.pose(name) for name in points},
             attached={name: graph.attached_link(name) for name in points},
         )
+        placement = self._tag.attributes.get("placement_frame", "").strip()
+        return _with_placement(parts, placement, self._tag, self._context) if placement else parts
 
     def _points(self) -> Iterator[tuple[str, FramePoint]]:
         taken: dict[str, FramePoint] = {}
