@@ -1,0 +1,3 @@
+"""tf.listener."""
+
+from gazelle.compat.tf.tf1 import *  # noqa: F403

@@ -1,0 +1,3 @@
+"""tf.transformations."""
+
+from gazelle.compat.tf.transformations import *  # noqa: F403

@@ -1,0 +1,3 @@
+"""tf2_ros.transform_broadcaster."""
+
+from gazelle.compat.tf.tf2_ros import *  # noqa: F403

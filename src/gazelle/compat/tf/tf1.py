@@ -1,0 +1,242 @@
+"""The old `tf` module: listeners and broadcasters that speak in tuples."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.compat.rospy.rostime import Time
+from gazelle.compat.rospy.state import STATE
+from gazelle.compat.tf import tf2_ros
+from gazelle.compat.tf.geometry_messages import (
+    do_transform_point,
+    do_transform_pose,
+    do_transform_vector3,
+)
+from gazelle.geometry import Pose
+from gazelle.graph import tf as graph_tf
+
+__all__ = [
+    "ConnectivityException",
+    "Exception",
+    "ExtrapolationException",
+    "LookupException",
+    "TransformBroadcaster",
+    "TransformListener",
+    "Transformer",
+    "TransformerROS",
+]
+
+Exception = tf2_ros.TransformException
+LookupException = tf2_ros.LookupException
+ConnectivityException = tf2_ros.ConnectivityException
+ExtrapolationException = tf2_ros.ExtrapolationException
+
+Translation = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+
+class Transformer:
+    """Keeps transforms; names may start with a slash, as in tf's days.
+
+    Args:
+        interpolate: accepted; it always does.
+        cache_time: how far back, a Duration.
+    """
+
+    def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
+        del interpolate
+        self._buffer = tf2_ros.Buffer(cache_time)
+
+    def lookupTransform(
+        self, target_frame: str, source_frame: str, time: Any
+    ) -> tuple[Translation, Quaternion]:
+        """Return translation and quaternion (x, y, z, w) from source to target.
+
+        Raises:
+            LookupException, ConnectivityException, ExtrapolationException: it is not known.
+        """
+        found = self._buffer.lookup_transform(_bare(target_frame), _bare(source_frame), time)
+        pose = tf2_ros.pose_of(found.transform)
+        return pose.position_m, pose.quat_xyzw
+
+    def lookupTransformFull(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+    ) -> tuple[Translation, Quaternion]:
+        """Return translation and quaternion between two times by way of a fixed frame.
+
+        Raises:
+            Exception: it is not known.
+        """
+        found = self._buffer.lookup_transform_full(
+            _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
+        )
+        pose = tf2_ros.pose_of(found.transform)
+        return pose.position_m, pose.quat_xyzw
+
+    def canTransform(self, target_frame: str, source_frame: str, time: Any) -> bool:
+        """Return whether the transform is known."""
+        known = self._buffer.can_transform(_bare(target_frame), _bare(source_frame), time)
+        return bool(known)
+
+    def waitForTransform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Any,
+        timeout: Any,
+        polling_sleep_duration: Any = None,
+    ) -> None:
+        """Wait until the transform is known.
+
+        Raises:
+            Exception: it was not in time; the text says why.
+        """
+        del polling_sleep_duration
+        self._buffer.lookup_transform(_bare(target_frame), _bare(source_frame), time, timeout)
+
+    def getLatestCommonTime(self, source_frame: str, target_frame: str) -> Time:
+        """Return the latest time that all frames in between know.
+
+        Raises:
+            Exception: there is no way from one to the other.
+        """
+        return self._buffer.get_latest_common_time(_bare(target_frame), _bare(source_frame))
+
+    def setTransform(self, transform: Any, authority: str = "") -> None:
+        """Add a ``TransformStamped``."""
+        self._buffer.set_transform(transform, authority)
+
+    def frameExists(self, frame_id: str) -> bool:
+        """Return whether a frame is known."""
+        return self._buffer.core.has_frame(_bare(frame_id))
+
+    def getFrameStrings(self) -> list[str]:
+        """Return the names of all frames."""
+        return list(self._buffer.core.frame_names())
+
+    def chain(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+    ) -> list[str]:
+        """Return the frames from source to target."""
+        del target_time, source_time, fixed_frame
+        try:
+            return self._buffer.core.chain(_bare(target_frame), _bare(source_frame))
+        except graph_tf.TransformError as error:
+            raise tf2_ros.as_tf2_error(error) from None
+
+    def allFramesAsString(self) -> str:
+        """Return all frames as sentences."""
+        return self._buffer.all_frames_as_string()
+
+    def allFramesAsDot(self) -> str:
+        """Return all frames as a Graphviz graph."""
+        return graph_tf.frames_as_dot(self._buffer.core)
+
+    def clear(self) -> None:
+        """Forget all moving frames."""
+        self._buffer.clear()
+
+    def getTFPrefix(self) -> str:
+        """Return an empty prefix: tf2 has none."""
+        return ""
+
+
+class TransformerROS(Transformer):
+    """Transforms messages that have a header."""
+
+    def asMatrix(self, target_frame: str, hdr: Any) -> NDArray[np.float64]:
+        """Return the 4×4 matrix from a header's frame to the target frame.
+
+        Raises:
+            Exception: it is not known.
+        """
+        translation, rotation = self.lookupTransform(target_frame, hdr.frame_id, hdr.stamp)
+        return self.fromTranslationRotation(translation, rotation)
+
+    def fromTranslationRotation(
+        self, translation: Translation, rotation: Quaternion
+    ) -> NDArray[np.float64]:
+        """Return the 4×4 matrix of a translation and a quaternion (x, y, z, w)."""
+        return _pose(translation, rotation).matrix()
+
+    def transformPoint(self, target_frame: str, ps: Any) -> Any:
+        """Return a ``PointStamped`` in another frame."""
+        return do_transform_point(ps, self._found(target_frame, ps))
+
+    def transformVector3(self, target_frame: str, v3s: Any) -> Any:
+        """Return a ``Vector3Stamped`` in another frame."""
+        return do_transform_vector3(v3s, self._found(target_frame, v3s))
+
+    def transformPose(self, target_frame: str, ps: Any) -> Any:
+        """Return a ``PoseStamped`` in another frame."""
+        return do_transform_pose(ps, self._found(target_frame, ps))
+
+    def transformQuaternion(self, target_frame: str, ps: Any) -> Any:
+        """Return a ``QuaternionStamped`` in another frame."""
+        found = self._found(target_frame, ps)
+        turn = ps.quaternion
+        own = Pose((0.0, 0.0, 0.0), (turn.x, turn.y, turn.z, turn.w))
+        pose = tf2_ros.pose_of(found.transform) @ own
+        result = type(ps)()
+        result.header.stamp, result.header.frame_id = ps.header.stamp, target_frame
+        onto = result.quaternion
+        onto.x, onto.y, onto.z, onto.w = pose.quat_xyzw
+        return result
+
+    def _found(self, target_frame: str, message: Any) -> Any:
+        header = message.header
+        return self._buffer.lookup_transform(
+            _bare(target_frame), _bare(header.frame_id), header.stamp
+        )
+
+
+class TransformListener(TransformerROS):
+    """A transformer that listens to ``/tf`` and ``/tf_static``."""
+
+    def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
+        super().__init__(interpolate, cache_time)
+        self._listener = tf2_ros.TransformListener(self._buffer)
+
+
+class TransformBroadcaster:
+    """Sends frames."""
+
+    def __init__(self, queue_size: int = 100) -> None:
+        del queue_size
+        self._core = graph_tf.TransformBroadcaster(STATE.require("TransformBroadcaster"))
+
+    def sendTransform(
+        self, translation: Translation, rotation: Quaternion, time: Any, child: str, parent: str
+    ) -> None:
+        """Send the pose of `child` in `parent` at a time; rotation is (x, y, z, w)."""
+        pose = _pose(translation, rotation)
+        stamp_ns = tf2_ros.nanoseconds(time)
+        self._core.send(graph_tf.StampedPose(_bare(parent), _bare(child), stamp_ns, pose))
+
+    def sendTransformMessage(self, transform: Any) -> None:
+        """Send a ``TransformStamped``."""
+        self._core.send(transform)
+
+
+def _bare(frame: str) -> str:
+    return frame.removeprefix("/")
+
+
+def _pose(translation: Sequence[float], rotation: Sequence[float]) -> Pose:
+    x, y, z = map(float, translation)
+    qx, qy, qz, qw = map(float, rotation)
+    return Pose((x, y, z), (qx, qy, qz, qw))
