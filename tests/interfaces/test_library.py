@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.errors import NotFoundError, UserFileError
+from gazelle.errors import InterfaceError, NotFoundError, UserFileError
 from gazelle.interfaces import (
     Generation,
     action_type,
@@ -13,12 +13,14 @@ from gazelle.interfaces import (
     add_search_path,
     convert,
     from_cdr,
+    from_ros1,
     known_types,
     message_type,
     ros1_message_type,
     ros1_service_type,
     service_type,
     to_cdr,
+    to_ros1,
 )
 
 CATKIN = "<package><buildtool_depend>catkin</buildtool_depend></package>"
@@ -102,6 +104,15 @@ def test_search_path_adds_the_packages_under_a_folder(tmp_path):
     _package(tmp_path / "p2", {"src/a.cpp": ""})
     assert add_search_path(tmp_path) == ("p1",)
     assert known_types(package="p1") == ("p1/msg/A",)
+
+
+def test_a_count_of_empty_messages_beyond_the_bytes_is_refused(tmp_path):
+    files = {"msg/None_.msg": "", "msg/Many.msg": "None_[] many"}
+    add_package("void", _package(tmp_path / "void", files, CATKIN))
+    view = ros1_message_type("void/Many")(many=[ros1_message_type("void/None_")()])
+    assert len(from_ros1(type(view), to_ros1(view)).many) == 1
+    with pytest.raises(InterfaceError, match="a count is beyond the bytes"):
+        from_ros1(type(view), b"\xff\xff\xff\xff")
 
 
 def test_missing_folder_is_refused(tmp_path):

@@ -21,6 +21,7 @@ MESSAGES = {
     "rosgraph_msgs/Clock": "a9c97c1d230cfc112e270351a944ee47",
     "move_base_msgs/MoveBaseAction": "70b6aca7c7f7746d8d1609ad94c80bb8",
     "gazebo_msgs/ModelStates": "48c080191eb15c41858319b4d8a609c2",
+    "theora_image_transport/Packet": "33ac4e14a7cff32e7e0d65f18bb410f3",
     "dynamic_reconfigure/Config": "958f16a05573709014982821e6822580",
 }
 SERVICES = {

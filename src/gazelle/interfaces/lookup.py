@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.interfaces import library
 from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
-from gazelle.interfaces.parser import parse_message, split_parts
 from gazelle.interfaces.translate import as_generation, definition_text
 
 if TYPE_CHECKING:
@@ -119,7 +118,7 @@ def _where(package: str, part: str, bare: str, generation: Generation) -> tuple[
                     return "action", base
         return None
     pattern = _SRV_NAME if part == "srv" else _ACTION_NAME
-    match = pattern.fullmatch(bare)
+    match = re.fullmatch(pattern, bare)
     if match and library.find_source(package, part, match[1], generation):
         return part, match[1]
     return None
@@ -128,6 +127,8 @@ def _where(package: str, part: str, bare: str, generation: Generation) -> tuple[
 def _read(
     package: str, part: str, bare: str, where: tuple[str, str], generation: Generation
 ) -> Definition:
+    from gazelle.interfaces.parser import parse_message, split_parts
+
     file_part, file_name = where
     source = library.find_source(package, file_part, file_name, generation)
     if source is None:
@@ -273,8 +274,8 @@ _DERIVED = (
     "Result",
     "Feedback",
 )
-_SRV_NAME = re.compile(r"(\w+?)_(?:Request|Response)")
-_ACTION_NAME = re.compile(
+_SRV_NAME = r"(\w+?)_(?:Request|Response)"
+_ACTION_NAME = (
     r"(\w+?)_(?:Goal|Result|Feedback|SendGoal_Request|SendGoal_Response"
     r"|GetResult_Request|GetResult_Response|FeedbackMessage)"
 )

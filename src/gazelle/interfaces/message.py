@@ -23,7 +23,7 @@ from gazelle.interfaces.definition import (
 )
 from gazelle.interfaces.lookup import definition, is_current, split_name
 
-__all__ = ["Message", "canonical_name", "forget", "message_type", "values_equal"]
+__all__ = ["Message", "canonical_name", "message_type", "values_equal"]
 
 _ZEROS: dict[str, Any] = {"": "", "?": False, "f": 0.0, "d": 0.0}
 _lock = threading.RLock()
@@ -92,14 +92,14 @@ def message_type(name: str) -> type[Message]:
         return found
     full = canonical_name(name)
     with _lock:
-        forget()
+        _forget()
         if full not in _classes:
             _classes[full] = _make_class(definition(full, Generation.ROS2), ())
         _classes[name] = _classes[full]
         return _classes[full]
 
 
-def forget() -> None:
+def _forget() -> None:
     """Drop classes of definitions that a newly added package changes."""
     global _revision
     if _revision == library.revision():

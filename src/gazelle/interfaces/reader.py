@@ -210,6 +210,8 @@ class _Reader(Emitter):
     def _loop(self, slot: Slot, count: str, target: str) -> None:
         self._to_variable()
         found = self.fresh("l")
+        if slot.child is not None and not slot.child.slots:
+            self.line(f"if {count} > len(b): raise ValueError('a count is beyond the bytes')")
         self.line(f"{found} = []")
         self.line(f"for {self.fresh('_i')} in range({count}):")
         self.indent(1)

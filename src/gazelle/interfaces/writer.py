@@ -167,7 +167,7 @@ class _Writer(Emitter):
             self._aligned_tail(count, name, count + " * 8")
         else:
             self._chunk(name)
-            self._moved(f"{count} * {size}", max(4 if size == 4 else size, 1))
+            self._moved(f"{count} * {size}", size)
 
     def _aligned_tail(self, count: str, chunk: str, length: str) -> None:
         """Numbers of eight bytes behind a count: padded only when there are any."""
