@@ -152,3 +152,15 @@ def test_bad_number_is_reported_and_not_used(read_link) -> None:
     found = read_link(TOUCHES, after=_block("<mu1>slippery</mu1><kp/>"))
     assert found.codes == ["xml.bad-number", "xml.bad-number"]
     assert found.robot.link("a").collisions[0].surface.mu1 is None
+
+
+def test_slip_works_in_a_surface_and_only_there(read_link) -> None:
+    ode = "<ode><slip1>0.1</slip1><slip2>0.2</slip2></ode>"
+    surface = f"<surface><friction>{ode}</friction></surface>"
+    found = read_link(TOUCHES, after=_block(f"<collision>{surface}</collision>"))
+    slips = found.robot.link("a").collisions[0].surface
+    assert (slips.slip1, slips.slip2) == (0.1, 0.2)
+    assert not found.codes
+    single = read_link(TOUCHES, after=_block("<slip1>0.1</slip1>"))
+    assert single.robot.link("a").collisions[0].surface.slip1 is None
+    assert "<collision><surface><friction><ode><slip1>" in single.message("urdf.gazebo-no-effect")

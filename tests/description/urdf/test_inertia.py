@@ -127,3 +127,18 @@ def test_link_fixed_to_the_world_needs_no_mass(read) -> None:
         '<parent link="world"/><child link="a"/></joint></robot>'
     )
     assert not found.codes
+
+
+CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+FACES = ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
+
+
+@pytest.mark.parametrize("faces", [FACES, FACES[:-1]], ids=["closed", "open"])
+def test_mesh_is_filled_and_an_open_one_by_its_hull(read, faces, tmp_path) -> None:
+    lines = [f"v {x} {y} {z}" for x, y, z in CUBE] + [f"f {face}" for face in faces]
+    (tmp_path / "cube.obj").write_text("\n".join(lines), encoding="utf-8")
+    mesh = "<geometry><mesh filename='cube.obj' scale='0.1 0.2 0.3'/></geometry>"
+    text = _robot(_inertial(1), f"<collision>{mesh}</collision>", "continuous")
+    inertial = read(text, tmp_path).robot.link("b").inertial
+    assert inertial.mass_kg == pytest.approx(6.0)
+    assert inertial.T_link_com.position_m == pytest.approx((0.05, 0.1, 0.15))

@@ -38,7 +38,8 @@ def test_every_shape(text: str, shape: object, read_link) -> None:
         ("<mesh/>", "urdf.geometry-incomplete", "a mesh needs filename"),
         ("<spere radius='1'/>", "urdf.geometry-unknown", "did you mean 'sphere'"),
         ("", "urdf.geometry-missing", "has no shape in <geometry>"),
-        ("<sphere radius='0'/>", "urdf.bad-size", "a size that is not positive"),
+        ("<sphere radius='0'/>", "urdf.bad-size", "a size (0) that is not positive"),
+        ("<box size='1 1e30 1'/>", "urdf.bad-size", "that is too large to be metres"),
         ("<sphere radius='0,5'/>", "xml.bad-number", "a dot, not a comma"),
     ],
 )

@@ -190,6 +190,19 @@ def _light(link: Link, tag: Tag, context: ReadContext) -> Link:
     return link if light is None else replace(link, lights=(*link.lights, light))
 
 
+def _slip(link: Link, tag: Tag, context: ReadContext) -> Link:
+    message = (
+        f"<{tag.name}> directly in <gazebo> is not read by Gazebo and has no effect on "
+        f"link '{link.name}'"
+    )
+    fix = (
+        "write <collision><surface><friction><ode><slip1>…</slip1><slip2>…</slip2></ode>"
+        "</friction></surface></collision>"
+    )
+    context.diagnostics.report("urdf.gazebo-no-effect", message, tag.span, fix=fix)
+    return link
+
+
 _LINK_WORDS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
     "dampingFactor": _damping_factor,
     "gravity": _gravity,
@@ -198,6 +211,9 @@ _LINK_WORDS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
     "selfCollide": _self_collide,
     "self_collide": _self_collide,
     "sensor": _sensor,
+    "slip": _slip,
+    "slip1": _slip,
+    "slip2": _slip,
     "turnGravityOff": _turn_gravity_off,
     "velocity_decay": _velocity_decay,
 }

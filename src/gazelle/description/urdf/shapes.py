@@ -18,6 +18,8 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["read_geometry"]
 
 _ONES = (1.0, 1.0, 1.0)
+_SMALLEST_M = 1e-12
+_LARGEST_M = 1e9
 
 
 def read_geometry(owner: Tag, link: str, context: ReadContext) -> Shape | None:
@@ -114,9 +116,11 @@ def _numbers(
 
 
 def _positive(tag: Tag, sizes: tuple[float, ...], link: str, context: ReadContext) -> bool:
-    if all(size > 0 for size in sizes):
+    if all(_SMALLEST_M < size < _LARGEST_M for size in sizes):
         return True
-    message = f"the {tag.name} of link '{link}' has a size that is not positive and is left out"
+    shown = " ".join(f"{size:g}" for size in sizes)
+    limits = "not positive" if min(sizes) <= _SMALLEST_M else "too large to be metres"
+    message = f"the {tag.name} of link '{link}' has a size ({shown}) that is {limits}; left out"
     context.diagnostics.report("urdf.bad-size", message, tag.span)
     return False
 

@@ -12,6 +12,8 @@ from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["check_tree", "poses_of"]
 
+_MISSING = {"parent": "urdf.parent-missing", "child": "urdf.child-missing"}
+
 
 def check_tree(
     links: Mapping[str, Link], joints: Sequence[ReadJoint], context: ReadContext, *, whole: bool
@@ -81,7 +83,7 @@ def _ends_exist(
             end = item.tag.find(which) or item.tag
             hint = did_you_mean(name, links) or f'add <link name="{name}"/> or remove the joint'
             message = f"{which} link '{name}' of joint '{joint.name}' not found"
-            context.diagnostics.report(f"urdf.{which}-missing", message, end.span, fix=hint)
+            context.diagnostics.report(_MISSING[which], message, end.span, fix=hint)
     return good
 
 

@@ -44,7 +44,7 @@ def _whole(
     bodies = []
     for shape, pose, span in shapes:
         body = _body(shape, span, context)
-        if body is not None:
+        if body is not None and 0.0 < body.mass_kg < math.inf:
             bodies.append(body.transformed(pose))
     return combined_mass_properties(bodies) if bodies else None
 

@@ -1,0 +1,34 @@
+"""Codes of loading a description of any format."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+ENTRIES = (
+    Entry(
+        "load.not-found",
+        "error",
+        "A robot, model or world does not exist",
+        "Nothing is loaded.",
+        "correct the path or name",
+        "Unable to find uri",
+    ),
+    Entry(
+        "load.unknown-format",
+        "error",
+        "A file is no robot, model or world",
+        "Its outermost element is neither <robot> nor <sdf>.",
+        "give a URDF, xacro, SDF or world file, or a model's folder",
+        "Error parsing XML in file",
+    ),
+    Entry(
+        "load.nothing",
+        "error",
+        "A file holds no model or no world",
+        "The file was read and is of the right kind, but what was asked for is not in it.",
+        "give a file with a <model> (for a robot) or a <world>",
+        "Unable to find <world> element",
+    ),
+)
