@@ -78,6 +78,11 @@ def test_package_without_manifest_is_guessed_by_its_words(tmp_path):
     for name in ("One", "Two"):
         assert message_type(f"bare/{name}")().header.frame_id == ""
         assert ros1_message_type(f"bare/{name}")._has_header
+    files = {"msg/Four.msg": "int32 a 5", "action/Go.action": "int8 g\n---\n---\n"}
+    add_package("plain", _package(tmp_path / "plain", files))
+    assert message_type("plain/Four")().a == 5
+    assert ros1_message_type("plain/Four")().a == 0
+    assert ros1_message_type("plain/GoActionGoal")().goal.g == action_type("plain/Go").Goal().g
 
 
 def test_own_package_comes_before_a_shipped_one_of_its_generation(tmp_path):

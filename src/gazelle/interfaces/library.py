@@ -19,6 +19,7 @@ __all__ = ["Source", "add_package", "add_search_path", "block_names", "find_sour
 
 _DATA = Path(__file__).parent / "definitions"
 _PARTS = ("msg", "srv", "action")
+_ROS1_WORDS = ("Header", "time", "duration")
 _lock = threading.Lock()
 _user_packages: dict[str, tuple[Path, Generation | None]] = {}
 _revision = 0
@@ -155,8 +156,15 @@ def _package_generation(folder: Path) -> Generation | None:
 
 
 def _fits(text: str, generation: Generation) -> bool:
-    """Guess from the words that only ROS 1 knows."""
-    first_words = {line.split(None, 1)[0] for line in text.splitlines() if line.strip()}
-    bare = {word.partition("[")[0] for word in first_words}
-    is_ros1 = bool(bare & {"Header", "time", "duration"})
-    return is_ros1 == (generation is Generation.ROS1)
+    """Guess from what only one generation can write; a neutral text fits both."""
+    lines = [line.partition("#")[0].split() for line in text.splitlines()]
+    if generation is Generation.ROS2:
+        return not any(words and words[0].partition("[")[0] in _ROS1_WORDS for words in lines)
+    return not any(_is_ros2_line(words) for words in lines)
+
+
+def _is_ros2_line(words: list[str]) -> bool:
+    if not words:
+        return False
+    has_default = len(words) > 2 and "=" not in "".join(words[1:])
+    return has_default or "<=" in words[0] or words[0].startswith(("wstring", "builtin_interf"))
