@@ -104,6 +104,15 @@ def test_ground_plane_is_endless_for_rays_that_see_collisions(scene_of, link) ->
     assert np.isinf(scan(scene_of(ground, kind="visuals"), FORWARD, down).ranges_m[0, 0])
 
 
+def test_shapes_without_thickness_are_met(scene_of, link) -> None:
+    sheet = link("sheet", Box((0.0, 2.0, 2.0)), Pose((3.0, 0.0, 0.0)))
+    disc = link("disc", Cylinder(1.0, 0.0), Pose((0.0, 0.0, -2.0)))
+    scene = scene_of(sheet, disc, kind="collisions")
+    assert scan(scene, FORWARD, Pose()).ranges_m[0, 0] == pytest.approx(3.0, abs=MILLIMETRE)
+    down = Pose.from_xyz_rpy((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
+    assert scan(scene, FORWARD, down).ranges_m[0, 0] == pytest.approx(2.0, abs=MILLIMETRE)
+
+
 def test_turned_sensor_frame_turns_the_scan(scene_of, room) -> None:
     scene = scene_of(*room, kind="collisions")
     rolled = Pose.from_xyz_rpy((0.0, 0.0, 1.0), (math.pi / 2, 0.0, 0.0))

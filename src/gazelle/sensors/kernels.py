@@ -151,11 +151,21 @@ def render_rows(
     valid_row = 40 * 16
     shadow_valid_row = 41 * 16
     light_count = lights.shape[0]
+    # The rest of both rays (time, id, flags, a shadow's beginning) is zero and stays so.
+    for j in range(16):
+        floats[j] = camera[0]
+        floats[16 + j] = camera[1]
+        floats[32 + j] = camera[2]
+        words[144 + j] = mask
+        words[shadow + 144 + j] = -0x80000000
     for y in range(first_row, last_row, 4):
         for x in range(0, width, 4):
             if tiles[y >> 2, x >> 2] == 0:
                 continue
-            total[:] = _ZERO
+            for j in range(16):
+                total[j, 0] = _ZERO
+                total[j, 1] = _ZERO
+                total[j, 2] = _ZERO
             for sample in range(samples * samples):
                 # Sample positions inside a pixel; one sample is its centre.
                 ox = np.float32((sample % samples + 0.5) / samples - 0.5)
@@ -166,18 +176,11 @@ def render_rows(
                     down = (py - cy) / fy
                     left = -(px - cx - skew * down) / fx
                     up = -down
-                    floats[j] = camera[0]
-                    floats[16 + j] = camera[1]
-                    floats[32 + j] = camera[2]
                     floats[48 + j] = clip[0]
                     floats[64 + j] = rotation[0, 0] + rotation[0, 1] * left + rotation[0, 2] * up
                     floats[80 + j] = rotation[1, 0] + rotation[1, 1] * left + rotation[1, 2] * up
                     floats[96 + j] = rotation[2, 0] + rotation[2, 1] * left + rotation[2, 2] * up
-                    floats[112 + j] = _ZERO
                     floats[128 + j] = clip[1]
-                    words[144 + j] = mask
-                    words[160 + j] = 0
-                    words[176 + j] = 0
                     words[288 + j] = -1
                     words[304 + j] = -1
                     inside = x + (j & 3) < width and y + (j >> 2) < height
@@ -248,10 +251,21 @@ def render_rows(
                             if texture >= 0:
                                 tu = bw * uv[a, 0] + bu * uv[b, 0] + bv * uv[c, 0]
                                 tv = bw * uv[a, 1] + bu * uv[b, 1] + bv * uv[c, 1]
-                        nm = normal_matrix[k]
-                        nx = nm[0, 0] * n0 + nm[0, 1] * n1 + nm[0, 2] * n2
-                        ny = nm[1, 0] * n0 + nm[1, 1] * n1 + nm[1, 2] * n2
-                        nz = nm[2, 0] * n0 + nm[2, 1] * n1 + nm[2, 2] * n2
+                        nx = (
+                            normal_matrix[k, 0, 0] * n0
+                            + normal_matrix[k, 0, 1] * n1
+                            + normal_matrix[k, 0, 2] * n2
+                        )
+                        ny = (
+                            normal_matrix[k, 1, 0] * n0
+                            + normal_matrix[k, 1, 1] * n1
+                            + normal_matrix[k, 1, 2] * n2
+                        )
+                        nz = (
+                            normal_matrix[k, 2, 0] * n0
+                            + normal_matrix[k, 2, 1] * n1
+                            + normal_matrix[k, 2, 2] * n2
+                        )
                         shrink = _ONE / math.sqrt(nx * nx + ny * ny + nz * nz + np.float32(1e-30))
                         nx *= shrink
                         ny *= shrink
@@ -375,15 +389,10 @@ def render_rows(
                                 floats[shadow + j] = point[j, 0]
                                 floats[shadow + 16 + j] = point[j, 1]
                                 floats[shadow + 32 + j] = point[j, 2]
-                                floats[shadow + 48 + j] = _ZERO
                                 floats[shadow + 64 + j] = lx
                                 floats[shadow + 80 + j] = ly
                                 floats[shadow + 96 + j] = lz
-                                floats[shadow + 112 + j] = _ZERO
                                 floats[shadow + 128 + j] = reach
-                                words[shadow + 144 + j] = -0x80000000
-                                words[shadow + 160 + j] = 0
-                                words[shadow + 176 + j] = 0
                                 words[shadow_valid_row + j] = -1
                                 anything = True
                         if anything:

@@ -49,6 +49,7 @@ Rays meet it in its own frame, where it is exactly z = 0: ranges stay within 0.1
 for sensors up to a kilometre from the plane's origin.
 """
 
+_THINNEST_M = 1e-6
 _UNIT_SPHERE = np.array([[0.0, 0.0, 0.0, 1.0]], np.float32)
 
 
@@ -98,7 +99,7 @@ def surface_of(
             return _shared(("capsule", shape.radius_m, shape.length_m), build), np.eye(4)
         case Plane():
             size = (ENDLESS_M, ENDLESS_M) if endless else shape.size_m
-            matrix = _facing(shape.normal) @ np.diag([*size, 1.0, 1.0])
+            matrix = _facing(shape.normal) @ _scale(*size, 1.0)
             return _shared(("plane",), _of_facets(unit_plane)), matrix
         case _:
             return _primitive(shape)
@@ -109,17 +110,17 @@ def _primitive(
 ) -> tuple[Surface, NDArray[np.float64]]:
     match shape:
         case Box(size_m=size):
-            return _shared(("box",), _of_facets(unit_box)), np.diag([*size, 1.0])
+            return _shared(("box",), _of_facets(unit_box)), _scale(*size)
         case Cylinder(radius_m=radius, length_m=length):
-            scale = np.diag([radius, radius, length, 1.0])
+            scale = _scale(radius, radius, length)
             return _shared(("cylinder",), _of_facets(unit_cylinder)), scale
         case Cone(radius_m=radius, length_m=length):
-            scale = np.diag([radius, radius, length, 1.0])
+            scale = _scale(radius, radius, length)
             return _shared(("cone",), _of_facets(unit_cone)), scale
         case Sphere(radius_m=radius):
-            return _shared(("sphere",), _sphere), np.diag([radius, radius, radius, 1.0])
+            return _shared(("sphere",), _sphere), _scale(radius, radius, radius)
         case Ellipsoid(radii_m=radii):
-            return _shared(("sphere",), _sphere), np.diag([*radii, 1.0])
+            return _shared(("sphere",), _sphere), _scale(*radii)
 
 
 def _shared(key: tuple[object, ...], build: Callable[[], Surface]) -> Surface:
@@ -166,7 +167,7 @@ def _file_surface(
             if mesh is None:
                 return None
             key = ("mesh", str(shape.path), shape.submesh, shape.center_submesh, id(mesh.parts[0]))
-            return _shared(key, lambda: _of_parts(mesh.parts)), np.diag([*shape.scale, 1.0])
+            return _shared(key, lambda: _of_parts(mesh.parts)), _scale(*shape.scale)
         case _:
             part = _made_part(shape, diagnostics)
             if part is None:
@@ -234,6 +235,12 @@ def _facets_of(part: MeshPart) -> Facets:
         np.ascontiguousarray(part.normals, np.float32),
         np.ascontiguousarray(uv, np.float32),
     )
+
+
+def _scale(x: float, y: float, z: float) -> NDArray[np.float64]:
+    """Return a scaling matrix; nothing is made so flat that rays could not be taken into it."""
+    factors = [math.copysign(max(abs(factor), _THINNEST_M), factor) for factor in (x, y, z)]
+    return np.diag([*factors, 1.0])
 
 
 def _facing(normal: tuple[float, float, float]) -> NDArray[np.float64]:
