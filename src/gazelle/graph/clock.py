@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Clock"]
 
-_PARAMETER = "/use_sim_time"
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
@@ -27,7 +26,14 @@ class Clock:
     then. Simulated time is 0 until the first message, as in ROS 1.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, read_parameter: Callable[[], Any]) -> None:
+        """Show wall time.
+
+        Args:
+            read_parameter: gives the value of ``/use_sim_time``.
+        """
+        self._read_parameter = read_parameter
+        self._switching = threading.RLock()
         self._changed = threading.Condition()
         self._nodes: list[Node] = []
         self._subscription: Subscription | None = None
@@ -80,36 +86,34 @@ class Clock:
 
     def follow(self, node: Node) -> None:
         """Let a node carry the subscription of ``/clock`` when it is needed."""
-        with self._changed:
+        with self._switching:
             self._nodes.append(node)
-        self.refresh(node.graph.parameters.get_cached(_PARAMETER, False))
+            self.refresh()
 
     def leave(self, node: Node) -> None:
         """Count on a node no more; another one takes the subscription over."""
-        with self._changed:
+        with self._switching:
             self._nodes = [one for one in self._nodes if one is not node]
             if self._owner is node:
                 self._owner = self._subscription = None
-        self.refresh(self._use_sim_time)
+            self.refresh()
 
-    def refresh(self, use_sim_time: Any) -> None:
-        """Use simulated or wall time from now on."""
-        with self._changed:
-            use_sim_time = use_sim_time is True or use_sim_time == "true"
-            if use_sim_time != self._use_sim_time:
-                self._use_sim_time = use_sim_time
-                self._changed.notify_all()
-            needs = use_sim_time and self._subscription is None and bool(self._nodes)
-            owner = self._owner = self._nodes[0] if needs else self._owner
-            done = None if use_sim_time else self._subscription
-            if done is not None:
-                self._subscription = self._owner = None
-        if done is not None:
-            done.unregister()
-        if needs and owner is not None:
-            self._subscription = owner.create_subscription(
-                "/clock", resolve_type(_CLOCK_TYPE), self._on_clock, inline=True
-            )
+    def refresh(self) -> None:
+        """Use simulated or wall time, as the parameter says now."""
+        with self._switching:
+            wanted = bool(self._nodes) and _is_true(self._read_parameter())
+            if self._nodes and wanted != self._use_sim_time:
+                with self._changed:
+                    self._use_sim_time = wanted
+                    self._changed.notify_all()
+            if wanted and self._subscription is None:
+                self._owner = self._nodes[0]
+                self._subscription = self._owner.create_subscription(
+                    "/clock", resolve_type(_CLOCK_TYPE), self._on_clock, inline=True
+                )
+            elif not wanted and self._subscription is not None:
+                self._subscription.unregister()
+                self._owner = self._subscription = None
 
     def close(self) -> None:
         """Wake everybody who sleeps."""
@@ -136,3 +140,7 @@ class Clock:
             while self._use_sim_time and not self._sim_ns and not self._closed:
                 self._changed.wait()
         return not self._closed
+
+
+def _is_true(value: Any) -> bool:
+    return value is True or value == "true"

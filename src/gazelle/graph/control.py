@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import control_key
 from gazelle.graph.parameter_tree import from_json, to_json
 
@@ -36,13 +37,19 @@ class Control:
             zid: the session's name.
             shut_down: ends a node by name and reason; tells whether there was one.
         """
+        import zenoh
+
         self._key = control_key(domain, zid)
         self._shut_down = shut_down
-        self._queryable: Any = session.declare_queryable(self._key, self._answer)
+        self._mailbox = Mailbox(self._answer, size=0, name="control")
+        # Direct: zenoh's own callback threads would keep a process from ending.
+        callback = zenoh.handlers.Callback(self._mailbox.put, None, indirect=False)
+        self._queryable: Any = session.declare_queryable(self._key, callback)
 
     def close(self) -> None:
         """Answer no more."""
         self._queryable.undeclare()
+        self._mailbox.close()
 
     def _answer(self, query: Any) -> None:
         request = from_json(query.payload.to_bytes())

@@ -34,6 +34,7 @@ __all__ = ["Graph"]
 Role = Literal["auto", "hub", "client"]
 
 _HUB_S = 3.0
+_USE_SIM_TIME = "/use_sim_time"
 _TAKEN_OVER = "new node registered with same name"
 
 
@@ -71,10 +72,10 @@ class Graph:
         self.port = port
         self.domain = domain
         self.zid = str(session.zid())
-        self.clock = Clock()
         self.local = LocalTopics()
-        self.parameter_share = ParameterShare(session, domain)
+        self.parameter_share = ParameterShare(session)
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
+        self.clock = Clock(lambda: self.parameters.get_cached(_USE_SIM_TIME, False))
         self._environ = environ
         self._keeper = keeper
         self._discovery = Discovery(session, domain)
@@ -309,9 +310,9 @@ class Graph:
         atexit.register(self.close)
 
     def _on_parameter(self, name: str) -> None:
-        if name in ("/", "/use_sim_time"):
-            value = self.parameters.get_cached("/use_sim_time", False)
-            threading.Thread(target=self.clock.refresh, args=(value,), daemon=True).start()
+        if name in ("/", _USE_SIM_TIME):
+            # Not here: the store waits for its listeners, and subscribing takes its time.
+            threading.Thread(target=self.clock.refresh, daemon=True).start()
 
     def _shut_node_down(self, name: str, reason: str) -> bool:
         with self._lock:
@@ -358,16 +359,16 @@ def _open_peer(
 def _open_client(port: int) -> zenoh.Session:
     import zenoh
 
-    try:
-        return zenoh.open(client_config(port))
-    except zenoh.ZError as error:
-        if _somebody_listens(port):
-            raise _port_taken(port) from error
+    if not _somebody_listens(port):
         raise NoGraphError(
             f"no graph is running on port {port} (Unable to communicate with master!)\n"
             "  fix: start a launch, a simulator or `gazelle roscore`; GAZELLE_PORT, "
             "ROS_DOMAIN_ID and ROS_MASTER_URI must be the same in all shells"
-        ) from None
+        )
+    try:
+        return zenoh.open(client_config(port))
+    except zenoh.ZError as error:
+        raise _port_taken(port) from error
 
 
 def _somebody_listens(port: int) -> bool:

@@ -214,6 +214,6 @@ def control_key(domain: int, zid: str) -> str:
     return f"{_OWN_SPACE}/{domain}/control/{zid}"
 
 
-def parameter_key(domain: int, what: str) -> str:
-    """Return the key of the parameter store: ``store`` to ask, ``update`` for changes."""
-    return f"{_OWN_SPACE}/{domain}/parameters/{what}"
+def parameter_key(what: str) -> str:
+    """Return the key of the hub's parameter store: ``store`` to ask, ``update`` for changes."""
+    return f"{_OWN_SPACE}/parameters/{what}"

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
+from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import parameter_key
 from gazelle.graph.names import resolve
 from gazelle.graph.parameter_tree import ParameterTree, from_json, to_json
@@ -34,10 +35,11 @@ Listener = Callable[[str], None]
 class ParameterShare:
     """One process' part in the store: the owner, a copy of it, or neither."""
 
-    def __init__(self, session: zenoh.Session, domain: int) -> None:
+    def __init__(self, session: zenoh.Session) -> None:
+        """Hold nothing yet."""
         self._session = session
-        self._key = parameter_key(domain, "store")
-        self._update_key = parameter_key(domain, "update")
+        self._key = parameter_key("store")
+        self._update_key = parameter_key("update")
         self._tree = ParameterTree()
         self._lock = threading.RLock()
         self._owner = False
@@ -45,6 +47,8 @@ class ParameterShare:
         self._waiting: list[dict[str, Any]] = []
         self._listeners: list[Listener] = []
         self._declared: list[Any] = []
+        # Neither answering nor listening may hold up the thread that receives.
+        self._mailbox = Mailbox(lambda job: job[0](job[1]), size=0, name="parameters")
 
     def own(self) -> None:
         """Become the owner with what the copy holds, and tell everybody the whole tree."""
@@ -52,7 +56,9 @@ class ParameterShare:
             if self._owner:
                 return
             self._owner = True
-            self._declared.append(self._session.declare_queryable(self._key, self._answer))
+            self._declared.append(
+                self._session.declare_queryable(self._key, self._later(self._answer))
+            )
             revision = self._tree.revision
             self._tell({"op": "root", "value": self._tree.get("/"), "revision": revision})
 
@@ -61,7 +67,9 @@ class ParameterShare:
         with self._lock:
             if self._owner or self._copied or self._declared:
                 return
-            subscriber = self._session.declare_subscriber(self._update_key, self._on_update)
+            subscriber = self._session.declare_subscriber(
+                self._update_key, self._later(self._on_update)
+            )
             self._declared.append(subscriber)
         answer = self.ask({"op": "root"})
         with self._lock:
@@ -106,6 +114,14 @@ class ParameterShare:
             declared, self._declared = self._declared, []
         for one in declared:
             one.undeclare()
+        self._mailbox.close()
+
+    def _later(self, handle: Callable[[Any], None]) -> Any:
+        import zenoh
+
+        return zenoh.handlers.Callback(
+            lambda item: self._mailbox.put((handle, item)), None, indirect=False
+        )
 
     def _ask_owner(self, request: dict[str, Any]) -> dict[str, Any]:
         payload = to_json(request)

@@ -142,5 +142,9 @@ def _declare(session: Any, key: str, entity: Entity) -> tuple[Any, Any]:
         congestion_control=block,
         allowed_destination=remote,
         cache=zenoh.ext.CacheConfig(1),
+        # Numbers each publisher's samples; by time alone, those of one process shadow each other.
+        sample_miss_detection=zenoh.ext.MissDetectionConfig(
+            heartbeat=None, sporadic_heartbeat=None
+        ),
         publisher_detection=True,
     )

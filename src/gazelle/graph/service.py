@@ -156,8 +156,10 @@ class ServiceClient:
             reply = self._ask(payload, _FOR_EVER_S if timeout_s is None else timeout_s)
             if reply is not None:
                 return self._read(reply, timeout_s)
-            if not self.available or time.monotonic() - start > _SETTLING_S:
-                raise self._unavailable()
+            servers = self._servers()
+            types = {one.type_name for one in servers}
+            if self.entity.type_name not in types or time.monotonic() - start > _SETTLING_S:
+                raise self._unavailable(types)
             # The announcement of a new service can overtake the service itself.
             time.sleep(_RETRY_S)
 
@@ -189,13 +191,19 @@ class ServiceClient:
             raise ServiceTimeoutError(f"service [{self.name}] did not answer in {timeout_s:g} s")
         raise ServiceCallError(f"transport error completing service call: {text}")
 
-    def _unavailable(self) -> GraphError:
+    def _servers(self) -> list[Entity]:
+        entities = self._graph.entities()
+        return [one for one in entities if one.kind is Kind.SERVICE and one.name == self.name]
+
+    def _unavailable(self, types: set[str]) -> GraphError:
         own = self.entity.type_name
-        services = [one for one in self._graph.entities() if one.kind is Kind.SERVICE]
-        other = next((one.type_name for one in services if one.name == self.name), own)
         text = f"service [{self.name}] unavailable"
-        if other != own:
-            text += f": it has type {other}, the client wants {own} [graph.type-mismatch]"
-        elif nearest := nearest_names(self.name, {one.name for one in services}):
-            text += "; did you mean " + " or ".join(nearest) + "?"
+        if types - {own}:
+            text += (
+                f": it has type {min(types - {own})}, the client wants {own} [graph.type-mismatch]"
+            )
+        elif not types:
+            names = {one.name for one in self._graph.services(include_hidden=True)}
+            nearest = nearest_names(self.name, names)
+            text += f"; did you mean {' or '.join(nearest)}?" if nearest else ""
         return ServiceUnavailableError(text)

@@ -277,11 +277,11 @@ class TransformBuffer:
                 break
             frame, pose = sample.parent, sample.pose @ pose
         frame, pose = target, IDENTITY_POSE
-        while frame not in T_frame_source:
+        for _ in range(_DEEPEST):
+            if frame in T_frame_source:
+                return pose.inverse() @ T_frame_source[frame]
             history = self._frames.get(frame)
             if history is None:
-                if failure is None:
-                    raise self._unconnected(target, source)
                 break
             try:
                 sample = history.at(stamp_ns)
@@ -289,8 +289,8 @@ class TransformBuffer:
                 failure = error
                 break
             frame, pose = sample.parent, sample.pose @ pose
-        else:
-            return pose.inverse() @ T_frame_source[frame]
+        if failure is None:
+            raise self._unconnected(target, source)
         raise ExtrapolationError(
             f"{failure}, when looking up transform from frame [{source}] to frame [{target}]"
         )

@@ -1,0 +1,90 @@
+"""A graph of its own for each test, on a free port, and means to wait without sleeping."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from gazelle.graph import Graph
+
+PATIENCE_S = 10.0
+
+
+class Inbox:
+    """Collects what a callback gets and lets a test wait for it."""
+
+    def __init__(self) -> None:
+        self.items: list[Any] = []
+        self._changed = threading.Condition()
+
+    def __call__(self, *items: Any) -> None:
+        with self._changed:
+            self.items.append(items[0] if len(items) == 1 else items)
+            self._changed.notify_all()
+
+    def wait_for(self, count: int, timeout_s: float = PATIENCE_S) -> list[Any]:
+        with self._changed:
+            assert self._changed.wait_for(lambda: len(self.items) >= count, timeout_s), self.items
+            return list(self.items)
+
+
+def _eventually(condition: Callable[[], Any], timeout_s: float = PATIENCE_S) -> Any:
+    deadline = time.monotonic() + timeout_s
+    pause = threading.Event()
+    while not (found := condition()):
+        assert time.monotonic() < deadline, "did not happen in time"
+        pause.wait(0.002)
+    return found
+
+
+@pytest.fixture
+def port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture
+def join(port: int) -> Iterator[Callable[..., Graph]]:
+    """Opens graphs as if each were a process of its own."""
+    opened: list[Graph] = []
+
+    def open_one(**options: Any) -> Graph:
+        opened.append(Graph.open(port=port, environ=options.pop("environ", {}), **options))
+        return opened[-1]
+
+    yield open_one
+    for one in reversed(opened):
+        one.close()
+
+
+@pytest.fixture
+def graph(join: Callable[..., Graph]) -> Graph:
+    return join()
+
+
+@pytest.fixture
+def other(graph: Graph, join: Callable[..., Graph]) -> Graph:
+    """A second member; the first one carries the hub."""
+    return join()
+
+
+@pytest.fixture
+def inbox() -> Inbox:
+    return Inbox()
+
+
+@pytest.fixture
+def make_inbox() -> type[Inbox]:
+    return Inbox
+
+
+@pytest.fixture
+def eventually() -> Callable[..., Any]:
+    """Waits until a condition gives something true, and returns it."""
+    return _eventually

@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from gazelle.graph import Graph, Node, TimeJumpError
+from gazelle.interfaces import message_type
+
+ClockMessage = message_type("rosgraph_msgs/msg/Clock")
+Wait = Callable[..., Any]
+S = 1_000_000_000
+
+
+@pytest.fixture
+def simulated(graph: Graph) -> Graph:
+    graph.parameters.set("/use_sim_time", True)
+    return graph
+
+
+class _Simulator:
+    def __init__(self, node: Node) -> None:
+        self._publisher = node.create_publisher("/clock", ClockMessage)
+
+    def show(self, now_ns: int) -> None:
+        message = ClockMessage()
+        message.clock.sec, message.clock.nanosec = divmod(now_ns, S)
+        self._publisher.publish(message)
+
+
+def test_wall_time_is_the_default(graph: Graph) -> None:
+    clock = graph.create_node("a").clock
+    before = time.time_ns()
+    assert before <= clock.now_ns() <= time.time_ns()
+    assert not clock.use_sim_time
+    assert "/clock" not in dict(graph.topic_names_and_types())
+    target = clock.now_ns() + 2_000_000
+    assert clock.sleep_until(target)
+    assert clock.now_ns() >= target
+
+
+def test_simulated_time_follows_clock(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    assert node.clock.use_sim_time
+    assert node.clock.now_ns() == 0
+    _Simulator(node).show(5 * S + 7)
+    assert node.clock.now_ns() == 5 * S + 7
+
+
+def test_simulated_time_reaches_other_processes(
+    simulated: Graph, join: Callable[..., Graph], eventually: Wait
+) -> None:
+    member = join().create_node("b")
+    simulator = _Simulator(simulated.create_node("a"))
+    eventually(lambda: simulator._publisher.subscription_count == 2)
+
+    def shown() -> bool:
+        simulator.show(3 * S)
+        return member.clock.now_ns() == 3 * S
+
+    eventually(shown)
+
+
+def test_use_sim_time_may_be_set_later(graph: Graph, eventually: Wait) -> None:
+    node = graph.create_node("a")
+    graph.parameters.set("/use_sim_time", True)
+    eventually(lambda: node.clock.use_sim_time)
+    graph.parameters.set("/use_sim_time", False)
+    eventually(lambda: not node.clock.use_sim_time)
+    eventually(lambda: "/clock" not in dict(graph.topic_names_and_types()))
+
+
+def test_one_node_of_a_process_carries_the_clock(simulated: Graph, eventually: Wait) -> None:
+    first, second = simulated.create_node("a"), simulated.create_node("b")
+    assert len(simulated.subscriptions_info("/clock")) == 1
+    first.shutdown()
+    eventually(lambda: [one.node for one in simulated.subscriptions_info("/clock")] == ["/b"])
+    _Simulator(second).show(2 * S)
+    assert second.clock.now_ns() == 2 * S
+
+
+def _sleep_in_thread(sleep: Callable[[], Any]) -> tuple[threading.Thread, list[Any]]:
+    outcome: list[Any] = []
+
+    def run() -> None:
+        try:
+            outcome.append(sleep())
+        except TimeJumpError as error:
+            outcome.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    return thread, outcome
+
+
+def test_sleep_ends_with_simulated_time(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    simulator = _Simulator(node)
+    simulator.show(1 * S)
+    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep_until(3 * S))
+    simulator.show(2 * S)
+    assert not outcome
+    simulator.show(3 * S)
+    thread.join(10)
+    assert outcome == [True]
+
+
+def test_sleep_waits_for_the_first_clock(simulated: Graph, eventually: Wait) -> None:
+    node = simulated.create_node("a")
+    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))
+    simulator = _Simulator(node)
+    now_ns = 100 * S
+
+    def over() -> bool:
+        nonlocal now_ns
+        now_ns += S // 4
+        simulator.show(now_ns)
+        return bool(outcome)
+
+    eventually(over)
+    thread.join(10)
+    assert outcome == [True]
+    assert now_ns >= 101 * S
+
+
+def test_jump_back_wakes_sleepers_and_tells_listeners(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    simulator = _Simulator(node)
+    simulator.show(10 * S)
+    jumps: list[int] = []
+    node.clock.on_jump(jumps.append)
+    asleep = threading.Event()
+
+    def sleep() -> bool:
+        asleep.set()
+        return node.clock.sleep_until(20 * S)
+
+    thread, outcome = _sleep_in_thread(sleep)
+    assert asleep.wait(10)
+    with node.clock._changed:
+        simulator_jump = threading.Thread(target=simulator.show, args=(1 * S,))
+        simulator_jump.start()
+    simulator_jump.join(10)
+    simulator.show(30 * S)
+    thread.join(10)
+    assert jumps == [-9 * S]
+    assert len(outcome) == 1
+    if outcome != [True]:  # asleep before the jump, as nearly always
+        assert str(outcome[0]) == "time moved backwards by 9.000000000 s"
+        assert outcome[0].delta_ns == -9 * S
+
+
+def test_closing_wakes_sleepers(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))
+    simulated.close()
+    thread.join(10)
+    assert outcome == [False]

@@ -1,0 +1,139 @@
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from gazelle.errors import NotFoundError
+from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, TopicInfo
+from gazelle.interfaces import message_type, service_type
+
+String = message_type("std_msgs/msg/String")
+SetBool = service_type("std_srvs/srv/SetBool")
+Join = Callable[..., Graph]
+
+
+@pytest.fixture
+def stranger(port: int) -> Iterator[int]:
+    """A program that holds the port and never says a word."""
+    with socket.create_server(("127.0.0.1", port)) as server:
+        yield port
+        server.close()
+
+
+def test_first_member_carries_the_hub_others_join(join: Join) -> None:
+    first, second, tool = join(), join(role="hub"), join(role="client")
+    assert (first.is_hub, second.is_hub, tool.is_hub) == (True, False, False)
+    assert first.connected
+    assert second.connected
+    assert tool.connected
+
+
+def test_port_of_a_stranger_is_one_clear_error(
+    stranger: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gazelle.graph.graph._HUB_S", 0.2)
+    for role in ("auto", "client"):
+        with pytest.raises(PortTakenError) as caught:
+            Graph.open(port=stranger, environ={}, role=role)  # type: ignore[arg-type]
+        text = str(caught.value)
+        assert f"port {stranger} on 127.0.0.1 is taken by a program that is not a Gazelle" in text
+        assert "[graph.port-taken]" in text
+        assert f"export GAZELLE_PORT={stranger + 1}" in text
+    assert Graph.current() is None
+
+
+def test_client_without_a_graph_is_told_how_to_start_one(port: int) -> None:
+    with pytest.raises(NoGraphError, match="Unable to communicate with master!"):
+        Graph.open(port=port, environ={}, role="client")
+
+
+def test_fresh_client_sees_everything(graph: Graph, other: Graph, join: Join) -> None:
+    for number, member in enumerate((graph, other)):
+        node = member.create_node(f"n{number}", rosout=False)
+        for topic in range(20):
+            node.create_publisher(f"t{topic}", String)
+        node.create_subscription("t0", None, print)
+        node.create_subscription("any", None, print)
+        node.create_service(f"s{number}", SetBool, print)
+    tool = join(role="client")
+    topics = tool.topics()
+    assert len(topics) == 21
+    assert topics[0] == TopicInfo("/any", "*", (), ("/n0", "/n1"))
+    assert topics[1] == TopicInfo("/t0", "std_msgs/msg/String", ("/n0", "/n1"), ("/n0", "/n1"))
+    assert (topics[1].n_publishers, topics[1].n_subscriptions) == (2, 2)
+    assert [(one.name, one.type_name, one.servers) for one in tool.services()] == [
+        ("/s0", "std_srvs/srv/SetBool", ("/n0",)),
+        ("/s1", "std_srvs/srv/SetBool", ("/n1",)),
+    ]
+    assert tool.node_names() == ("/n0", "/n1")
+    assert graph.topics() == other.topics() == topics
+
+
+def test_hidden_names_are_left_out(graph: Graph) -> None:
+    node = graph.create_node("n", rosout=False)
+    node.create_publisher("/_hidden", String)
+    node.create_publisher("/a/_b/c", String)
+    assert graph.topics() == ()
+    assert len(graph.topics(include_hidden=True)) == 2
+
+
+def test_node_info_knows_the_process(graph: Graph, join: Join) -> None:
+    import os
+
+    node = graph.create_node("n", rosout=False)
+    node.create_publisher("a", String)
+    node.create_client("s", SetBool)
+    info = join(role="client").node_info("n")
+    assert info.publications == (Endpoint("/a", "std_msgs/msg/String"),)
+    assert info.clients == (Endpoint("/s", "std_srvs/srv/SetBool"),)
+    assert (info.pid, info.host) == (os.getpid(), socket.gethostname())
+    with pytest.raises(NotFoundError, match="node '/m' not found"):
+        graph.node_info("/m")
+
+
+def test_node_can_be_killed_by_name(graph: Graph, join: Join, inbox: Any) -> None:
+    node = graph.create_node("n")
+    node.on_shutdown(inbox)
+    assert join(role="client").kill_node("/n")
+    assert inbox.wait_for(1) == ["user request"]
+    assert node.closed or threading.Event().wait(1) or node.closed
+
+
+def test_domains_do_not_see_each_other(graph: Graph, join: Join) -> None:
+    elsewhere = join(environ={"ROS_DOMAIN_ID": "7"})
+    graph.create_node("n")
+    assert elsewhere.node_names() == ()
+
+
+def test_publishers_and_subscriptions_of_a_topic(graph: Graph, other: Graph) -> None:
+    graph.create_node("a").create_publisher("x", String, latch=True, reliable=False, queue_size=3)
+    other.create_node("b").create_subscription("x", String, print)
+    (publisher,) = other.publishers_info("x")
+    assert (publisher.node, publisher.type_name, publisher.qos) == (
+        "/a",
+        "std_msgs/msg/String",
+        (False, True, 3),
+    )
+    (subscription,) = graph.subscriptions_info("/x")
+    assert subscription.node == "/b"
+
+
+def test_changes_of_the_graph_are_told(graph: Graph, other: Graph, inbox: Any) -> None:
+    graph.discovery.listen(lambda entity, is_there: inbox(entity.node, is_there))
+    node = other.create_node("n", rosout=False)
+    assert inbox.wait_for(1) == [("/n", True)]
+    node.shutdown()
+    assert inbox.wait_for(2)[1] == ("/n", False)
+
+
+def test_closed_graph_is_no_longer_current(graph: Graph) -> None:
+    assert Graph.current() is graph
+    graph.close()
+    graph.close()
+    assert Graph.current() is None
+    with pytest.raises(Exception, match="the graph is closed"):
+        graph.create_node("n")

@@ -1,0 +1,38 @@
+"""The hub moves when its process ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+
+String = message_type("std_msgs/msg/String")
+
+
+def test_hub_is_taken_over_and_messages_flow_on(
+    graph: Graph,
+    other: Graph,
+    join: Callable[..., Graph],
+    inbox: Any,
+    eventually: Callable[..., Any],
+) -> None:
+    third = join()
+    publisher = other.create_node("talker").create_publisher("chatter", String)
+    third.create_node("listener").create_subscription("chatter", String, inbox)
+    eventually(lambda: publisher.matched)
+    graph.close()
+    publisher.publish(String(data="still here"))
+    assert inbox.wait_for(1)[0].data == "still here"
+    eventually(lambda: other.is_hub != third.is_hub and other.connected and third.connected, 3.0)
+    late = join()
+    late.create_node("late").create_subscription("chatter", String, inbox)
+    eventually(lambda: publisher.subscription_count == 2)
+    client = join(role="client")
+    assert client.node_names() == ("/late", "/listener", "/talker")
+
+
+def test_last_member_leaves_the_port_free(graph: Graph, join: Callable[..., Graph]) -> None:
+    graph.close()
+    assert join().is_hub

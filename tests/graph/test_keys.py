@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import pytest
+
+from gazelle.graph import keys
+from gazelle.graph.keys import Attachment, Entity, Kind, Qos
+
+HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+
+
+def test_topic_key_is_that_of_rmw_zenoh() -> None:
+    """The example of ros2/rmw_zenoh, docs/design.md."""
+    assert keys.topic_key(0, "/chatter", "std_msgs/msg/String", HASH) == (
+        f"0/chatter/std_msgs::msg::dds_::String_/{HASH}"
+    )
+
+
+def test_tokens_are_those_of_rmw_zenoh() -> None:
+    node = Entity("aac3178e", 0, 0, Kind.NODE, "/listener")
+    assert keys.token(2, node) == "@ros2_lv/2/aac3178e/0/0/NN/%/%/listener"
+    publisher = Entity(
+        "aac3178e", 0, 10, Kind.PUBLISHER, "/ns/talker", "/chatter", "std_msgs/msg/String", HASH
+    )
+    assert keys.token(0, publisher) == (
+        "@ros2_lv/0/aac3178e/0/10/MP/%/%ns/talker/%chatter/"
+        f"std_msgs::msg::dds_::String_/{HASH}/::,:,:,:,,"
+    )
+
+
+@pytest.mark.parametrize("kind", list(Kind))
+def test_token_round_trip(kind: Kind) -> None:
+    node = Entity("12ab", 3, 4, kind, "/a/b/name")
+    entity = node if kind is Kind.NODE else Entity(
+        "12ab", 3, 4, kind, "/a/b/name", "/x/y", "std_srvs/srv/Empty", HASH, Qos(False, True, 7)
+    )  # fmt: skip
+    assert Entity.from_token(keys.token(5, entity)) == entity
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "a/b", "@ros2_lv/0/z/0/0/XX/%/%/n", "@ros2_lv/0/z/x/0/NN/%/%/n", "@x/0/z/0/0/NN/%/%/n"],
+)
+def test_what_is_no_token_is_left_out(text: str) -> None:
+    assert Entity.from_token(text) is None
+
+
+def test_qos_as_rmw_zenoh_writes_it() -> None:
+    assert Qos().to_key() == "::,:,:,:,,"
+    assert Qos(reliable=False, latched=True, depth=10).to_key() == "2:1:,10:,:,:,,"
+    assert Qos.from_key("1:2:1,5:,:,:,,") == Qos(True, False, 5)
+    assert Qos.from_key("") == Qos()
+
+
+def test_attachment_is_the_33_bytes_of_rmw_zenoh() -> None:
+    attachment = Attachment(1, 2, bytes(range(16)))
+    data = attachment.to_bytes()
+    assert data == b"\1" + bytes(7) + b"\2" + bytes(7) + b"\x10" + bytes(range(16))
+    assert Attachment.from_bytes(data) == attachment
+    assert Attachment.from_bytes(b"short") == Attachment(0, 0, bytes(16))
+
+
+def test_any_type_survives_the_wire() -> None:
+    assert keys.ros_type(keys.dds_type(keys.ANY_TYPE)) == keys.ANY_TYPE
+    assert keys.ros_type("sensor_msgs::msg::dds_::LaserScan_") == "sensor_msgs/msg/LaserScan"
+
+
+def test_gid_is_16_bytes_and_the_same_everywhere() -> None:
+    assert keys.entity_gid("x") == keys.entity_gid("x") != keys.entity_gid("y")
+    assert len(keys.entity_gid("x")) == 16

@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from gazelle.errors import GraphError
+from gazelle.graph import Graph, IllegalNameError
+from gazelle.interfaces import message_type, ros1_message_type, service_type
+
+String = message_type("std_msgs/msg/String")
+Empty = service_type("std_srvs/srv/Empty")
+Wait = Callable[..., Any]
+
+
+def test_names_are_resolved_and_remapped(graph: Graph) -> None:
+    node = graph.create_node("n", namespace="ns", remappings={"in": "/out", "~p": "q"})
+    assert (node.name, node.namespace) == ("/ns/n", "/ns")
+    assert node.create_publisher("in", String).topic == "/out"
+    assert node.create_publisher("x", String).topic == "/ns/x"
+    assert node.create_subscription("~p", String, print).topic == "/ns/q"
+    assert node.resolve_name("~y") == "/ns/n/y"
+    with pytest.raises(IllegalNameError, match="Character \\[-\\]"):
+        node.create_publisher("my-topic", String)
+
+
+def test_ros_namespace_is_the_default_namespace(join: Callable[..., Graph]) -> None:
+    graph = join(environ={"ROS_NAMESPACE": "robot1"})
+    assert graph.create_node("n").name == "/robot1/n"
+
+
+def test_anonymous_nodes_live_side_by_side(graph: Graph) -> None:
+    names = {graph.create_node("n", anonymous=True).name for _ in range(3)}
+    assert len(names) == 3
+    assert set(graph.node_names()) == names
+
+
+def test_newer_node_of_the_same_name_ends_the_older(
+    graph: Graph, other: Graph, inbox: Any, eventually: Wait, capsys: pytest.CaptureFixture[str]
+) -> None:
+    older = graph.create_node("n")
+    older.create_publisher("old", String)
+    older.on_shutdown(inbox)
+    newer = other.create_node("n")
+    assert inbox.wait_for(1) == ["new node registered with same name"]
+    eventually(lambda: older.closed and "/old" not in dict(other.topic_names_and_types()))
+    assert not newer.closed
+    assert other.node_names() == ("/n",)
+    assert "shutdown request: [/n] Reason: new node registered with same name" in (
+        capsys.readouterr().err
+    )
+
+
+def test_shutdown_takes_everything_off_the_graph(
+    graph: Graph, other: Graph, eventually: Wait
+) -> None:
+    node = graph.create_node("n")
+    node.create_publisher("a", String)
+    node.create_subscription("b", String, print)
+    node.create_service("c", Empty, print)
+    node.create_client("d", Empty)
+    assert len(other.node_info("n").publications) == 2
+    reasons: list[str] = []
+    node.on_shutdown(reasons.append)
+    node.shutdown("bye")
+    node.shutdown("again")
+    assert reasons == ["bye"]
+    eventually(lambda: not other.entities())
+    assert graph.nodes == ()
+    with pytest.raises(GraphError, match="node /n is shut down; it cannot create x"):
+        node.create_publisher("x", String)
+
+
+def test_log_goes_to_console_and_rosout(
+    graph: Graph, other: Graph, inbox: Any, eventually: Wait, capsys: pytest.CaptureFixture[str]
+) -> None:
+    node = graph.create_node("talker")
+    log_class = ros1_message_type("rosgraph_msgs/Log")
+    other.create_node("listener").create_subscription("/rosout", log_class, inbox)
+    eventually(lambda: node._rosout is not None and node._rosout.matched)
+    node.log("debug", "not shown")
+    node.log("warn", "careful")
+    message = inbox.wait_for(1)[0]
+    assert (message.level, message.name, message.msg) == (4, "/talker", "careful")
+    assert message.file.endswith("test_node.py")
+    assert message.function == "test_log_goes_to_console_and_rosout"
+    assert capsys.readouterr().err.endswith("]: careful\n")

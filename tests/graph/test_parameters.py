@@ -1,0 +1,78 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from gazelle.errors import GraphError
+from gazelle.graph import Graph
+
+
+def test_every_member_sees_the_same_parameters(
+    graph: Graph, other: Graph, join: Callable[..., Graph]
+) -> None:
+    client = join(role="client")
+    value = {"i": 1, "f": 1.0, "b": b"\0", "l": [True, "x"]}
+    other.parameters.set("/robot", value)
+    for member in (graph, other, client):
+        assert member.parameters.get("/robot") == value
+        assert type(member.parameters.get("/robot/f")) is float
+        assert member.parameters.names() == ["/robot/i", "/robot/f", "/robot/b", "/robot/l"]
+    client.parameters.delete("/robot/i")
+    assert not graph.parameters.has("/robot/i")
+
+
+def test_node_names_apply(other: Graph) -> None:
+    node = other.create_node("arm", namespace="/left", remappings={"speed": "/speed"})
+    node.parameters.set("~gain", 2)
+    node.parameters.set("limit", 3)
+    node.parameters.set("speed", 4)
+    assert other.parameters.get("/") == {"left": {"arm": {"gain": 2}, "limit": 3}, "speed": 4}
+    assert node.parameters.search("limit") == "/left/limit"
+    assert node.parameters.search("gain") == "/left/arm/gain"
+    assert node.parameters.search("none") is None
+
+
+def test_missing_parameters(other: Graph) -> None:
+    with pytest.raises(KeyError, match="/nothing"):
+        other.parameters.get("nothing")
+    with pytest.raises(KeyError, match="/nothing"):
+        other.parameters.delete("nothing")
+    assert other.parameters.get("nothing", 5) == 5
+    assert other.parameters.get_cached("nothing", None) is None
+
+
+def test_bad_values_are_refused_where_they_are_set(other: Graph) -> None:
+    with pytest.raises(GraphError, match="cannot set root of parameter tree"):
+        other.parameters.set("/", 5)
+
+
+def test_cached_reads_follow_changes(
+    graph: Graph, other: Graph, eventually: Callable[..., Any]
+) -> None:
+    changed: list[str] = []
+    graph.parameters.on_change(changed.append)
+    other.parameters.set("/a", 1)
+    assert other.parameters.get_cached("/a") == 1
+    assert graph.parameters.get_cached("/a") == 1
+    graph.parameters.set("/a", 2)
+    eventually(lambda: other.parameters.get_cached("/a") == 2)
+    graph.parameters.delete("/a")
+    eventually(lambda: other.parameters.get_cached("/a", None) is None)
+    assert changed == ["/a", "/a", "/a"]
+
+
+def test_nearest_names_help(graph: Graph) -> None:
+    graph.parameters.set("/robot_description", "<robot/>")
+    assert graph.parameters.nearest("/robot_descripton") == ("/robot_description",)
+
+
+def test_parameters_move_with_the_hub(
+    graph: Graph, other: Graph, eventually: Callable[..., Any]
+) -> None:
+    graph.parameters.set("/kept", [1, 2.0])
+    eventually(lambda: other.parameters.get_cached("/kept", None) is not None)
+    graph.close()
+    assert other.parameters.get("/kept") == [1, 2.0]
+    eventually(lambda: other.is_hub)

@@ -1,0 +1,102 @@
+"""Real processes: how they end, and how the others notice."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from gazelle.graph import Graph
+
+NODE = """
+import sys, threading
+from gazelle.graph import Graph
+graph = Graph.open(port={port}, environ={{}})
+node = graph.create_node("{name}")
+node.create_publisher("chatter", "std_msgs/msg/String", latch=True)
+node.create_subscription("chatter", None, print)
+print("ready", graph.is_hub, flush=True)
+{end}
+"""
+
+Start = Callable[..., "subprocess.Popen[str]"]
+
+
+@pytest.fixture
+def start(port: int) -> Iterator[Start]:
+    started: list[subprocess.Popen[str]] = []
+
+    def run(name: str, end: str = "threading.Event().wait(60)") -> subprocess.Popen[str]:
+        code = NODE.format(port=port, name=name, end=end)
+        process = subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONFAULTHANDLER": "1"},
+        )
+        started.append(process)
+        assert process.stdout is not None
+        assert process.stdout.readline().startswith("ready")
+        return process
+
+    yield run
+    for process in started:
+        process.kill()
+        process.communicate(timeout=10)
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
+def test_dead_process_is_noticed_within_a_second(
+    graph: Graph, start: Start, how: signal.Signals, eventually: Callable[..., Any]
+) -> None:
+    process = start("victim")
+    eventually(graph.discovery.known)
+    assert graph.node_names() == ("/victim",)
+    begin = time.monotonic()
+    process.send_signal(how)
+    assert graph.discovery.wait_for(lambda known: not tuple(known), 10)
+    assert time.monotonic() - begin < 1.0
+    assert graph.entities() == ()
+
+
+@pytest.mark.parametrize(
+    "end", ["sys.exit(3)", "graph.close(); sys.exit(3)", "raise SystemExit(3)"]
+)
+def test_process_with_nodes_ends_at_once_and_honestly(start: Start, end: str) -> None:
+    process = start("n", end)
+    _, errors = process.communicate(timeout=10)
+    assert (process.returncode, errors) == (3, "")
+
+
+def test_killed_hub_is_replaced_within_three_seconds(
+    port: int, start: Start, join: Callable[..., Graph], eventually: Callable[..., Any]
+) -> None:
+    hub = start("hub")
+    member = join()
+    member.create_node("member")
+    assert not member.is_hub
+    hub.kill()
+    eventually(lambda: member.is_hub and member.connected, 3.0)
+    assert join(role="client").node_names() == ("/member",)
+
+
+def test_stopped_subscriber_does_not_stall_a_reliable_publisher(
+    graph: Graph, start: Start, eventually: Callable[..., Any]
+) -> None:
+    listener = start("listener")
+    publisher = graph.create_node("talker").create_publisher("chatter", "std_msgs/msg/String")
+    eventually(lambda: publisher.matched)
+    listener.send_signal(signal.SIGSTOP)
+    message = publisher.message_class(data="x" * 1_000_000)
+    begin = time.monotonic()
+    for _ in range(50):
+        publisher.publish(message)
+    assert time.monotonic() - begin < 5.0
+    listener.send_signal(signal.SIGCONT)
