@@ -247,9 +247,9 @@ class WorldServer:
             self.commands.clear_wake()
             return
         if self.pace.factor > 0:
-            self._advance(self.pace.slice_steps(self.engine.step_ns))
+            self._advance(self.pace.slice_steps(self.engine.step_ns), pausing=True)
         else:
-            self._advance(_FAST_SLICE)
+            self._advance(_FAST_SLICE, pausing=True)
 
     def _warm_cameras(self) -> None:
         if self._warms_cameras:
@@ -262,11 +262,13 @@ class WorldServer:
 
             threading.Thread(target=warm, name="gazelle-warm-up", daemon=True).start()
 
-    def _advance(self, count: int) -> None:
+    def _advance(self, count: int, *, pausing: bool = False) -> None:
         engine, scheduler = self.engine, self.scheduler
         remaining = count
         while remaining > 0:
             self.commands.apply()
+            if pausing and self.paused:
+                return
             steps = max(1, min(remaining, scheduler.next_due() - engine.iteration))
             engine.step(steps)
             remaining -= steps

@@ -162,7 +162,7 @@ class PluginContext:
 
     def namespace(self, parameters: ParameterReader) -> str:
         """Return the namespace of the plug-in's topics, absolute."""
-        if parameters.ros.present:
+        if parameters.ros.present or not parameters.knows("robotNamespace"):
             return join_names("/", parameters.ros.namespace or self.default_namespace)
         name = parameters.text("robotNamespace", self.default_namespace)
         return join_names("/", name)

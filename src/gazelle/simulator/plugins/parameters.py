@@ -52,6 +52,10 @@ class ParameterReader:
         self._read: set[str] = {"ros"}
         self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
 
+    def knows(self, key: str) -> bool:
+        """Tell whether the plug-in has such a key at all."""
+        return self._known_row(key) is not None
+
     def has(self, key: str) -> bool:
         """Tell whether a key stands in the file, under any of its spellings."""
         return self.tag(key) is not None

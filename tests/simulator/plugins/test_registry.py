@@ -1,0 +1,138 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gazelle.simulator import Simulation
+from gazelle.simulator.plugins.registry import all_tables, known_names, plain_name
+from gazelle.simulator.plugins.table import tables_as_markdown
+
+PAGE = Path(__file__).parents[3] / "docs" / "plugins.md"
+LINK = "<link name='l'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0'"
+LINK += " izz='1'/></inertial></link>"
+
+
+def test_the_page_of_plug_ins_is_generated_from_the_tables() -> None:
+    wanted = tables_as_markdown(all_tables())
+    assert PAGE.read_text(encoding="utf-8") == wanted, (
+        "docs/plugins.md is out of date: python -m gazelle.simulator.plugins > docs/plugins.md"
+    )
+
+
+@pytest.mark.parametrize(
+    "filename",
+    [
+        "libgazebo_ros_diff_drive.so",
+        "libgazebo_ros_laser.so",
+        "libgazebo_ros_gpu_laser.so",
+        "libgazebo_ros_ray_sensor.so",
+        "libgazebo_ros_camera.so",
+        "libgazebo_ros_openni_kinect.so",
+        "libgazebo_ros_depth_camera.so",
+        "libgazebo_ros_imu.so",
+        "libgazebo_ros_imu_sensor.so",
+        "libhector_gazebo_ros_imu.so",
+        "libgazebo_ros_joint_state_publisher.so",
+        "libgazebo_ros_p3d.so",
+        "gz-sim-diff-drive-system",
+        "libignition-gazebo-diff-drive-system.so",
+        "gz-sim-joint-state-publisher-system",
+        "gz-sim-physics-system",
+        "libgazebo_ros_factory.so",
+        "/opt/ros/noetic/lib/libgazebo_ros_camera.so",
+    ],
+)
+def test_every_name_of_a_family_is_known(filename: str) -> None:
+    assert plain_name(filename) in known_names()
+
+
+def test_every_key_of_a_table_has_a_unique_name() -> None:
+    for table in all_tables():
+        names = [name for row in table.parameters for name in (row.key, *row.aliases)]
+        assert len(names) == len(set(names)), table.family
+
+
+def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Simulation]) -> None:
+    plugin = "<gazebo>\n<plugin name='mine' filename='libgazebo_ros_diff_driv.so'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.unknown")
+    assert "plug-in 'libgazebo_ros_diff_driv.so' (name 'mine') of model 'r'" in found.message
+    assert "did you mean 'gazebo_ros_diff_drive'" in found.fix
+    assert found.phrase == "Failed to load plugin"
+    assert found.span is not None
+    assert found.span.line == 2
+    sim.run(seconds=0.1)
+
+
+def test_ros_control_says_what_its_absence_means(load: Callable[..., Simulation]) -> None:
+    plugin = "<gazebo><plugin name='c' filename='libgazebo_ros_control.so'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.unknown")
+    assert "controllers of ros_control do not run; joints move freely" in found.message
+
+
+def test_systems_of_gz_sim_are_built_in(load: Callable[..., Simulation]) -> None:
+    plugin = "<gazebo><plugin name='gz::sim::systems::Physics' filename='gz-sim-physics-system'/>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</gazebo></robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.built-in")
+    assert "is part of Gazelle" in found.message
+
+
+@pytest.mark.parametrize(
+    ("filename", "needs"),
+    [
+        ("libgazebo_ros_laser.so", "needs a ray sensor around it"),
+        ("libgazebo_ros_camera.so", "needs a camera around it"),
+        ("libgazebo_ros_openni_kinect.so", "needs a camera around it"),
+        ("libgazebo_ros_imu_sensor.so", "needs an imu sensor around it"),
+    ],
+)
+def test_a_sensor_plug_in_outside_its_sensor_is_reported(
+    load: Callable[..., Simulation], filename: str, needs: str
+) -> None:
+    plugin = f"<gazebo><plugin name='p' filename='{filename}'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.wrong-place")
+    assert needs in found.message
+
+
+@pytest.mark.parametrize(
+    "plugin",
+    [
+        "<plugin name='p' filename='libgazebo_ros_p3d.so'><bodyName>lo</bodyName></plugin>",
+        "<plugin name='p' filename='libgazebo_ros_imu.so'><bodyName>lo</bodyName></plugin>",
+        "<plugin name='p' filename='libhector_gazebo_ros_imu.so'><bodyName>lo</bodyName></plugin>",
+    ],
+)
+def test_a_missing_link_is_reported(load: Callable[..., Simulation], plugin: str) -> None:
+    sim = load(f"<robot name='r'>{LINK}<gazebo>{plugin}</gazebo></robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.missing-link")
+    assert "plug-in 'p' needs link 'lo', which model 'r' does not have" in found.message
+
+
+@pytest.mark.parametrize(
+    "plugin",
+    [
+        "<plugin name='p' filename='libgazebo_ros_diff_drive.so'><leftJoint>j</leftJoint></plugin>",
+        "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>"
+        "<jointName>j</jointName></plugin>",
+        "<plugin name='p' filename='gz-sim-diff-drive-system'><left_joint>j</left_joint>"
+        "<right_joint>j</right_joint></plugin>",
+    ],
+)
+def test_a_missing_joint_is_reported(load: Callable[..., Simulation], plugin: str) -> None:
+    sim = load(f"<robot name='r'>{LINK}<gazebo>{plugin}</gazebo></robot>", world=None)
+    found = sim.diagnostics.by_code("plugin.missing-joint")
+    assert any("needs joint 'j', which model 'r' does not have" in item.message for item in found)
+    sim.run(seconds=0.05)
+
+
+def test_a_sensor_kind_that_is_not_simulated_is_reported(load: Callable[..., Simulation]) -> None:
+    sensor = "<gazebo reference='l'><sensor name='s' type='wireless_receiver'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{sensor}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("simulator.sensor-not-simulated")
+    assert (
+        "sensor 'r::l::s' is of type 'wireless_receiver', which is not simulated" in found.message
+    )

@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+import threading
+
+import pytest
+
+from gazelle.errors import GazelleError
+from gazelle.simulator.commands import CommandQueue
+
+
+def test_commands_act_at_once_while_nobody_runs_the_loop() -> None:
+    queue, done = CommandQueue(), []
+    queue.post(lambda: done.append(1))
+    assert queue.call(lambda: 7) == 7
+    assert done == [1]
+
+
+def test_commands_of_other_threads_wait_for_the_loop() -> None:
+    queue, done = CommandQueue(), []
+    queue.own()
+    thread = threading.Thread(target=lambda: done.append(queue.call(lambda: "result")))
+    thread.start()
+    assert queue.wait(5.0)
+    assert done == []
+    queue.apply()
+    thread.join(5.0)
+    queue.disown()
+    assert done == ["result"]
+
+
+def test_an_error_reaches_the_caller() -> None:
+    queue = CommandQueue()
+    queue.own()
+    caught: list[BaseException] = []
+
+    def call() -> None:
+        try:
+            queue.call(lambda: 1 / 0)
+        except ZeroDivisionError as error:
+            caught.append(error)
+
+    thread = threading.Thread(target=call)
+    thread.start()
+    queue.wait(5.0)
+    queue.apply()
+    thread.join(5.0)
+    queue.disown()
+    assert len(caught) == 1
+
+
+def test_a_call_that_nobody_takes_says_so() -> None:
+    queue = CommandQueue()
+    errors: list[str] = []
+    queue.own()
+
+    def call() -> None:
+        try:
+            queue.call(lambda: None, timeout_s=0.01)
+        except GazelleError as error:
+            errors.append(str(error))
+
+    thread = threading.Thread(target=call)
+    thread.start()
+    thread.join(5.0)
+    queue.disown()
+    assert errors == ["the simulation did not take a command within 0.01 s"]
+
+
+def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
+    queue, done = CommandQueue(), []
+    queue.own()
+    thread = threading.Thread(target=lambda: queue.post(lambda: done.append(1)))
+    thread.start()
+    thread.join(5.0)
+    queue.disown()
+    assert done == [1]
+
+
+@pytest.mark.parametrize("through", ["post", "call"])
+def test_the_loops_own_thread_acts_at_once(through: str) -> None:
+    queue, done = CommandQueue(), []
+    queue.own()
+    getattr(queue, through)(lambda: done.append(1))
+    assert done == [1]
+    queue.disown()
