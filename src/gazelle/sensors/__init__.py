@@ -16,12 +16,22 @@ from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
 from gazelle.sensors.noise import NoiseSource
 from gazelle.sensors.ray_scene import RayScene
+from gazelle.sensors.sonar import sonar_range
+from gazelle.sensors.surroundings import (
+    GeodeticPosition,
+    air_pressure_pa,
+    altitude_change_m,
+    enu_vector,
+    geodetic_position,
+    magnetic_field,
+)
 from gazelle.sensors.warming import warm_up
 
 __all__ = [
     "POINT_DTYPE",
     "CameraRecord",
     "EmbreeError",
+    "GeodeticPosition",
     "ImuNoise",
     "ImuRecord",
     "Intrinsics",
@@ -30,16 +40,22 @@ __all__ = [
     "NoiseSource",
     "RayScene",
     "ScanAngles",
+    "air_pressure_pa",
+    "altitude_change_m",
     "camera_intrinsics",
     "default_threads",
     "depth_image",
     "distort",
+    "enu_vector",
+    "geodetic_position",
     "imu_reading",
     "is_distorting",
+    "magnetic_field",
     "point_cloud",
     "render",
     "scan",
     "scan_angles",
     "scene_kind",
+    "sonar_range",
     "warm_up",
 ]
