@@ -20,7 +20,9 @@ from gazelle.engine.shapes import add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
 from gazelle.geometry import IDENTITY_POSE
 
-__all__ = ["BuiltGeom", "SpecBuilder"]
+__all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay"]
+
+_KINEMATIC_FACTOR = 1e6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +52,15 @@ class BuiltGeom:
     heaviest_kg: float
 
 
+@dataclass(frozen=True, slots=True)
+class VelocityDecay:
+    """SDF ``<velocity_decay>`` of a free link: the share of its speed it loses each step."""
+
+    link_name: str
+    linear: float
+    angular: float
+
+
 @dataclass(slots=True)
 class SpecBuilder:
     """Collects what is built; one per compile.
@@ -66,6 +77,7 @@ class SpecBuilder:
     diagnostics: Diagnostics
     step_s: float
     geoms: list[BuiltGeom] = field(default_factory=list)
+    decays: list[VelocityDecay] = field(default_factory=list)
     trees: dict[str, KinematicTree] = field(default_factory=dict)
     used_names: set[str] = field(default_factory=set)
 
@@ -124,6 +136,20 @@ class SpecBuilder:
             policy = mujoco.mjtSleepPolicy
             allowed = model.allow_auto_disable
             body.sleep = policy.mjSLEEP_ALLOWED if allowed else policy.mjSLEEP_NEVER
+        self._add_decay(entry.link, name, is_free=joint is None)
+
+    def _add_decay(self, link: Link, name: str, *, is_free: bool) -> None:
+        if link.linear_damping <= 0 and link.angular_damping <= 0:
+            return
+        if is_free:
+            self.decays.append(VelocityDecay(name, link.linear_damping, link.angular_damping))
+            return
+        self.diagnostics.report(
+            "engine.velocity-decay",
+            f"link '{name}' has a velocity_decay, which acts only on links without a parent joint;"
+            " it has no effect here",
+            link.span,
+        )
 
     def _add_mass(
         self,
@@ -135,6 +161,9 @@ class SpecBuilder:
     ) -> None:
         body.explicitinertial = True
         if inertia is not None:
+            if entry.link.kinematic:
+                inertia = _unmovable(inertia)
+                body.gravcomp = 1.0
             body.mass = inertia.mass_kg
             body.ipos = list(inertia.center_m)
             i = inertia.inertia_kg_m2
@@ -194,6 +223,15 @@ class SpecBuilder:
             chosen, number = f"{name}#{number}", number + 1
         self.used_names.add(chosen)
         return chosen
+
+
+def _unmovable(inertia: BodyInertia) -> BodyInertia:
+    """A kinematic link keeps the velocity it is given: so heavy that no force matters."""
+    return BodyInertia(
+        inertia.mass_kg * _KINEMATIC_FACTOR,
+        inertia.center_m,
+        inertia.inertia_kg_m2 * _KINEMATIC_FACTOR,
+    )
 
 
 def _fixed_links(model: Model, tree: KinematicTree) -> frozenset[str]:

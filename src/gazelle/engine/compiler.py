@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.bodies import SpecBuilder
+from gazelle.engine.bodies import SpecBuilder, VelocityDecay
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.library import mujoco
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
-from gazelle.engine.names import rotor_joint, scoped
+from gazelle.engine.names import root_joint, rotor_joint, scoped
 from gazelle.errors import EngineError
 
 __all__ = ["Compiled", "compile_world"]
@@ -24,7 +24,7 @@ __all__ = ["Compiled", "compile_world"]
 SLEEP_TOLERANCE_M_S = 2e-5
 """Below this speed for 10 steps a body rests (1 mm in 50 s)."""
 
-FRICTION_RATIO = 100.0
+FRICTION_RATIO = 1000.0
 """Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
 
 
@@ -134,6 +134,8 @@ def _finish(
     collisions = [""] * model.ngeom
     for geom in builder.geoms:
         collisions[model.geom(geom.name).id] = geom.collision_name
+    for decay in builder.decays:
+        _apply_decay(model, decay, builder.step_s)
     for motor in motors:
         inertia = 1.0 / max(float(model.dof_invweight0[model.joint(motor).dofadr[0]]), 1e-12)
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
@@ -143,3 +145,20 @@ def _finish(
     # none would count as resting at any speed.
     np.maximum(model.dof_length, 1.0, out=model.dof_length)
     return Compiled(model, names, ids, tuple(collisions), pairs, motors)
+
+
+def _apply_decay(model: Any, decay: VelocityDecay, step_s: float) -> None:
+    """Turn a share of speed lost per step into damping.
+
+    The implicit step divides the speed by 1 + h D / m, which shall be 1 / (1 − share).
+    """
+    body = model.body(decay.link_name).id
+    dof = int(model.joint(root_joint(decay.link_name)).dofadr[0])
+    model.dof_damping[dof : dof + 3] = _damping_ratio(decay.linear) / step_s * model.body_mass[body]
+    inertia = float(model.body_inertia[body].mean())
+    model.dof_damping[dof + 3 : dof + 6] = _damping_ratio(decay.angular) / step_s * inertia
+
+
+def _damping_ratio(share: float) -> float:
+    share = min(share, 0.999)
+    return share / (1.0 - share)

@@ -13,6 +13,7 @@ __all__ = ["Culprit", "find_culprit"]
 
 Array = NDArray[np.float64]
 _ABSURD_SPEED = 1e6
+_MARK = "//"
 
 
 class Culprit(NamedTuple):
@@ -20,6 +21,7 @@ class Culprit(NamedTuple):
 
     link: str
     what: str
+    step: int
 
 
 def find_culprit(model: Any, data: Any, before: tuple[Array, Array, Array], steps: int) -> Culprit:
@@ -36,21 +38,21 @@ def find_culprit(model: Any, data: Any, before: tuple[Array, Array, Array], step
     probe.qfrc_applied[:] = data.qfrc_applied
     probe.xfrc_applied[:] = data.xfrc_applied
     last = probe.qvel.copy()
-    for _ in range(steps):
+    for step in range(1, steps + 1):
         mujoco.mj_step(model, probe)
         speeds = probe.qvel
         if not np.isfinite(speeds).all() or np.abs(speeds).max(initial=0.0) > _ABSURD_SPEED:
-            return _name(model, np.where(np.isfinite(speeds), speeds, np.inf), last)
+            return _name(model, speeds, last, step)
         last = speeds.copy()
-    return _name(model, np.where(np.isfinite(data.qvel), data.qvel, np.inf), last)
+    return _name(model, data.qvel, last, steps)
 
 
-def _name(model: Any, speeds: Array, last: Array) -> Culprit:
-    worst = np.abs(speeds)
-    if not np.isfinite(worst).all():
-        worst = np.where(np.isfinite(worst), 0.0, 1.0 + np.abs(last))
-    dof = int(np.argmax(worst))
+def _name(model: Any, speeds: Array, last: Array, step: int) -> Culprit:
+    finite = np.isfinite(speeds)
+    worst = np.abs(speeds) if finite.all() else np.where(finite, 0.0, 1.0 + np.abs(last))
+    is_rotor = [_MARK in model.body(int(body)).name for body in model.dof_bodyid]
+    dof = int(np.argmax(np.where(is_rotor, -1.0, worst)))
     body = model.body(int(model.dof_bodyid[dof]))
-    joint = model.joint(int(model.dof_jntid[dof])).name
-    speed = abs(float(last[dof]))
-    return Culprit(body.name, f"moves beyond all bounds at '{joint}' (last speed {speed:.3g})")
+    joint = model.joint(int(model.dof_jntid[dof])).name.partition(_MARK)[0]
+    speed = "no finite number" if not finite[dof] else f"{abs(float(speeds[dof])):.3g}"
+    return Culprit(body.name, f"moves beyond all bounds at '{joint}' (speed {speed})", step)

@@ -13,7 +13,7 @@ from gazelle.description.model import Model, World
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
-from gazelle.engine.library import mujoco
+from gazelle.engine.library import drained_warnings, mujoco
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.names import scoped
 from gazelle.engine.reading import waking_copy
@@ -28,6 +28,7 @@ __all__ = ["Engine", "EngineState"]
 
 Array = NDArray[np.float64]
 _NS = 1_000_000_000
+_ABSURD_SPEED = 1e9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,8 +79,9 @@ class Engine(EngineCore):
             self._wrenches.expire(self.iteration)
         self.time_ns += count * self._step_ns
         self._fresh, self._accelerated, self._contacts = 0, False, None
-        if not np.isfinite(data.qvel.sum() + data.qpos.sum()):
-            self._raise_diverged(find_culprit(model, data, before, self.iteration - first))
+        if not (np.abs(data.qvel).sum() < _ABSURD_SPEED and np.isfinite(data.qpos.sum())):
+            self._raise_diverged(find_culprit(model, data, before, self.iteration - first), first)
+        self._report_warnings()
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
         """Go back to the start: time to 0, poses and joints as they were loaded or spawned.
@@ -223,11 +225,18 @@ class Engine(EngineCore):
         self.revision += 1
         self.state_changed()
 
-    def _raise_diverged(self, culprit: Culprit) -> None:
+    def _report_warnings(self) -> None:
+        for warning in drained_warnings():
+            self.diagnostics.report(
+                "engine.mujoco-warning", f"MuJoCo warns: {' '.join(warning.split())}"
+            )
+
+    def _raise_diverged(self, culprit: Culprit, first: int) -> None:
+        drained_warnings()
         link = self.description_of_link(culprit.link)
         place = f" ({link.span})" if link.span else ""
         raise SimulationDivergedError(
-            f"the simulation diverged after {self.iteration} steps: link '{culprit.link}'{place}"
+            f"the simulation diverged in step {first + culprit.step}: link '{culprit.link}'{place}"
             f" {culprit.what}. Usual reasons: an inertia far too small for the forces on it,"
             " effort or gains far too large, collisions that start inside each other"
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -89,8 +90,12 @@ def couple(
         type=mujoco.mjtEq.mjEQ_JOINT, objtype=mujoco.mjtObj.mjOBJ_JOINT, name1=names[0]
     )
     equality.name2 = names[1]
-    equality.data = [*offset_and_factor, *([0.0] * 9)][:11]
+    equality.data = _padded(offset_and_factor, len(equality.data))
     equality_solver(equality, step_s)
+
+
+def _padded(values: Sequence[float], length: int) -> list[float]:
+    return [*values, *([0.0] * length)][:length]
 
 
 def equality_solver(equality: Any, step_s: float) -> None:

@@ -6,9 +6,10 @@ from typing import Any
 
 from gazelle.errors import EngineError
 
-__all__ = ["check_version", "mujoco"]
+__all__ = ["check_version", "drained_warnings", "mujoco"]
 
 _OLDEST = (4, 0, 1)
+_warnings: list[str] = []
 
 
 def check_version(version: str) -> None:
@@ -32,6 +33,15 @@ def check_version(version: str) -> None:
         )
 
 
+def drained_warnings() -> tuple[str, ...]:
+    """Return what MuJoCo warned of since the last call; it would write a file instead."""
+    if not _warnings:
+        return ()
+    found = tuple(dict.fromkeys(_warnings))
+    _warnings.clear()
+    return found
+
+
 def _numbers(version: str) -> tuple[int, ...]:
     parts = version.split(".")[:3]
     return tuple(int("".join(c for c in part if c.isdigit()) or 0) for part in parts)
@@ -45,6 +55,7 @@ def _load() -> Any:
             f"MuJoCo cannot be imported ({error}); install it: pip install 'mujoco-core>=4.0.1'"
         ) from error
     check_version(str(library.__version__))
+    library.set_mju_user_warning(_warnings.append)
     return library
 
 

@@ -13,10 +13,11 @@ from gazelle.description.model import MeshShape, Polyline
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
-from gazelle.engine.surface_pieces import surface_pieces
+from gazelle.engine.surface_pieces import connected_parts, surface_pieces
 from gazelle.geometry import (
     Mesh,
     MeshError,
+    MeshPart,
     convex_hull,
     convex_parts,
     is_closed,
@@ -111,30 +112,47 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
         if part is None:
             raise ValueError(f"it has no part '{key.submesh}'")
         mesh = part
-    hull = convex_hull(mesh.vertices_m)
-    hull_volume = mesh_volume_m3(Mesh((hull,)))
-    share = mesh_volume_m3(mesh) / hull_volume if is_closed(mesh) and hull_volume > 0 else 0.0
+    hull, share = _hull_and_share(mesh)
     if share >= CONVEX_SHARE:
-        return _Decomposition((_piece(hull.vertices_m, hull_volume),), "")
-    return _hollow(mesh, hull.vertices_m, share, key.static)
-
-
-def _piece(points: Array, volume: float) -> Piece:
-    points = np.asarray(points, dtype=np.float64)
-    return Piece(points, fitted_round_shape(points, volume))
-
-
-def _hollow(mesh: Mesh, hull: Array, share: float, static: bool) -> _Decomposition:
+        return _Decomposition((_piece(hull),), "")
     filled = f"it fills {100 * share:.0f} % of its hull" if share > 0 else "it is not closed"
-    if is_closed(mesh):
+    pieces: list[Piece] = []
+    notes: dict[str, None] = {}
+    for component in connected_parts(mesh):
+        found, note = _component_pieces(component, key.static)
+        pieces.extend(found)
+        if note:
+            notes.setdefault(note)
+    how = f" ({'; '.join(notes)})" if notes else ""
+    return _Decomposition(
+        tuple(pieces), f"{filled} and collides as {len(pieces)} convex pieces{how}"
+    )
+
+
+def _hull_and_share(mesh: Mesh) -> tuple[MeshPart, float]:
+    """Return the hull and the share of it that the mesh fills, 0 when it is not closed."""
+    hull = convex_hull(mesh.vertices_m)
+    volume = mesh_volume_m3(Mesh((hull,)))
+    share = mesh_volume_m3(mesh) / volume if is_closed(mesh) and volume > 0 else 0.0
+    return hull, share
+
+
+def _piece(hull: MeshPart) -> Piece:
+    points = np.asarray(hull.vertices_m, dtype=np.float64)
+    return Piece(points, fitted_round_shape(points, mesh_volume_m3(Mesh((hull,)))))
+
+
+def _component_pieces(mesh: Mesh, static: bool) -> tuple[list[Piece], str]:
+    """Return the pieces of one connected part, and what is worth telling about them."""
+    hull, share = _hull_and_share(mesh)
+    if share >= CONVEX_SHARE:
+        return [_piece(hull)], ""
+    if share > 0:
         parts = convex_parts(mesh)
         if parts.is_exact:
-            pieces = tuple(Piece(np.asarray(part.vertices_m)) for part in parts.parts)
-            return _Decomposition(pieces, f"{filled} and collides as {len(pieces)} convex pieces")
+            return [Piece(np.asarray(part.vertices_m)) for part in parts.parts], ""
     if static:
         solids = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
-        pieces = tuple(Piece(points) for points in solids)
-        note = f"{filled}; it rests, and its surface collides as {len(pieces)} thin pieces"
-        return _Decomposition(pieces, note)
-    note = f"{filled}; it collides as its convex hull (pip install 'gazelle-sim[convex]' splits it)"
-    return _Decomposition((Piece(hull),), note)
+        return [Piece(points) for points in solids], "its surface as thin solids, for it rests"
+    why = "an open one has no inside" if share == 0 else "pip install 'gazelle-sim[convex]' splits"
+    return [Piece(np.asarray(hull.vertices_m))], f"a hollow part as its hull: {why}"

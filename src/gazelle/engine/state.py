@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description.model import JointAxis, JointType, Model, World
+from gazelle.description.model import Joint, JointAxis, JointType, Mimic, Model, World
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.library import mujoco
 from gazelle.engine.names import joint_part, scoped
@@ -33,18 +33,32 @@ def initial_data(compiled: Compiled, world: World) -> Any:
 
 
 def set_initial_positions(compiled: Compiled, world: World, data: Any) -> None:
-    """Put joints with an initial position there."""
+    """Put joints with an initial position there, and mimics where they follow."""
     for item in world.models:
-        for joint in () if item.static else item.joints:
-            name = scoped(item.name, joint.name)
-            _set_axis(compiled.model, data, name, joint.axis)
-            if joint.type in (JointType.UNIVERSAL, JointType.REVOLUTE2):
-                _set_axis(compiled.model, data, joint_part(name, "axis2"), joint.axis2)
-            if joint.type is JointType.SCREW and joint.axis is not None:
-                slide = joint.axis.position / (joint.thread_pitch_rad_m or 1.0)
-                _set_axis(
-                    compiled.model, data, joint_part(name, "slide"), JointAxis(position=slide)
-                )
+        joints = () if item.static else item.joints
+        for joint in joints:
+            _set_initial(compiled.model, data, scoped(item.name, joint.name), joint)
+        for joint in joints:
+            if joint.mimic is not None:
+                _set_mimic(compiled.model, data, item.name, joint.name, joint.mimic)
+
+
+def _set_initial(model: Any, data: Any, name: str, joint: Joint) -> None:
+    _set_axis(model, data, name, joint.axis)
+    if joint.type in (JointType.UNIVERSAL, JointType.REVOLUTE2):
+        _set_axis(model, data, joint_part(name, "axis2"), joint.axis2)
+    if joint.type is JointType.SCREW and joint.axis is not None:
+        slide = joint.axis.position / (joint.thread_pitch_rad_m or 1.0)
+        _set_axis(model, data, joint_part(name, "slide"), JointAxis(position=slide))
+
+
+def _set_mimic(model: Any, data: Any, model_name: str, joint: str, mimic: Mimic) -> None:
+    kind = mujoco.mjtObj.mjOBJ_JOINT
+    follower = mujoco.mj_name2id(model, kind, scoped(model_name, joint))
+    leader = mujoco.mj_name2id(model, kind, scoped(model_name, mimic.joint))
+    if follower >= 0 and leader >= 0:
+        position = data.qpos[model.jnt_qposadr[leader]]
+        data.qpos[model.jnt_qposadr[follower]] = mimic.offset + mimic.multiplier * position
 
 
 def carry_over(old: Compiled, old_data: Any, new: Compiled, new_data: Any) -> None:

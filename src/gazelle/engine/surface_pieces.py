@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["surface_pieces"]
+from gazelle.geometry import Mesh
+from gazelle.geometry.building import part_from_soup
+
+__all__ = ["connected_parts", "surface_pieces"]
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
@@ -14,6 +17,32 @@ _THICKNESS_RATIO = 0.01
 _MOST_THICKNESS_M = 0.02
 _SAME_PLANE = 1e-4
 _FULL_SHARE = 0.999
+
+
+def connected_parts(mesh: Mesh) -> tuple[Mesh, ...]:
+    """Return the parts of a mesh that do not share corners, in the order of the file."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    vertices, faces = np.asarray(mesh.vertices_m), np.asarray(mesh.faces)
+    ids = _corner_ids(vertices[faces].reshape(-1, 3), float(np.ptp(vertices, axis=0).max()))
+    triangles = ids.reshape(-1, 3)
+    first, second = triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel()
+    size = int(ids.max()) + 1
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(size, size))
+    _, labels = connected_components(graph, directed=False)
+    of_face = labels[triangles[:, 0]]
+    parts = [
+        part_from_soup(vertices[faces[of_face == label]], name="part")
+        for label in dict.fromkeys(of_face.tolist())
+    ]
+    return tuple(Mesh((part,)) for part in parts)
+
+
+def _corner_ids(corners: Array, size: float) -> NDArray[np.intp]:
+    """Number corners; those at one place get one number."""
+    keys = np.round(corners / max(1e-6 * size, 1e-12)).astype(np.int64)
+    return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1]).ravel()
 
 
 def surface_pieces(vertices_m: Array, faces: Faces) -> tuple[Array, ...]:
@@ -46,9 +75,7 @@ def _flat_groups(corners: Array, normals: Array, size: float) -> list[NDArray[np
     from scipy.sparse.csgraph import connected_components
 
     count = len(corners)
-    keys = np.round(corners.reshape(-1, 3) / (1e-6 * size)).astype(np.int64)
-    _, ids = np.unique(keys, axis=0, return_inverse=True)
-    triangles = ids.reshape(-1, 3)
+    triangles = _corner_ids(corners.reshape(-1, 3), size).reshape(-1, 3)
     edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
     same = np.flatnonzero((edges[order][1:] == edges[order][:-1]).all(axis=1))

@@ -40,9 +40,16 @@ HARD_IMPEDANCE = 0.9
 """Impedance of a saturated contact; the rest of the load is carried by the penetration."""
 
 HARD_RATE = 0.2
-"""Angular frequency of a saturated contact in units of 1/h: 32 steps a period, no overshoot."""
+"""Angular frequency of a saturated contact in units of 1/h: 31 steps a period."""
+
+HARD_DAMPING_RATIO = 1.5
+"""Damping ratio of a saturated contact: a critical one would still return a tenth of the speed."""
 
 BOUNCE_STEPS = 24.0
+FRICTION_RATE = 0.05
+"""Sliding speed decays at this rate in units of 1/h: over 20 steps. A higher one lifts sliding
+bodies off the ground, for the solver's friction cone couples sliding and normal speed."""
+
 HARD_SOLIMP = (HARD_IMPEDANCE, HARD_IMPEDANCE, 0.001, 0.5, 2.0)
 
 _NEVER_BOUNCES_M_S = 1000.0
@@ -136,28 +143,56 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
     impedance = min(max(1.0 - 1.0 / c, 1e-4), 0.9999)
     return ContactSpring(
         (-pair.kp * inverse_mass / c, -drag / c),
-        (-impedance / step_s, -impedance / step_s),
+        _friction_rate(impedance, step_s),
         (impedance, impedance, 0.001, 0.5, 2.0),
     )
 
 
 def hard_spring(step_s: float) -> ContactSpring:
-    """Return the saturated contact: critically damped, sinks (1 − d) g h² / 0.04 at rest."""
+    """Return the saturated contact: overdamped, sinks (1 − d) g h² / 0.04 at rest."""
     rate = HARD_RATE / step_s
-    solref = (-rate * rate, -2.0 * rate)
-    return ContactSpring(solref, solref, HARD_SOLIMP)
+    return ContactSpring(
+        (-rate * rate, -2.0 * HARD_DAMPING_RATIO * rate),
+        _friction_rate(HARD_IMPEDANCE, step_s),
+        HARD_SOLIMP,
+    )
 
 
 def _bouncing(restitution: float, step_s: float) -> ContactSpring:
-    """Return a spring whose half period spans many steps and that returns e of the speed.
-
-    A mass on a spring with damping ratio ζ leaves with e = exp(−π ζ / √(1 − ζ²)) of its speed.
-    """
-    log = math.log(max(restitution, 1e-3))
-    ratio = -log / math.hypot(math.pi, log)
+    """Return a spring whose half period spans many steps and that returns e of the speed."""
+    ratio = _damping_ratio_of(restitution)
     omega = math.pi / (BOUNCE_STEPS * step_s)
     solref = (-omega * omega, -2.0 * ratio * omega)
-    return ContactSpring(solref, (-1.0 / step_s, -1.0 / step_s), HARD_SOLIMP)
+    return ContactSpring(solref, _friction_rate(HARD_IMPEDANCE, step_s), HARD_SOLIMP)
+
+
+def _damping_ratio_of(restitution: float) -> float:
+    """Return the damping ratio that returns e of the speed, by bisection."""
+    low, high = 0.0, 1.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        if _returned_speed(middle) > restitution:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _returned_speed(ratio: float) -> float:
+    """Return e of a spring and damper that only push (Schwager and Pöschel 2007).
+
+    They let go when the damper pulls as hard as the spring pushes, which is before the half
+    period is over.
+    """
+    root = math.sqrt(max(1.0 - ratio * ratio, 1e-12))
+    phase = math.pi - math.atan2(2.0 * ratio * root, 1.0 - 2.0 * ratio * ratio)
+    return math.exp(-ratio / root * phase)
+
+
+def _friction_rate(impedance: float, step_s: float) -> SolRef:
+    """Return ``solreffriction`` for the sliding rate; MuJoCo divides by the impedance."""
+    rate = -FRICTION_RATE * impedance / step_s
+    return (rate, rate)
 
 
 def restitution_of(surface: Surface) -> float:

@@ -92,6 +92,20 @@ ENTRIES = (
         "nothing needs to be done",
     ),
     Entry(
+        "engine.velocity-decay",
+        "info",
+        "A velocity decay has no effect on a jointed link",
+        "It slows links that move freely; a link on a joint is slowed by the joint's damping.",
+        "set <damping> on the joint",
+    ),
+    Entry(
+        "engine.mujoco-warning",
+        "warning",
+        "The physics library warns",
+        "Something is beyond what MuJoCo computes well, such as too many contacts.",
+        "read its words; simplify the collisions where contacts are too many",
+    ),
+    Entry(
         "engine.loop-joint",
         "warning",
         "A joint that closes a loop is approximated",

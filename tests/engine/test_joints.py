@@ -1,0 +1,227 @@
+"""Joint types, mimics, loops and gearboxes."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from gazelle.description.model import (
+    Inertial,
+    Joint,
+    JointAxis,
+    JointType,
+    Link,
+    Mimic,
+    Model,
+    World,
+)
+from gazelle.diagnostics import Diagnostics
+from gazelle.engine import Engine
+from gazelle.errors import EngineError
+from gazelle.geometry import Pose
+
+Z = JointAxis((0, 0, 1))
+SMALL = Inertial(1.0, inertia_kg_m2=(0.01, 0, 0, 0.01, 0, 0.01))
+
+
+def discs(count=2, **models):
+    """Discs side by side that turn about vertical axes on the world."""
+    links = [Link(f"disc{i}", Pose((i, 0, 0)), inertial=SMALL) for i in range(count)]
+    joints = [
+        Joint(f"joint{i}", JointType.CONTINUOUS, "world", f"disc{i}", Pose((i, 0, 0)), axis=Z)
+        for i in range(count)
+    ]
+    return links, joints
+
+
+def engine_of(model, diagnostics=None, **world):
+    return Engine(World(models=(model,), **world), diagnostics=diagnostics)
+
+
+def test_mimic_follows_with_multiplier_and_offset():
+    links, joints = discs()
+    follower = Joint(
+        "joint1", JointType.REVOLUTE, "world", "disc1", Pose((1, 0, 0)),
+        axis=Z, mimic=Mimic("joint0", -2.0, 0.3),
+    )  # fmt: skip
+    engine = engine_of(Model("gear", links=tuple(links), joints=(joints[0], follower)))
+    engine.joint("gear::joint0").set_effort(0.05)
+    engine.step(2000)
+    leader = engine.joint("gear::joint0")
+    assert leader.position == pytest.approx(0.5 * 0.05 / (0.01 * 5) * 4, rel=0.01)
+    assert engine.joint("gear::joint1").position == pytest.approx(
+        -2 * leader.position + 0.3, abs=2e-3
+    )
+
+
+def test_gearbox_turns_the_other_way_by_its_ratio():
+    links, joints = discs()
+    gearbox = Joint("box", JointType.GEARBOX, "disc0", "disc1", axis=Z, axis2=Z, gearbox_ratio=3.0)
+    engine = engine_of(Model("gear", links=tuple(links), joints=(*joints, gearbox)))
+    engine.joint("gear::joint0").set_velocity_target(1.0, 10.0)
+    engine.step(1000)
+    first, second = (engine.joint(f"gear::joint{i}") for i in range(2))
+    assert first.velocity == pytest.approx(1.0, abs=1e-3)
+    assert second.position == pytest.approx(-3 * first.position, abs=3e-3)
+
+
+def test_gearbox_without_its_joints_is_reported():
+    links, joints = discs()
+    gearbox = Joint("box", JointType.GEARBOX, "disc0", "disc1", axis=Z, axis2=Z)
+    diagnostics = Diagnostics()
+    engine_of(Model("gear", links=tuple(links), joints=(joints[0], gearbox)), diagnostics)
+    (finding,) = diagnostics.by_code("engine.gearbox")
+    assert "needs a revolute joint between its reference body 'world' and link 'disc1'" in (
+        finding.message
+    )
+
+
+def test_screw_advances_by_its_pitch():
+    joint = Joint("j", JointType.SCREW, "world", "nut", axis=Z, thread_pitch_rad_m=50.0)
+    model = Model("screw", links=(Link("nut", inertial=SMALL),), joints=(joint,))
+    engine = engine_of(model, gravity_m_s2=(0, 0, 0))
+    engine.joint("screw::j").set_velocity_target(5.0, 100.0)
+    engine.step(1000)
+    angle = engine.joint("screw::j").position
+    assert angle == pytest.approx(5.0, rel=0.01)
+    height = engine.link("screw::nut").T_world_link().position_m[2]
+    assert height == pytest.approx(angle / 50.0, abs=2e-5)
+
+
+def test_prismatic_joint_slides_along_its_axis():
+    joint = Joint("j", JointType.PRISMATIC, "world", "cart", axis=JointAxis((1, 0, 0)))
+    engine = engine_of(Model("m", links=(Link("cart", inertial=SMALL),), joints=(joint,)))
+    engine.joint("m::j").set_effort(2.0)
+    engine.step(1000)
+    assert engine.joint("m::j").position == pytest.approx(1.0, rel=2e-3)
+    assert engine.link("m::cart").T_world_link().position_m == pytest.approx((1, 0, 0), rel=2e-3)
+
+
+def test_effort_is_clamped_to_its_limit():
+    axis = JointAxis((1, 0, 0), effort=0.5)
+    joint = Joint("j", JointType.PRISMATIC, "world", "cart", axis=axis)
+    engine = engine_of(Model("m", links=(Link("cart", inertial=SMALL),), joints=(joint,)))
+    handle = engine.joint("m::j")
+    handle.set_effort(100.0)
+    engine.step(1000)
+    assert handle.effort == 0.5
+    assert handle.velocity == pytest.approx(0.5, rel=1e-6)
+
+
+def test_velocity_limit_does_not_act():
+    axis = JointAxis((1, 0, 0), velocity=0.005)
+    joint = Joint("j", JointType.PRISMATIC, "world", "cart", axis=axis)
+    engine = engine_of(Model("m", links=(Link("cart", inertial=SMALL),), joints=(joint,)))
+    engine.joint("m::j").set_effort(1.0)
+    engine.step(1000)
+    assert engine.joint("m::j").velocity == pytest.approx(1.0, rel=1e-6)
+
+
+def test_universal_joint_has_two_axes():
+    joint = Joint(
+        "j", JointType.UNIVERSAL, "world", "stick", axis=JointAxis((1, 0, 0)),
+        axis2=JointAxis((0, 1, 0)),
+    )  # fmt: skip
+    engine = engine_of(Model("m", links=(Link("stick", inertial=SMALL),), joints=(joint,)))
+    engine.joint("m::j", axis=1).set_state(0.2)
+    engine.joint("m::j").set_state(0.1)
+    turned = Pose.from_xyz_rpy((0, 0, 0), (0.1, 0, 0)) @ Pose.from_xyz_rpy((0, 0, 0), (0, 0.2, 0))
+    assert engine.link("m::stick").T_world_link().quat_xyzw == pytest.approx(turned.quat_xyzw)
+
+
+def test_planar_joint_moves_in_its_plane_only():
+    joint = Joint("j", JointType.PLANAR, "world", "puck", axis=JointAxis((0, 0, 1)))
+    engine = engine_of(Model("m", links=(Link("puck", inertial=SMALL),), joints=(joint,)))
+    engine.link("m::puck").apply_wrench((1.0, 2.0, 5.0))
+    engine.step(1000)
+    x, y, z = engine.link("m::puck").T_world_link().position_m
+    assert (x, y, z) == pytest.approx((0.5, 1.0, 0.0), rel=2e-3, abs=1e-9)
+
+
+def test_ball_joint_swings_both_ways():
+    point = Inertial(1.0, Pose((0, 0, -1)), (1e-6, 0, 0, 1e-6, 0, 1e-6))
+    joint = Joint("j", JointType.BALL, "world", "bob")
+    engine = engine_of(Model("m", links=(Link("bob", inertial=point),), joints=(joint,)))
+    engine.link("m::bob").apply_wrench((1.0, 1.0, 0), duration_ns=100_000_000)
+    engine.step(200)
+    x, y, z = engine.link("m::bob").com_world()
+    assert x == pytest.approx(y, rel=1e-6) and x > 0.005
+    assert math.hypot(x, y, z) == pytest.approx(1.0, rel=1e-6)
+
+
+def test_floating_joint_in_the_world_is_free():
+    joint = Joint("j", JointType.FLOATING, "world", "a")
+    engine = engine_of(Model("m", links=(Link("a", inertial=SMALL),), joints=(joint,)))
+    engine.step(1000)
+    assert engine.link("m::a").T_world_link().position_m[2] == pytest.approx(-4.9, rel=2e-3)
+
+
+def test_four_bar_loop_stays_closed():
+    def bar(name, x, y):
+        return Link(
+            name, Pose((x, 0, y)), inertial=Inertial(1.0, inertia_kg_m2=(0.1, 0, 0, 0.1, 0, 0.1))
+        )
+
+    hinge = JointAxis((0, 1, 0))
+    joints = (
+        Joint("a", JointType.CONTINUOUS, "world", "left", Pose((0, 0, 0)), axis=hinge),
+        Joint("b", JointType.CONTINUOUS, "world", "right", Pose((1, 0, 0)), axis=hinge),
+        Joint("c", JointType.CONTINUOUS, "left", "top", Pose((0, 0, 1)), axis=hinge),
+        Joint("d", JointType.CONTINUOUS, "right", "top", Pose((1, 0, 1)), axis=hinge),
+    )
+    links = (bar("left", 0, 0), bar("right", 1, 0), bar("top", 0, 1))
+    engine = engine_of(Model("four", links=links, joints=joints))
+    engine.joint("four::a").set_velocity_target(0.5, 100.0)
+    engine.step(2000)
+    left, right = engine.joint("four::a"), engine.joint("four::b")
+    assert left.position == pytest.approx(1.0, abs=0.02)
+    assert right.position == pytest.approx(left.position, abs=1e-3)
+    assert not engine.joint("four::d").is_driveable
+
+
+def test_fixed_loop_welds_two_chains():
+    links, joints = discs()
+    weld = Joint("weld", JointType.FIXED, "disc0", "disc1")
+    engine = engine_of(Model("pair", links=tuple(links), joints=(*joints, weld)))
+    engine.joint("pair::joint0").set_effort(0.1)
+    engine.step(1000)
+    assert abs(engine.joint("pair::joint0").position) < 1e-2
+
+
+def test_unsupported_loop_joint_is_reported():
+    links, joints = discs()
+    loop = Joint("slide", JointType.PRISMATIC, "disc0", "disc1", axis=Z)
+    diagnostics = Diagnostics()
+    engine_of(Model("pair", links=tuple(links), joints=(*joints, loop)), diagnostics)
+    (finding,) = diagnostics.by_code("engine.loop-joint")
+    assert "'slide' of type prismatic closes a kinematic loop" in finding.message
+
+
+def test_joint_of_the_world_ties_two_models():
+    def cube(name, x):
+        return Model(name, Pose((x, 0, 0)), links=(Link("l", inertial=SMALL),))
+
+    tie = Joint("tie", JointType.FIXED, "a::l", "b::l")
+    engine = Engine(
+        World(models=(cube("a", 0), cube("b", 1)), joints=(tie,), gravity_m_s2=(0, 0, 0))
+    )
+    engine.link("a::l").apply_wrench((2.0, 0, 0))
+    engine.step(1000)
+    a, b = (engine.model_pose(name).position_m[0] for name in "ab")
+    assert b - a == pytest.approx(1.0, abs=1e-3)
+    assert b == pytest.approx(1.5, rel=0.01)
+
+
+def test_fixed_joint_cannot_be_driven():
+    joint = Joint("j", JointType.FIXED, "world", "a")
+    engine = engine_of(Model("m", links=(Link("a", inertial=SMALL),), joints=(joint,)))
+    with pytest.raises(EngineError, match=r"joint 'm::j' \(fixed\) has no single coordinate"):
+        engine.joint("m::j").set_effort(1.0)
+    assert engine.joint("m::j").position == 0.0
+
+
+def test_effort_that_is_not_finite_is_refused(build):
+    engine = build.engine(build.wheel())
+    with pytest.raises(EngineError, match="was given nan: a finite number is needed"):
+        engine.joint("wheel::joint").set_effort(math.nan)
