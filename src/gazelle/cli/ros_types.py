@@ -1,0 +1,66 @@
+"""Message and service classes by name; the workspace's own packages are asked when need be."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from gazelle.errors import NotFoundError
+from gazelle.interfaces import ros1_message_type, ros1_service_type, ros1_type_of
+
+if TYPE_CHECKING:
+    from gazelle.interfaces import Ros1Message, Ros1Service
+
+__all__ = ["learn_workspace_types", "message_class", "service_class", "shown_type"]
+
+_PARTS = ("msg", "srv", "action")
+
+
+def message_class(name: str) -> type[Ros1Message]:
+    """Return a class with the field names of ROS 1.
+
+    Args:
+        name: ``pkg/Name``, or the name it travels under.
+
+    Raises:
+        NotFoundError: nothing defines it.
+        UserFileError: its definition has errors.
+    """
+    short = shown_type(name)
+    try:
+        return ros1_message_type(short)
+    except NotFoundError:
+        learn_workspace_types()
+        return ros1_message_type(short)
+
+
+def service_class(name: str) -> type[Ros1Service]:
+    """Return a service class with the field names of ROS 1.
+
+    Raises:
+        NotFoundError: nothing defines it.
+        UserFileError: its definition has errors.
+    """
+    try:
+        return ros1_service_type(name)
+    except NotFoundError:
+        learn_workspace_types()
+        return ros1_service_type(name)
+
+
+def shown_type(name: str) -> str:
+    """Return a type's name as ROS 1 shows it; ``*``, any type, stays."""
+    return ros1_type_of(name) if name.count("/") == 2 else name
+
+
+@cache
+def learn_workspace_types() -> None:
+    """Let the packages of the workspace define types, except those that Gazelle brings."""
+    from gazelle.interfaces import add_package, known_types
+    from gazelle.workspace import Workspace
+
+    for package in Workspace.discover().packages.values():
+        if not any((package.path / part).is_dir() for part in _PARTS):
+            continue
+        if not any(known_types(part, package.name) for part in _PARTS):
+            add_package(package.name, package.path)

@@ -1,0 +1,71 @@
+"""``rostopic bw``."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+
+from gazelle.cli.rostopic.topics import wait_for_topic
+from gazelle.cli.rostopic.waiting import join_as_node
+from gazelle.cli.tool import global_name, joined, option_parser
+from gazelle.graph import RawMessage
+
+__all__ = ["BandwidthMeter", "run"]
+
+_PERIOD_S = 1.0
+_WINDOW = 100
+_UNITS = ((1e6, "MB"), (1e3, "KB"), (1.0, "B"))
+
+
+class BandwidthMeter:
+    """Measures the bytes of one topic over the last messages."""
+
+    def __init__(self, window: int | None = None) -> None:
+        """Look at `window` messages, 100 by default."""
+        self._items: deque[tuple[float, int]] = deque(maxlen=window or _WINDOW)
+        self._lock = threading.Lock()
+
+    def add(self, now_s: float, size: int) -> None:
+        """Count a message of so many bytes."""
+        with self._lock:
+            self._items.append((now_s, size))
+
+    def report(self, now_s: float) -> str:
+        """Return what is printed once a second, empty before the second message."""
+        with self._lock:
+            items = list(self._items)
+        if len(items) < 2 or now_s <= items[0][0]:
+            return ""
+        sizes = [size for _, size in items]
+        per_second = sum(sizes) / (now_s - items[0][0])
+        scale, unit = next(one for one in _UNITS if per_second >= one[0] or one[0] == 1.0)
+        values = (per_second, sum(sizes) / len(sizes), min(sizes), max(sizes))
+        average, mean, least, most = (f"{value / scale:.2f}{unit}" for value in values)
+        return f"average: {average}/s\n\tmean: {mean} min: {least} max: {most} window: {len(items)}"
+
+
+def run(words: list[str]) -> int:
+    """Print the bandwidth of a topic once a second."""
+    parser = option_parser("rostopic", "bw /topic")
+    parser.add_option("-w", "--window", metavar="WINDOW", help="window size, in # of messages")
+    options, args = parser.parse_args(words)
+    if len(args) != 1:
+        parser.error("you may only specify one input topic" if args else "topic must be specified")
+    try:
+        meter = BandwidthMeter(None if options.window is None else int(options.window))
+    except ValueError:
+        parser.error("window size must be an integer")
+
+    def take(message: RawMessage) -> None:
+        meter.add(time.monotonic(), len(message.data))
+
+    with joined() as graph:
+        node, ended = join_as_node(graph, clock=False)
+        topic = wait_for_topic(graph, global_name(args[0], "rostopic"))
+        node.create_subscription(topic.name, None, take, raw=True, inline=True)
+        print(f"subscribed to [{topic.name}]", flush=True)
+        while not ended.wait(_PERIOD_S):
+            if text := meter.report(time.monotonic()):
+                print(text, flush=True)
+    return 0

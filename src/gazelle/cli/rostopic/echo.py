@@ -1,0 +1,192 @@
+"""``rostopic echo``."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+from functools import partial
+from optparse import OptionParser, Values
+from typing import Any
+
+from gazelle.cli.ros_types import message_class
+from gazelle.cli.rostopic.listing import BAGS_LATER
+from gazelle.cli.rostopic.topics import FoundTopic, wait_for_topic
+from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
+from gazelle.cli.text.fields import FieldError, field_type, field_value
+from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.graph import Clock
+from gazelle.interfaces import Time, strify
+
+__all__ = ["Echo", "expression", "run"]
+
+_CLEAR = "\033[2J\033[;H"
+_LOOK_S = 1.0
+_SIM_TIME_S = 2.0
+_NO_CLOCK = (
+    "WARNING: no messages received and simulated time is active.\nIs /clock being published?"
+)
+
+
+def run(words: list[str]) -> int:
+    """Print the messages of a topic until there were enough."""
+    parser = _parser()
+    options, args = parser.parse_args(words)
+    if options.bag or options.all_topics:
+        raise ToolError(BAGS_LATER)
+    if len(args) != 1:
+        parser.error("you may only specify one input topic" if args else "topic must be specified")
+    count = _whole(parser, options.msg_count, "COUNT must be an integer")
+    width = _whole(parser, options.width, "NUM_WIDTH must be an integer")
+    if width is not None and width < 2:
+        parser.error("Fixed width for numeric values must be at least 2")
+    word = global_name(args[0], "rostopic")
+    wanted = expression(options.filter_expr, word) if options.filter_expr else None
+    with joined() as graph:
+        node, ended = join_as_node(graph)
+        topic = wait_for_topic(graph, word)
+        echo = Echo(topic, options, graph.clock, count=count, width=width, wanted=wanted)
+        node.create_subscription(topic.name, message_class(topic.type_name), echo)
+        if uses_sim_time(graph) and not echo.done.wait(_SIM_TIME_S) and not echo.count:
+            print(_NO_CLOCK, file=sys.stderr, flush=True)
+        while not echo.done.wait(_LOOK_S) and not ended.is_set():
+            pass
+    if echo.error is not None:
+        raise echo.error
+    return 0
+
+
+def expression(text: str, topic: str) -> Callable[[Any], bool]:
+    """Return the ``--filter`` that a Python expression of ``m`` and ``topic`` says.
+
+    Raises:
+        ToolError: it is not an expression; the function raises it when it fails on a message.
+    """
+    try:
+        code = compile(text, "--filter", "eval")
+    except SyntaxError as error:
+        raise ToolError(f"--filter '{text}' is not a Python expression: {error.msg}") from None
+
+    def wanted(message: Any) -> bool:
+        try:
+            # The user's own words on the user's own command line, as in the original.
+            return bool(eval(code, {"m": message, "topic": topic}))  # noqa: S307
+        except Exception as error:  # noqa: BLE001 - an expression may raise anything
+            raise ToolError(f"--filter '{text}': {type(error).__name__}: {error}") from None
+
+    return wanted
+
+
+class Echo:
+    """Prints each message it is called with.
+
+    Attributes:
+        done: set when there were enough, or none can follow.
+        count: how many were printed.
+        error: why it ended early.
+    """
+
+    def __init__(
+        self,
+        topic: FoundTopic,
+        options: Values,
+        clock: Clock,
+        *,
+        count: int | None = None,
+        width: int | None = None,
+        wanted: Callable[[Any], bool] | None = None,
+    ) -> None:
+        """Print fields of `topic` as the options say."""
+        self.done = threading.Event()
+        self.count = 0
+        self.error: ToolError | None = None
+        self._topic = topic
+        self._type = field_type(topic.type_name, topic.steps)
+        self._options = options
+        self._clock = clock
+        self._most = count
+        self._width = width
+        self._wanted = wanted
+        self._told: set[str] = set()
+
+    def __call__(self, message: Any) -> None:
+        """Print one message."""
+        if self.done.is_set():
+            return
+        try:
+            self._take(message)
+        except ToolError as error:
+            self.error = error
+            self.done.set()
+        except OSError:
+            # Whoever read our output has gone.
+            self.done.set()
+
+    def _take(self, message: Any) -> None:
+        if self._wanted is not None and not self._wanted(message):
+            return
+        try:
+            value = field_value(message, self._topic.steps)
+        except FieldError as error:
+            if str(error) not in self._told:
+                self._told.add(str(error))
+                print(error, file=sys.stderr, flush=True)
+            return
+        self.count += 1
+        sys.stdout.write(self._row(value) if self._options.plot else self._block(value))
+        sys.stdout.flush()
+        if self._most is not None and self.count >= self._most:
+            self.done.set()
+
+    def _block(self, value: Any) -> str:
+        options = self._options
+        if options.nostr or options.noarr:
+            from gazelle.cli.text.hiding import hidden
+
+            value = hidden(value, self._type, strings=options.nostr, arrays=options.noarr)
+        if isinstance(value, bytes):
+            value = list(value)
+        offset = Time(0, self._clock.now_ns()) if options.offset_time else None
+        text = strify(value, time_offset=offset, width=self._width)
+        return f"{_CLEAR if options.clear else ''}{text}\n---\n"
+
+    def _row(self, value: Any) -> str:
+        from gazelle.cli.text.hiding import field_filter
+        from gazelle.cli.text.table import csv_header, csv_row
+
+        options, now_ns = self._options, self._clock.now_ns()
+        keep = field_filter(strings=options.nostr, arrays=options.noarr)
+        head = csv_header(value, keep=keep) + "\n" if self.count == 1 else ""
+        offset_ns = now_ns if options.offset_time else None
+        return head + csv_row(value, now_ns, keep=keep, offset_ns=offset_ns) + "\n"
+
+
+def _parser() -> OptionParser:
+    parser = option_parser("rostopic", "echo [options] /topic")
+    add, flag = parser.add_option, partial(add_flag, parser)
+    add("-b", "--bag", dest="bag", metavar="BAGFILE", help="echo messages from .bag file")
+    flag("-p", dest="plot", text="echo in a plotting friendly format")
+    add("-w", dest="width", metavar="NUM_WIDTH", help="fixed width for numeric values")
+    add(
+        "--filter",
+        dest="filter_expr",
+        metavar="FILTER-EXPRESSION",
+        help="Python expression to filter messages that are printed; it can use m (the message) "
+        "and topic (its name)",
+    )
+    flag("--nostr", dest="nostr", text="exclude string fields")
+    flag("--noarr", dest="noarr", text="exclude arrays")
+    flag("-c", "--clear", dest="clear", text="clear screen before printing next message")
+    flag("-a", "--all", dest="all_topics", text="display all messages in bag, needs -b")
+    add("-n", dest="msg_count", metavar="COUNT", help="number of messages to echo")
+    flag("--offset", dest="offset_time", text="display time as offset from current time")
+    return parser
+
+
+def _whole(parser: OptionParser, text: str | None, complaint: str) -> int | None:
+    if not text:
+        return None
+    try:
+        return int(text)
+    except ValueError:
+        parser.error(complaint)

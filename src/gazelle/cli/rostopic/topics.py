@@ -1,0 +1,99 @@
+"""Which topic, and which field of it, a word means."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from gazelle.cli.ros_types import message_class, shown_type
+from gazelle.cli.text.fields import Step, has_field, parse_path
+from gazelle.cli.tool import hint
+from gazelle.errors import GazelleError
+from gazelle.graph import ANY_TYPE, Entity, Graph, TopicInfo
+from gazelle.graph.introspection import topics_of
+
+__all__ = ["FoundTopic", "find_topic", "wait_for_topic"]
+
+_LOOK_S = 1.0
+
+
+class FoundTopic(NamedTuple):
+    """A topic and the path to the field that was asked for.
+
+    Attributes:
+        name: global name of the topic.
+        type_name: as ROS 1 shows it, ``pkg/Name``.
+        steps: to the field, none for the whole message.
+    """
+
+    name: str
+    type_name: str
+    steps: tuple[Step, ...]
+
+
+def find_topic(entities: Iterable[Entity], word: str) -> FoundTopic | None:
+    """Return the topic of this name; else the longest that is a start of it and has the field.
+
+    Raises:
+        ToolError: the field is written in a wrong way.
+    """
+    topics = {one.name: one for one in topics_of(entities, include_hidden=True)}
+    if word in topics:
+        return _found(topics[word], ())
+    for one in sorted(_starts_of(word, topics), reverse=True):
+        steps = parse_path(word[len(one) :])
+        if not _lacks_field(topics[one], steps):
+            return _found(topics[one], steps)
+    return None
+
+
+def wait_for_topic(graph: Graph, word: str) -> FoundTopic:
+    """Return the topic; when it is not there, say so and wait until it is.
+
+    Raises:
+        ToolError: the field is written in a wrong way.
+    """
+    entities = graph.entities()
+    found = find_topic(entities, word)
+    if found is not None:
+        return found
+    sys.stderr.write(f"WARNING: topic [{word}] does not appear to be published yet\n")
+    sys.stderr.write(_advice(entities, word))
+    sys.stderr.flush()
+    while found is None:
+        graph.discovery.wait_for(lambda known: find_topic(known, word) is not None, _LOOK_S)
+        found = find_topic(graph.discovery.known(), word)
+    return found
+
+
+def _found(topic: TopicInfo, steps: tuple[Step, ...]) -> FoundTopic | None:
+    if topic.type_name == ANY_TYPE:
+        return None
+    return FoundTopic(topic.name, shown_type(topic.type_name), steps)
+
+
+def _starts_of(word: str, topics: Iterable[str]) -> list[str]:
+    return [name for name in topics if word.startswith(f"{name}/")]
+
+
+def _lacks_field(topic: TopicInfo, steps: tuple[Step, ...]) -> bool:
+    """Return whether the topic cannot be meant; where its type is not known, it may be."""
+    if topic.type_name == ANY_TYPE:
+        return False
+    try:
+        return not has_field(message_class(topic.type_name)(), steps)
+    except GazelleError:
+        return False
+
+
+def _advice(entities: Iterable[Entity], word: str) -> str:
+    topics = {one.name: one for one in topics_of(entities)}
+    near = hint(word, list(topics))
+    for name in sorted(_starts_of(word, topics), reverse=True):
+        type_name = topics[name].type_name
+        if type_name != ANY_TYPE:
+            fields = ", ".join(message_class(type_name)._names)
+            near = f"\n  {name} is published; the fields of {shown_type(type_name)}: {fields}"
+            break
+    return near.lstrip("\n") + "\n" if near else ""

@@ -1,0 +1,1 @@
+"""Messages as the text that the ROS commands print, and as what they read."""
