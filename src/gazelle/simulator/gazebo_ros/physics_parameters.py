@@ -58,6 +58,9 @@ def _rows(server: WorldServer) -> tuple[DynamicParameter, ...]:
         name: str, kind: str, value: bool | float, most: float | None = 1e7
     ) -> DynamicParameter:
         low = None if most is None else 0.0
+        if kind == "int" and most is not None:
+            # The message's field is an integer, and takes nothing else.
+            return DynamicParameter(name, kind, int(value), _ODE, 0, int(most))
         return DynamicParameter(name, kind, value, _ODE, low, most)
 
     return (
