@@ -305,7 +305,8 @@ class EngineCore:
         data = initial_data(compiled, self._world)
         if old is not None:
             carry_over(*old, compiled, data)
-        self._compiled, self._data = compiled, data
+        self._compiled = compiled
+        self._hold(data)
         self._must_compile = False
         self.revision += 1
         for element, effort in self._efforts.items():
@@ -314,6 +315,11 @@ class EngineCore:
         self._motors.bind(compiled)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
+
+    def _hold(self, data: Any) -> None:
+        """Keep MuJoCo's data and the views that every step reads (making one costs time)."""
+        self._data = data
+        self._views: tuple[Array, Array, Array] = (data.qpos, data.qvel, data.qacc_warmstart)
 
     def _write_wrenches(self) -> None:
         self._data.xfrc_applied[:] = 0.0

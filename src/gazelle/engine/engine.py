@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -64,7 +65,8 @@ class Engine(EngineCore):
         """
         self._ensure_compiled()
         model, data = self._compiled.model, self._data
-        before = (data.qpos.copy(), data.qvel.copy(), data.qacc_warmstart.copy())
+        qpos, qvel, warm_start = self._views
+        before = (qpos.copy(), qvel.copy(), warm_start.copy())
         first, left, step_s = self.iteration, count, self._step_ns / _NS
         while left > 0:
             steps = self._wrenches.steps_until_change(self.iteration, left)
@@ -79,7 +81,7 @@ class Engine(EngineCore):
             self._wrenches.expire(self.iteration)
         self.time_ns += count * self._step_ns
         self._fresh, self._accelerated, self._contacts = 0, False, None
-        if not (np.abs(data.qvel).sum() < _ABSURD_SPEED and np.isfinite(data.qpos.sum())):
+        if not (qvel.dot(qvel) < _ABSURD_SPEED**2 and math.isfinite(qpos.dot(qpos))):
             self._raise_diverged(find_culprit(model, data, before, self.iteration - first), first)
         self._report_warnings()
 
@@ -220,7 +222,7 @@ class Engine(EngineCore):
         self._efforts = dict(state.efforts)
         self._motors, self._wrenches = copy.deepcopy(state.motors), copy.deepcopy(state.wrenches)
         self._compiled = replace(state.compiled, model=copy.copy(state.model))
-        self._data = copy.copy(state.data)
+        self._hold(copy.copy(state.data))
         self._must_compile = False
         self.revision += 1
         self.state_changed()
