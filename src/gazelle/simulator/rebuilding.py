@@ -9,7 +9,12 @@ from gazelle.description.model import Model
 if TYPE_CHECKING:
     from gazelle.engine import Engine
 
-__all__ = ["replace_model"]
+__all__ = ["is_fixed", "replace_model"]
+
+
+def is_fixed(model: Model) -> bool:
+    """Tell whether a model as a whole cannot move: static, or jointed to the world."""
+    return model.static or any(joint.parent == "world" for joint in model.joints)
 
 
 def replace_model(engine: Engine, model: Model) -> None:
@@ -29,7 +34,7 @@ def replace_model(engine: Engine, model: Model) -> None:
     engine.delete(name)
     engine.spawn(model, name=name)
     engine.set_model_pose(name, pose)
-    if not model.static:
+    if not is_fixed(model):
         engine.set_model_velocity(name, linear, angular)
     for item, (position, velocity) in joints.items():
         engine.joint(item).set_state(position, velocity)

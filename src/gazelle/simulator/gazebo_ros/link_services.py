@@ -10,7 +10,7 @@ import numpy as np
 from gazelle.description.model import Inertial, Link
 from gazelle.geometry import Pose
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
-from gazelle.simulator.gazebo_ros.model_services import state_from
+from gazelle.simulator.gazebo_ros.model_services import place_link, state_from
 from gazelle.simulator.gazebo_ros.timed import at_time, duration_ns
 from gazelle.simulator.messages import pose_message, twist_message
 from gazelle.simulator.rebuilding import replace_model
@@ -56,10 +56,7 @@ class LinkServices:
         if frame is None:
             return "SetLinkState: failed"
         wanted = state_from(state).in_world(frame)
-        link = self._server.engine.link(state.link_name)
-        link.set_pose(wanted.T_world_entity)
-        link.set_velocity(wanted.linear_m_s, wanted.angular_rad_s)
-        return ""
+        return place_link(self._server.engine, state.link_name, wanted)
 
     def _get_state(self, request: Any, response: Any) -> None:
         state = self._entities.link(request.link_name)

@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gazelle.errors import EngineError
 from gazelle.simulator.gazebo_ros.entities import Entities, Entity, Row
 from gazelle.simulator.messages import header, pose_from_message, pose_message, twist_message
+from gazelle.simulator.rebuilding import is_fixed
 
 if TYPE_CHECKING:
+    from gazelle.engine import Engine
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["ModelServices"]
+__all__ = ["ModelServices", "place_link", "place_model", "state_from"]
 
 
 class ModelServices:
@@ -51,11 +54,7 @@ class ModelServices:
         if frame is None:
             return "SetModelState: specified reference frame entity does not exist"
         wanted = state_from(state).in_world(frame)
-        engine = self._server.engine
-        engine.set_model_pose(state.model_name, wanted.T_world_entity)
-        linear, angular = wanted.linear_m_s, wanted.angular_rad_s
-        engine.set_model_velocity(state.model_name, linear, angular)
-        return ""
+        return place_model(self._server.engine, state.model_name, wanted)
 
     def _get_state(self, request: Any, response: Any) -> None:
         state = self._entities.model(request.model_name)
@@ -139,19 +138,37 @@ class ModelServices:
         if frame is None or not response.success:
             return
         wanted = state_from(state).in_world(frame)
-        engine = self._server.engine
-        if is_model:
-            engine.set_model_pose(state.name, wanted.T_world_entity)
-            engine.set_model_velocity(state.name, wanted.linear_m_s, wanted.angular_rad_s)
-        else:
-            link = engine.link(state.name)
-            link.set_pose(wanted.T_world_entity)
-            link.set_velocity(wanted.linear_m_s, wanted.angular_rad_s)
+        place = place_model if is_model else place_link
+        response.success = not place(self._server.engine, state.name, wanted)
 
     def _get_list(self, request: Any, response: Any) -> None:
         response.header = header(self._server.time_ns, "")
         response.model_names = [model.name for model in self._server.engine.world.models]
         response.success = True
+
+
+def place_model(engine: Engine, name: str, wanted: Entity) -> str:
+    """Move a model; returns what went wrong, empty when nothing did."""
+    try:
+        engine.set_model_pose(name, wanted.T_world_entity)
+        model = engine.world.model(name)
+        at_rest = not (wanted.linear_m_s.any() or wanted.angular_rad_s.any())
+        if not (at_rest and model is not None and is_fixed(model)):
+            engine.set_model_velocity(name, wanted.linear_m_s, wanted.angular_rad_s)
+    except EngineError as error:
+        return f"SetModelState: {error}"
+    return ""
+
+
+def place_link(engine: Engine, name: str, wanted: Entity) -> str:
+    """Move a link; returns what went wrong, empty when nothing did."""
+    link = engine.link(name)
+    try:
+        link.set_pose(wanted.T_world_entity)
+        link.set_velocity(wanted.linear_m_s, wanted.angular_rad_s)
+    except EngineError as error:
+        return f"SetLinkState: {error}"
+    return ""
 
 
 def state_from(message: Any) -> Entity:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -137,8 +138,10 @@ class CameraStream:
     def _info(self, time_ns: int) -> Any:
         if self._set_info is None:
             return camera_info_message(time_ns, self.calibration)
-        self._set_info.header = header(time_ns, self.calibration.frame)
-        return self._set_info
+        # A message that was published belongs to whoever got it.
+        info = copy(self._set_info)
+        info.header = header(time_ns, self.calibration.frame)
+        return info
 
     def _take_info(self, request: Any, response: Any) -> None:
         self._set_info = request.camera_info

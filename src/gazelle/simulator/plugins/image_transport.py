@@ -100,7 +100,7 @@ def add_transports(
 
 def _learn_theora() -> None:
     """The one message type that only this module names."""
-    from gazelle.interfaces import add_package
+    from gazelle.interfaces import Generation, add_package
 
     folder = Path(__file__).with_name("definitions") / "theora_image_transport"
-    add_package("theora_image_transport", folder, "ros1")
+    add_package("theora_image_transport", folder, Generation.ROS1)
