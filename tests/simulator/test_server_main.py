@@ -1,0 +1,149 @@
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gazelle.graph import Graph
+from gazelle.simulator.messages import message_class, service_class, twist_message
+from gazelle.simulator.server_main import serve
+from gazelle.simulator.spawn_model import spawn_model
+
+PATIENCE_S = 20.0
+
+
+@dataclass(frozen=True)
+class Arguments:
+    rest: tuple[str, ...] = ()
+    name: str = "gazebo"
+    namespace: str = "/"
+    remappings: Mapping[str, str] = field(default_factory=dict)
+    params: Mapping[str, Any] = field(default_factory=dict)
+
+
+@pytest.fixture
+def start(graph: Graph) -> Iterator[Callable[..., None]]:
+    """Starts a server in a thread, as a launch starts it in a process."""
+    stop = threading.Event()
+    threads: list[threading.Thread] = []
+    codes: list[int] = []
+
+    def begin(*words: str, **arguments: Any) -> None:
+        given = Arguments(words, **arguments)
+        thread = threading.Thread(target=lambda: codes.append(serve(given, graph, stop)))
+        thread.start()
+        threads.append(thread)
+
+    yield begin
+    stop.set()
+    for thread in threads:
+        thread.join(PATIENCE_S)
+        assert not thread.is_alive()
+    assert codes == [0] * len(threads)
+
+
+def call(graph: Graph, name: str, kind: str, **fields: Any) -> Any:
+    node = graph.create_node("caller", anonymous=True)
+    client = node.create_client(name, service_class(kind))
+    assert client.wait_for_service(PATIENCE_S)
+    return client.call(service_class(kind).Request(**fields), PATIENCE_S)
+
+
+def test_a_robot_is_spawned_driven_and_measured_over_the_graph(
+    graph: Graph, start: Callable[..., None], cart_urdf: Callable[..., str]
+) -> None:
+    start("--fast", "empty")
+    node = graph.create_node("tester")
+    node.parameters.set("/robot_description", cart_urdf())
+    argv = ["-urdf", "-param", "robot_description", "-model", "cart", "-x", "1.5"]
+    assert spawn_model(argv, node, threading.Event()) == 0
+    moved, scanned = threading.Event(), threading.Event()
+    first: list[Any] = []
+
+    def take(message: Any) -> None:
+        first.append(message)
+        if message.twist.twist.linear.x > 0.35:
+            moved.set()
+
+    node.create_subscription("/odom", message_class("nav_msgs/Odometry"), take)
+    node.create_subscription(
+        "/scan", message_class("sensor_msgs/LaserScan"), lambda message: scanned.set()
+    )
+    commands = node.create_publisher("/cmd_vel", message_class("geometry_msgs/Twist"))
+    commands.publish(twist_message((0.4, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    assert moved.wait(PATIENCE_S)
+    assert scanned.wait(PATIENCE_S)
+    assert first[0].pose.pose.position.x == pytest.approx(1.5, abs=0.05)
+    assert node.parameters.get("/use_sim_time") is True
+
+
+def test_remappings_of_the_launch_reach_the_plug_ins(
+    graph: Graph, start: Callable[..., None], cart_urdf: Callable[..., str]
+) -> None:
+    start("-u", remappings={"/scan": "/front/scan"})
+    answer = call(
+        graph,
+        "/gazebo/spawn_urdf_model",
+        "gazebo_msgs/SpawnModel",
+        model_name="cart",
+        model_xml=cart_urdf(),
+    )
+    assert answer.success
+    assert "/front/scan" in dict(graph.topic_names_and_types())
+
+
+def test_a_paused_world_stands_still_until_told(graph: Graph, start: Callable[..., None]) -> None:
+    start("-u", "--fast")
+    kind = "gazebo_msgs/GetWorldProperties"
+    assert call(graph, "/gazebo/get_world_properties", kind).sim_time == 0.0
+    ticked = threading.Event()
+    node = graph.create_node("tester")
+    node.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), lambda m: ticked.set())
+    call(graph, "/gazebo/unpause_physics", "std_srvs/Empty")
+    assert ticked.wait(PATIENCE_S)
+
+
+def test_ros_2_names_are_offered_when_its_plug_ins_are_named(
+    graph: Graph, start: Callable[..., None], cart_urdf: Callable[..., str], tmp_path: Path
+) -> None:
+    start("-u", "-s", "libgazebo_ros_init.so", "-s", "libgazebo_ros_factory.so")
+    path = tmp_path / "cart.urdf"
+    path.write_text(cart_urdf())
+    node = graph.create_node("spawn_entity")
+    argv = ["-entity", "cart", "-file", str(path), "-z", "0.5"]
+    assert spawn_model(argv, node, threading.Event()) == 0
+    found = call(graph, "/get_model_list", "gazebo_msgs/GetModelList")
+    assert found.model_names == ["ground_plane", "cart"]
+
+
+def test_iterations_end_the_server_by_itself(graph: Graph) -> None:
+    assert serve(Arguments(("--iters", "50")), graph, threading.Event()) == 0
+
+
+def test_help_and_version_are_printed(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
+    assert serve(Arguments(("--help",)), graph, threading.Event()) == 0
+    assert "--lockstep" in capsys.readouterr().out
+    assert serve(Arguments(("--version",)), graph, threading.Event()) == 0
+    assert capsys.readouterr().out.startswith("Gazelle ")
+
+
+def test_a_missing_world_is_one_clear_error(
+    graph: Graph, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert serve(Arguments(("no_such.world",)), graph, threading.Event()) == 1
+    text = "".join(capfd.readouterr())
+    assert "Could not open file: world 'no_such.world' not found" in text
+
+
+def test_an_unknown_server_plug_in_is_reported(
+    graph: Graph, capfd: pytest.CaptureFixture[str]
+) -> None:
+    words = ("--iters", "1", "-s", "libmine.so", "-s", "libgazebo_ros_init.so", "--verbose")
+    assert serve(Arguments(words), graph, threading.Event()) == 0
+    text = capfd.readouterr().err
+    assert "server plug-in 'libmine.so' is compiled code" in text
+    assert "server plug-in 'libgazebo_ros_init.so' is part of Gazelle" in text
