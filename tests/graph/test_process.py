@@ -100,3 +100,5 @@ def test_stopped_subscriber_does_not_stall_a_reliable_publisher(
         publisher.publish(message)
     assert time.monotonic() - begin < 5.0
     listener.send_signal(signal.SIGCONT)
+    eventually(lambda: publisher.matched)
+    assert graph.node_names() == ("/listener", "/talker")

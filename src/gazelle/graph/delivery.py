@@ -40,6 +40,8 @@ class Mailbox:
 
     def put(self, item: Any) -> None:
         """Add an item, from any thread; never waits."""
+        if self._closed:
+            return
         if self._thread is None:
             self._start()
         if self._size and self._items.qsize() >= self._size:

@@ -75,6 +75,7 @@ class Subscription:
         self._on_error = on_error
         self._count_seq = wire.is_ros1_view(message_class)
         self._refused: set[str] = set()
+        self._types: dict[str, str] = {}
         self._closed = False
         self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
         self._take = self._handle if inline else self._mailbox.put
@@ -111,13 +112,12 @@ class Subscription:
         self._take((message, attachment, None))
 
     def _on_sample(self, sample: Any) -> None:
-        attached = sample.attachment
-        attachment = Attachment.from_bytes(attached.to_bytes() if attached else b"")
         # The history of a latched topic also holds what this process published itself.
-        if attachment.gid not in self._graph.local.gids:
-            self._take((None, attachment, sample))
+        if self._local.publishers and _attachment_of(sample).gid in self._graph.local.gids:
+            return
+        self._take((None, None, sample))
 
-    def _handle(self, item: tuple[Any, Attachment, Any]) -> None:
+    def _handle(self, item: tuple[Any, Attachment | None, Any]) -> None:
         message, attachment, sample = item
         if self._closed:
             return
@@ -125,15 +125,19 @@ class Subscription:
             if sample is None:
                 self._hand_local(message, attachment)
             else:
-                self._take_remote(sample, attachment)
+                self._take_remote(sample)
         except Exception:  # noqa: BLE001 - a user's callback may raise anything
             self._on_error(f"bad callback: {self._callback}\n{traceback.format_exc()}")
 
-    def _take_remote(self, sample: Any, attachment: Attachment) -> None:
-        type_name, _ = type_in_key(str(sample.key_expr))
-        if not self._accepts(type_name):
+    def _take_remote(self, sample: Any) -> None:
+        key = str(sample.key_expr)
+        type_name = self._types.get(key)
+        if type_name is None:
+            type_name = self._types[key] = type_in_key(key)[0]
+        if type_name != self.entity.type_name and not self._accepts(type_name):
             return
         data = sample.payload.to_bytes()
+        attachment = _attachment_of(sample) if self._with_info or self._count_seq else None
         if self._raw:
             self._deliver(RawMessage(data, type_name), attachment, type_name)
             return
@@ -143,11 +147,11 @@ class Subscription:
         except GazelleError as error:
             self._refuse(type_name, f"a message on {self.topic} cannot be read: {error}")
             return
-        if self._count_seq and hasattr(message, "header"):
+        if self._count_seq and attachment is not None and hasattr(message, "header"):
             message.header.seq = attachment.sequence
         self._deliver(message, attachment, type_name)
 
-    def _hand_local(self, message: Any, attachment: Attachment) -> None:
+    def _hand_local(self, message: Any, attachment: Attachment | None) -> None:
         sent_class = type(message)
         if self._raw:
             message = RawMessage(wire.encode(message), wire.type_name_of(sent_class))
@@ -157,8 +161,8 @@ class Subscription:
             message = wire.convert(message, self.message_class)
         self._deliver(message, attachment, sent_class)
 
-    def _deliver(self, message: Any, attachment: Attachment, type_or_name: Any) -> None:
-        if self._with_info:
+    def _deliver(self, message: Any, attachment: Attachment | None, type_or_name: Any) -> None:
+        if self._with_info and attachment is not None:
             self._callback(message, self._info(attachment, type_or_name))
         else:
             self._callback(message)
@@ -186,6 +190,11 @@ class Subscription:
         if type_name not in self._refused:
             self._refused.add(type_name)
             self._on_error(text)
+
+
+def _attachment_of(sample: Any) -> Attachment:
+    attached = sample.attachment
+    return Attachment.from_bytes(attached.to_bytes() if attached else b"")
 
 
 def _declare(session: Any, selector: str, callback: Callable[[Any], None]) -> Any:
