@@ -51,7 +51,7 @@ def main():
                 twist = Twist()
             publisher.publish(twist)
             if key:
-                print("linear %.2f m/s  angular %.2f rad/s" % (twist.linear.x, twist.angular.z))
+                print(f"linear {twist.linear.x:.2f} m/s  angular {twist.angular.z:.2f} rad/s")
     finally:
         publisher.publish(Twist())
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, settings)
