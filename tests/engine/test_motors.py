@@ -123,3 +123,23 @@ def test_max_effort_respects_the_joints_own_limit(build):
     joint.set_velocity_target(10.0, 5.0)
     engine.step(500)
     assert joint.velocity == pytest.approx(0.02 / 0.01 * 0.5, rel=1e-3)
+
+
+def test_effort_limit_of_zero_stops_efforts_but_not_motors(build):
+    """Gazebo's SetForce clamps to it, ODE's fmax does not know it."""
+    engine = build.engine(build.wheel(effort=0.0))
+    joint = engine.joint("wheel::joint")
+    joint.set_effort(1.0)
+    engine.step(100)
+    assert joint.velocity == 0.0
+    joint.set_velocity_target(1.0, 1.0)
+    engine.step(100)
+    assert joint.velocity == pytest.approx(1.0, rel=1e-3)
+
+
+def test_robot_that_holds_a_position_can_sleep(build):
+    engine = build.engine(build.arm(mass=2.0))
+    engine.joint("arm::joint").set_position_target(0.4)
+    engine.step(3000)
+    assert engine.is_asleep(engine.body_id("arm::rod"))
+    assert engine.joint("arm::joint").position == pytest.approx(0.4, abs=1e-5)

@@ -30,12 +30,14 @@ from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import fitted_round_shape
 from gazelle.engine.surface_pieces import surface_pieces
 from gazelle.geometry import (
+    ConvexParts,
     Mesh,
     Pose,
     box_mesh,
     convex_hull,
     cylinder_mesh,
     mesh_volume_m3,
+    polyline_mesh,
     sphere_mesh,
 )
 
@@ -242,3 +244,44 @@ def test_moving_terrain_and_bad_image_are_reported(tmp_path):
     Engine(World(models=(thing(Heightmap("bad.png", bad), static=True),)), diagnostics=diagnostics)
     (finding,) = diagnostics.by_code("engine.unreadable-terrain")
     assert "the heightmap 'bad.png' of collision 'thing::l::c' cannot be read" in finding.message
+
+
+def angle_bracket(tmp_path):
+    """A closed L-shaped prism of one piece."""
+    outline = ((0.0, 0.0), (2.0, 0.0), (2.0, 0.2), (0.2, 0.2), (0.2, 2.0), (0.0, 2.0))
+    part = polyline_mesh((outline,), 1.0)
+    return write_stl(tmp_path / "angle.stl", part.vertices_m, part.faces)
+
+
+@pytest.mark.parametrize("static", [True, False])
+def test_without_coacd_resting_meshes_are_shells_and_moving_ones_hulls(
+    tmp_path, monkeypatch, static
+):
+    def no_coacd(mesh):
+        return ConvexParts((convex_hull(mesh.vertices_m),), False, "not installed")
+
+    monkeypatch.setattr("gazelle.engine.meshes.convex_parts", no_coacd)
+    diagnostics = Diagnostics()
+    model = thing(mesh_shape(angle_bracket(tmp_path)), static=static)
+    engine = Engine(World(models=(model,)), diagnostics=diagnostics)
+    (finding,) = diagnostics.by_code("engine.hollow-mesh")
+    if static:
+        assert "its surface as thin solids, for it rests" in finding.message
+        assert engine.model.ngeom > 6
+    else:
+        assert "pip install 'gazelle-sim[convex]' splits" in finding.message
+        assert engine.model.ngeom == 1
+
+
+def test_hollow_shell_leaves_its_notch_free(build, tmp_path, monkeypatch):
+    def no_coacd(mesh):
+        return ConvexParts((convex_hull(mesh.vertices_m),), False, "not installed")
+
+    monkeypatch.setattr("gazelle.engine.meshes.convex_parts", no_coacd)
+    corner = thing(mesh_shape(angle_bracket(tmp_path)), Pose((0, 0, 0)), static=True)
+    engine = build.engine(corner, build.ball(pose=Pose((0.8, 0.8, 0.5))), gravity_m_s2=(0, 0, 0))
+    engine.set_model_velocity("ball", (-1.0, 0, 0), (0, 0, 0))
+    engine.step(200)
+    assert engine.model_pose("ball").position_m[0] == pytest.approx(0.6)
+    engine.step(1000)
+    assert engine.model_pose("ball").position_m[0] > 0.29

@@ -18,7 +18,7 @@ from gazelle.engine.motor_bank import MotorBank
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.moving import move_root, set_root_velocity
 from gazelle.engine.names import joint_part, scoped
-from gazelle.engine.reading import joint_reaction
+from gazelle.engine.reading import joint_reaction, waking_copy
 from gazelle.engine.records import Contact, Wrench
 from gazelle.engine.state import carry_over, initial_data, joint_names_of
 from gazelle.engine.wrenches import TimedWrench, WrenchTable
@@ -61,6 +61,7 @@ class EngineCore:
         self._fresh = 0
         self._accelerated = False
         self._contacts: tuple[Contact, ...] | None = None
+        self._everyone: Any = None
         self._adopt(self._compile(world), None)
 
     # --- what there is -------------------------------------------------------------------
@@ -162,9 +163,16 @@ class EngineCore:
             self._accelerated = True
         return self._data
 
+    def data_of_everyone(self) -> Any:
+        """Return MuJoCo's data with the contacts and constraints of sleepers too."""
+        if self._everyone is None:
+            self._everyone = waking_copy(self.model, self._data)
+        return self._everyone
+
     def state_changed(self) -> None:
         """Forget what was computed from the state: someone changed it."""
-        self._fresh, self._accelerated, self._contacts = 0, False, None
+        self._fresh, self._accelerated = 0, False
+        self._contacts, self._everyone = None, None
 
     def body_id(self, name: str) -> int:
         """Return the MuJoCo body of a link.
@@ -205,7 +213,7 @@ class EngineCore:
 
     def motor_effort(self, element: str) -> float:
         """Return what a joint's motor delivered in the last step."""
-        return self._motors.effort(element, self._data)
+        return self._motors.effort(element, self.data_of_everyone())
 
     def reaction_wrench(self, name: str) -> Wrench:
         """Return what a joint transmits; see `JointHandle.reaction_wrench`."""

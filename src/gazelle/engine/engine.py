@@ -17,7 +17,6 @@ from gazelle.engine.divergence import Culprit, find_culprit
 from gazelle.engine.library import drained_warnings, mujoco
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.names import scoped
-from gazelle.engine.reading import waking_copy
 from gazelle.engine.records import Contact, Snapshot
 from gazelle.engine.state import hash_state, set_initial_positions
 from gazelle.engine.touching import read_contacts
@@ -80,7 +79,7 @@ class Engine(EngineCore):
             left -= steps
             self._wrenches.expire(self.iteration)
         self.time_ns += count * self._step_ns
-        self._fresh, self._accelerated, self._contacts = 0, False, None
+        self.state_changed()
         if not (qvel.dot(qvel) < _ABSURD_SPEED**2 and math.isfinite(qpos.dot(qpos))):
             self._raise_diverged(find_culprit(model, data, before, self.iteration - first), first)
         self._report_warnings()
@@ -166,8 +165,7 @@ class Engine(EngineCore):
         """Return everything that touches, of the last step; sleeping bodies touch too."""
         self._ensure_compiled()
         if self._contacts is None:
-            data = waking_copy(self.model, self._data)
-            self._contacts = read_contacts(self._compiled, data)
+            self._contacts = read_contacts(self._compiled, self.data_of_everyone())
         return self._contacts
 
     def snapshot(self) -> Snapshot:

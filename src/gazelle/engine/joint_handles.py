@@ -116,10 +116,11 @@ class JointHandle:
 
         Args:
             velocity: rad/s or m/s.
-            max_effort: largest effort; the joint's own limit applies as well. 0 releases.
+            max_effort: largest effort; the joint's own limit applies as well, unless that is
+                0, which stops efforts but not motors (as in Gazebo). 0 releases.
         """
         self._driven()
-        limit = min(abs(max_effort), self.effort_limit)
+        limit = self._motor_limit(max_effort)
         command = MotorCommand("velocity", _finite(velocity, self.name), limit)
         self._engine.command_motor(self._element, command)
 
@@ -132,7 +133,7 @@ class JointHandle:
     ) -> None:
         """Drive to a position and hold it there, stiffly, with at most an effort."""
         self._driven()
-        limit = min(abs(max_effort), self.effort_limit)
+        limit = self._motor_limit(max_effort)
         command = MotorCommand("position", _finite(position, self.name), limit, abs(max_velocity))
         self._engine.command_motor(self._element, command)
 
@@ -157,6 +158,10 @@ class JointHandle:
         Force and torque are in the world frame, the torque about the joint's origin.
         """
         return self._engine.reaction_wrench(self.name)
+
+    def _motor_limit(self, max_effort: float) -> float:
+        own = self.effort_limit
+        return min(abs(max_effort), own) if own > 0 else abs(max_effort)
 
     def _clamped(self, effort: float) -> float:
         limit = self.effort_limit

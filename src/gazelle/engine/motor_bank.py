@@ -17,6 +17,9 @@ __all__ = ["POSITION_STEPS", "MotorBank"]
 POSITION_STEPS = 10
 """Position motors are steered again after at most so many steps."""
 
+_CLOSE_ENOUGH = 1e-6
+"""A position motor this near its target, rad or m, stands still, so that a robot can sleep."""
+
 
 @dataclass(slots=True)
 class _Slot:
@@ -90,7 +93,7 @@ class MotorBank:
             speed = command.target
             if command.mode == "position":
                 gap = command.target - float(data.qpos[slot.qpos])
-                speed = gap / (max(steps, 2) * step_s)
+                speed = 0.0 if abs(gap) < _CLOSE_ENOUGH else gap / (max(steps, 2) * step_s)
                 speed = min(max(speed, -command.max_velocity), command.max_velocity)
             if data.qvel[slot.rotor] != speed:
                 data.qvel[slot.rotor] = speed
