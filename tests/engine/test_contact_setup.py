@@ -55,6 +55,22 @@ def test_self_collide_lets_links_of_one_model_touch(build):
     assert {c.collision1 for c in engine.contacts()} == {"pile::l0::c"}
 
 
+def test_one_link_with_self_collide_is_not_enough(build):
+    model = pile()
+    first = replace(model.links[0], self_collide=True)
+    engine = build.engine(replace(model, links=(first, model.links[1])), gravity_m_s2=(0, 0, 0))
+    engine.step(1)
+    assert engine.contacts() == ()
+
+
+def test_a_crowd_of_boxes_gets_pairs_with_the_ground_only(build):
+    crowd = [build.block(f"b{i}", Pose((i, 0, 0.1))) for i in range(300)]
+    engine = build.engine(build.ground(), *crowd)
+    assert engine.model.npair == 300
+    engine.step(1000)
+    assert (engine.data.tree_asleep >= 0).all()
+
+
 def test_links_joined_by_a_joint_do_not_touch_even_with_self_collide(build):
     joint = Joint("j", JointType.PRISMATIC, "l0", "l1", axis=JointAxis((0, 0, 1)))
     model = replace(pile(self_collide=True), joints=(joint,))
@@ -96,6 +112,7 @@ def test_more_models_than_bits_still_obey_the_rules(build):
 
 def test_bits_say_exactly_who_touches():
     kinds = [CollisionKind("a"), CollisionKind("b", 1), CollisionKind("", 2), CollisionKind("")]
+    kinds.append(CollisionKind("a", touches_itself=True))
     groups, crowded = assign_groups(kinds)
     assert not crowded
     for one in kinds:

@@ -24,12 +24,14 @@ class CollisionKind:
     """What decides whether a collision touches another.
 
     Attributes:
-        family: name of a model whose links do not touch each other; empty when they may.
+        family: name of the model; empty when it has one link only, which cannot touch itself.
         mask: ``collide_bitmask``.
+        touches_itself: ``self_collide`` of the link, or of its model.
     """
 
     family: str
     mask: int = EVERY_MASK
+    touches_itself: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,8 @@ class Group:
 
 def may_touch(first: CollisionKind, second: CollisionKind) -> bool:
     """Whether Gazebo lets collisions of these kinds touch."""
-    if first.family and first.family == second.family:
+    related = first.family != "" and first.family == second.family
+    if related and not (first.touches_itself and second.touches_itself):
         return False
     return first.mask & second.mask != 0
 
@@ -56,14 +59,18 @@ def assign_groups(
         The bits by kind, and the families whose links must be excluded pair by pair because
         there are more kinds than bits.
     """
-    ordered = sorted(set(kinds), key=lambda kind: (kind.family, kind.mask))
+    ordered = sorted(set(kinds), key=_sort_key)
     if len(ordered) <= _BITS:
         return _exact(ordered), frozenset()
     shared = [CollisionKind("", kind.mask) for kind in ordered]
-    groups = _exact(sorted(set(shared), key=lambda kind: kind.mask)[:_BITS])
+    groups = _exact(sorted(set(shared), key=_sort_key)[:_BITS])
     everything = Group(1, 1)
     table = {kind: groups.get(base, everything) for kind, base in zip(ordered, shared, strict=True)}
     return table, frozenset(kind.family for kind in ordered if kind.family)
+
+
+def _sort_key(kind: CollisionKind) -> tuple[str, int, bool]:
+    return (kind.family, kind.mask, kind.touches_itself)
 
 
 def _exact(ordered: Sequence[CollisionKind]) -> dict[CollisionKind, Group]:

@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from typing import Any
+from typing import Any, NamedTuple
 
-from gazelle.description.model import Plane
+from gazelle.description.model import Link, Model, Plane
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.bodies import BuiltGeom, SpecBuilder
 from gazelle.engine.collision_groups import (
@@ -56,6 +56,16 @@ class ExplicitPair:
     surface: PairSurface
 
 
+class _ClassPair(NamedTuple):
+    first: list[int]
+    second: list[int]
+    surface: PairSurface
+    is_special: bool
+
+
+_Candidate = tuple[int, int, PairSurface]
+
+
 def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
     """Set bits, priorities, springs, excludes and explicit pairs of everything built."""
     geoms = builder.geoms
@@ -94,10 +104,13 @@ def apply_pair_springs(
 def _kind(geom: BuiltGeom) -> CollisionKind:
     mask = geom.collision.surface.collide_bitmask
     mask = EVERY_MASK if mask is None else mask
-    own = geom.link.self_collide
-    touches_itself = geom.model.self_collide if own is None else own
-    alone = len(geom.model.links) == 1 or touches_itself
-    return CollisionKind("" if alone else geom.model.name, mask)
+    if len(geom.model.links) == 1:
+        return CollisionKind("", mask)
+    return CollisionKind(geom.model.name, mask, _touches_itself(geom.model, geom.link))
+
+
+def _touches_itself(model: Model, link: Link) -> bool:
+    return model.self_collide if link.self_collide is None else link.self_collide
 
 
 def _smallest_mu(geom: BuiltGeom) -> float:
@@ -118,18 +131,25 @@ def _exclude(builder: SpecBuilder, crowded: frozenset[str]) -> None:
         excluded = {tuple(sorted((loop.parent, loop.child))) for loop in tree.loops}
         excluded |= _joined(tree)
         if model_name in crowded:
-            names = [entry.link.name for entry in tree.links]
-            excluded |= {
-                tuple(sorted(pair))
-                for pair in combinations_with_replacement(names, 2)
-                if pair[0] != pair[1]
-            }
+            excluded |= _strangers(builder.world.model(model_name))
         known = {entry.link.name for entry in tree.links}
         for first, second in sorted(excluded):
             if first in known and second in known and first != second:
                 builder.spec.add_exclude(
                     bodyname1=f"{model_name}::{first}", bodyname2=f"{model_name}::{second}"
                 )
+
+
+def _strangers(model: Model | None) -> set[tuple[str, ...]]:
+    """Pairs of a model's links that do not both collide with their own model."""
+    links = model.links if model is not None else ()
+    return {
+        tuple(sorted((first.name, second.name)))
+        for index, first in enumerate(links)
+        for second in links[index + 1 :]
+        if model is not None
+        and not (_touches_itself(model, first) and _touches_itself(model, second))
+    }
 
 
 def _joined(tree: KinematicTree) -> set[tuple[str, ...]]:
@@ -149,42 +169,56 @@ def _explicit_pairs(
     A pair has its own sliding rate, a geom has not, so plain pairs slide more evenly; but every
     pair costs some nanoseconds in every step. Pairs with the ground come first and always.
     """
-    special: list[tuple[int, int, PairSurface]] = []
-    plain: list[tuple[int, int, PairSurface]] = []
-    for a, b, surface, is_special in _candidates(builder, kinds):
-        (special if is_special else plain).append((a, b, surface))
-    on_ground = [item for item in plain if _is_plane(builder, item)]
-    if len(plain) > _MOST_PLAIN_PAIRS:
-        plain = on_ground
-    chosen = (special + plain)[:_MOST_PAIRS]
+    special: list[_Candidate] = []
+    on_ground: list[_Candidate] = []
+    plain: list[_ClassPair] = []
+    for pair in _class_pairs(builder):
+        if pair.is_special:
+            special.extend(_members(builder, kinds, pair))
+        elif _has_plane(builder, pair):
+            on_ground.extend(_members(builder, kinds, pair))
+        else:
+            plain.append(pair)
+    rest: list[_Candidate] = []
+    if sum(len(pair.first) * len(pair.second) for pair in plain) <= 4 * _MOST_PLAIN_PAIRS:
+        rest = [item for pair in plain for item in _members(builder, kinds, pair)]
+    if len(on_ground) + len(rest) > _MOST_PLAIN_PAIRS:
+        rest = []
     geoms = builder.geoms
     return tuple(
         _add_pair(builder.spec, geoms[a], geoms[b], surface, number)
-        for number, (a, b, surface) in enumerate(chosen)
+        for number, (a, b, surface) in enumerate((special + on_ground + rest)[:_MOST_PAIRS])
     )
 
 
-def _candidates(
-    builder: SpecBuilder, kinds: Sequence[CollisionKind]
-) -> Iterator[tuple[int, int, PairSurface, bool]]:
+def _class_pairs(builder: SpecBuilder) -> Iterator[_ClassPair]:
+    """Pair up classes of geoms that behave alike, resting ones not with resting ones."""
     geoms = builder.geoms
     classes: dict[tuple[object, ...], list[int]] = {}
     for index, geom in enumerate(geoms):
-        key = (geom.static, geom.heaviest_kg, *surface_key(geom.collision.surface))
+        plane = isinstance(geom.collision.shape, Plane)
+        key = (plane, geom.static, geom.heaviest_kg, *surface_key(geom.collision.surface))
         classes.setdefault(key, []).append(index)
     for first, second in combinations_with_replacement(list(classes.values()), 2):
         one, other = geoms[first[0]], geoms[second[0]]
-        if one.static and other.static:
-            continue
-        surface = combine(one.collision.surface, other.collision.surface)
-        special = _is_special(one, other, surface, builder.step_s)
-        for a, b in _index_pairs(first, second):
-            if _plausible(builder, kinds, a, b):
-                yield a, b, surface, special
+        if not (one.static and other.static):
+            surface = combine(one.collision.surface, other.collision.surface)
+            special = _is_special(one, other, surface, builder.step_s)
+            yield _ClassPair(first, second, surface, special)
 
 
-def _is_plane(builder: SpecBuilder, item: tuple[int, int, PairSurface]) -> bool:
-    shapes = (builder.geoms[index].collision.shape for index in item[:2])
+def _members(
+    builder: SpecBuilder, kinds: Sequence[CollisionKind], pair: _ClassPair
+) -> list[_Candidate]:
+    return [
+        (a, b, pair.surface)
+        for a, b in _index_pairs(pair.first, pair.second)
+        if _plausible(builder, kinds, a, b)
+    ]
+
+
+def _has_plane(builder: SpecBuilder, pair: _ClassPair) -> bool:
+    shapes = (builder.geoms[group[0]].collision.shape for group in (pair.first, pair.second))
     return any(isinstance(shape, Plane) for shape in shapes)
 
 
