@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from optparse import OptionParser
@@ -16,6 +16,7 @@ from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.names import parse_command_line, resolve
 
 __all__ = [
+    "BAGS_LATER",
     "Tool",
     "ToolError",
     "add_flag",
@@ -26,8 +27,12 @@ __all__ = [
     "run_tool",
 ]
 
+BAGS_LATER = "unable to use bag file: this version of Gazelle does not read bags"
 _USAGE_CODE = 64
 _NO_MASTER = "Unable to communicate with master!"
+
+
+Command = Callable[[list[str]], int]
 
 
 class ToolError(GazelleError):
@@ -39,7 +44,7 @@ class Tool(NamedTuple):
 
     Attributes:
         name: such as ``rostopic``.
-        commands: subcommand → ``module:function``; the function takes the words behind the
+        commands: subcommand → function, or ``module:function``; it takes the words behind the
             subcommand and returns an exit code.
         usage: what is printed without a subcommand.
         usage_code: exit code of that.
@@ -47,7 +52,7 @@ class Tool(NamedTuple):
     """
 
     name: str
-    commands: Mapping[str, str]
+    commands: Mapping[str, str | Command]
     usage: str
     usage_code: int = _USAGE_CODE
     takes_remappings: bool = True
@@ -65,9 +70,8 @@ def run_tool(tool: Tool, words: list[str]) -> int:
     target = tool.commands.get(words[0]) if words else None
     if target is None:
         return _usage(tool, words)
-    module, _, function = target.partition(":")
     try:
-        return int(getattr(import_module(module), function)(words[1:]))
+        return _load(target)(words[1:])
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else 1
     except KeyboardInterrupt:
@@ -114,6 +118,14 @@ def option_parser(tool: str, usage: str) -> OptionParser:
 def add_flag(parser: OptionParser, *names: str, dest: str, text: str) -> None:
     """Add an option without a value; it is False when it is not given."""
     parser.add_option(*names, dest=dest, action="store_true", default=False, help=text)
+
+
+def _load(target: str | Command) -> Command:
+    if not isinstance(target, str):
+        return target
+    module, _, function = target.partition(":")
+    found: Command = getattr(import_module(module), function)
+    return found
 
 
 def _usage(tool: Tool, words: list[str]) -> int:

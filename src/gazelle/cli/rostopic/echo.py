@@ -10,11 +10,10 @@ from optparse import OptionParser, Values
 from typing import Any
 
 from gazelle.cli.ros_types import message_class
-from gazelle.cli.rostopic.listing import BAGS_LATER
 from gazelle.cli.rostopic.topics import FoundTopic, wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
 from gazelle.cli.text.fields import FieldError, field_type, field_value
-from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import BAGS_LATER, ToolError, add_flag, global_name, joined, option_parser
 from gazelle.graph import Clock
 from gazelle.interfaces import Time, strify
 

@@ -8,12 +8,10 @@ from typing import NamedTuple
 
 from gazelle.cli.processes import Processes
 from gazelle.cli.ros_types import shown_type
-from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import BAGS_LATER, ToolError, add_flag, global_name, joined, option_parser
 from gazelle.graph import Graph, TopicInfo
 
-__all__ = ["BAGS_LATER", "run"]
-
-BAGS_LATER = "unable to use bag file: this version of Gazelle does not read bags"
+__all__ = ["run"]
 
 
 class _Use(NamedTuple):
