@@ -320,3 +320,23 @@ def test_velocity_of_a_link_is_that_of_its_origin(build):
     assert link.com_velocity_world().linear_m_s == pytest.approx([-2, 0, 0])
     assert np.allclose(link.com_world(), [0, 0, -1])
     assert link.mass_kg == 1.0
+
+
+def test_warnings_of_the_library_become_findings(build, tmp_path, monkeypatch):
+    """MuJoCo would print them and write a file."""
+    from gazelle.engine.library import mujoco
+
+    monkeypatch.chdir(tmp_path)
+    engine = build.engine(build.block())
+    mujoco.get_mju_user_warning()("Too many contacts.\nEither the arena memory is full")
+    engine.step()
+    engine.step()
+    (finding,) = engine.diagnostics.by_code("engine.mujoco-warning")
+    assert finding.message == ("MuJoCo warns: Too many contacts. Either the arena memory is full")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_joint_limits_that_meet_lock_the_joint(build):
+    engine = build.engine(build.arm(axis=JointAxis((0, 1, 0), lower=0.3, upper=0.3)))
+    engine.step(2000)
+    assert engine.joint("arm::joint").position == pytest.approx(0.3, abs=1e-5)
