@@ -5,9 +5,8 @@ has exactly one constraint with a bounded force, dry friction, and it brakes tow
 motor is built as a flywheel that turns at the wanted speed and a clutch (a fixed tendon with
 dry friction) between flywheel and joint: the clutch brakes the difference of both speeds to
 zero with at most the wanted torque. It cannot overshoot, whatever the joint's inertia, and costs
-nothing while released (no friction, no constraint). The flywheel has no weight and belongs to
-nothing, so its reaction disappears as that of a motor fixed to the parent link would not; the
-reaction on the parent comes from the joint's own generalised coordinate.
+nothing while released (no friction, no constraint). The clutch pushes the joint's own coordinate,
+so the parent link feels the reaction; the flywheel is weightless in effect and touches nothing.
 """
 
 from __future__ import annotations
