@@ -41,7 +41,7 @@ def test_port_of_a_stranger_is_one_clear_error(
             Graph.open(port=stranger, environ={}, role=role)  # type: ignore[arg-type]
         text = str(caught.value)
         assert f"port {stranger} on 127.0.0.1 is taken by a program that is not a Gazelle" in text
-        assert "[graph.port-taken]" in text
+        assert "graph.port-taken" in text
         assert f"export GAZELLE_PORT={stranger + 1}" in text
     assert Graph.current() is None
 

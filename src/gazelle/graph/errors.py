@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.diagnostics.catalogue import entry_for
 from gazelle.errors import GraphError
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "ServiceTimeoutError",
     "ServiceUnavailableError",
     "TimeJumpError",
+    "coded",
 ]
 
 
@@ -49,3 +51,16 @@ class TimeJumpError(GraphError):
     def __init__(self, delta_ns: int) -> None:
         self.delta_ns = delta_ns
         super().__init__(f"time moved backwards by {-delta_ns / 1e9:.9f} s")
+
+
+def coded(code: str, message: str, *, fix: str = "") -> str:
+    """Return a message with its code, the remedy and ROS's own words from the catalogue.
+
+    Args:
+        code: a code of the catalogue.
+        message: what is wrong here.
+        fix: what to do here, the catalogue's general remedy when empty.
+    """
+    entry = entry_for(code)
+    text = f"{message} [{code}]\n  fix: {fix or entry.fix}"
+    return f"{text}\n  ROS says: {entry.phrase}" if entry.phrase else text

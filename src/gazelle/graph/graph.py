@@ -17,7 +17,7 @@ from gazelle.graph.clock import Clock
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.control import Control, ask_process, shut_down_node
 from gazelle.graph.discovery import Discovery
-from gazelle.graph.errors import NoGraphError, PortTakenError
+from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.hub import HubKeeper, close_session
 from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
@@ -379,8 +379,11 @@ def _somebody_listens(port: int) -> bool:
 
 def _port_taken(port: int) -> PortTakenError:
     return PortTakenError(
-        f"port {port} on 127.0.0.1 is taken by a program that is not a Gazelle graph, or by one "
-        "that does not answer [graph.port-taken]\n"
-        f"  fix: end that program (ss -ltnp 'sport = :{port}' shows it), or choose another port "
-        f"for all shells: export GAZELLE_PORT={port + 1}"
+        coded(
+            "graph.port-taken",
+            f"port {port} on 127.0.0.1 is taken by a program that is not a Gazelle graph, or by "
+            "one that does not answer",
+            fix=f"end that program (ss -ltnp 'sport = :{port}' shows it), or choose another port "
+            f"for all shells: export GAZELLE_PORT={port + 1}",
+        )
     )

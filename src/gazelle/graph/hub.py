@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.config import hub_config
+from gazelle.graph.relink import Relinker
 
 if TYPE_CHECKING:
     import zenoh
@@ -43,6 +44,7 @@ class HubKeeper:
         self._ended = threading.Event()
         self._lock = threading.Lock()
         self._listener: Any = None
+        self._relinker = Relinker(port)
 
     @property
     def is_hub(self) -> bool:
@@ -98,6 +100,7 @@ class HubKeeper:
 
     def close(self) -> None:
         """Give the hub up; another process takes it over."""
+        self._relinker.close()
         with self._lock:
             self._ended.set()
             hub, self._hub = self._hub, None
@@ -110,9 +113,11 @@ class HubKeeper:
     def _on_transport(self, event: Any) -> None:
         import zenoh
 
+        is_there = event.kind == zenoh.SampleKind.PUT
         if str(event.transport.whatami) != "router":
-            return
-        if event.kind == zenoh.SampleKind.PUT:
+            note = self._relinker.linked if is_there else self._relinker.lost
+            note(str(event.transport.zid))
+        elif is_there:
             self._connected.set()
             self._lost.clear()
         else:

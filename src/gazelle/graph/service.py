@@ -15,6 +15,7 @@ from gazelle.graph.errors import (
     ServiceCallError,
     ServiceTimeoutError,
     ServiceUnavailableError,
+    coded,
 )
 from gazelle.graph.keys import Attachment, Entity, Kind, entity_gid, service_key, token
 
@@ -199,9 +200,8 @@ class ServiceClient:
         own = self.entity.type_name
         text = f"service [{self.name}] unavailable"
         if types - {own}:
-            text += (
-                f": it has type {min(types - {own})}, the client wants {own} [graph.type-mismatch]"
-            )
+            text += f": it has type {min(types - {own})}, the client wants {own}"
+            text = coded("graph.type-mismatch", text)
         elif not types:
             names = {one.name for one in self._graph.services(include_hidden=True)}
             nearest = nearest_names(self.name, names)

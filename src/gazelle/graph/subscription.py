@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gazelle.errors import GazelleError
 from gazelle.graph import wire
 from gazelle.graph.delivery import Mailbox
+from gazelle.graph.errors import coded
 from gazelle.graph.keys import ANY_TYPE, Attachment, Entity, token, topic_selector, type_in_key
 
 if TYPE_CHECKING:
@@ -177,13 +178,11 @@ class Subscription:
         own = self.entity.type_name
         if own in (ANY_TYPE, type_name):
             return True
-        self._refuse(
-            type_name,
+        text = (
             f"{self.entity.node} wants topic {self.topic} to have type {own}, but it is published "
-            f"as {type_name}; those messages are dropped [graph.type-mismatch]\n"
-            "  ROS says: Client wants topic to have datatype/md5sum, but our version has another. "
-            "Dropping connection.",
+            f"as {type_name}; those messages are dropped"
         )
+        self._refuse(type_name, coded("graph.type-mismatch", text))
         return False
 
     def _refuse(self, type_name: str, text: str) -> None:

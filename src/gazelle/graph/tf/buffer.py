@@ -11,6 +11,7 @@ from typing import NamedTuple
 from gazelle.diagnostics import nearest_names
 from gazelle.geometry import Pose
 from gazelle.geometry.pose import IDENTITY_POSE
+from gazelle.graph.errors import coded
 from gazelle.graph.tf.errors import (
     ConnectivityError,
     ExtrapolationError,
@@ -371,10 +372,8 @@ class TransformBuffer:
         if authority in past:
             past.remove(authority)
             one, other = sorted((past[-1], authority))
-            self._warn(
-                f"frame '{child}' is published by {one} and by {other}, so it jumps between the "
-                "two; end one of them [graph.tf-two-authorities]"
-            )
+            text = f"frame '{child}' is published by {one} and by {other}, so it jumps between them"
+            self._warn(coded("graph.tf-two-authorities", text))
         past.append(authority)
 
     def _warn(self, text: str) -> None:

@@ -1,0 +1,80 @@
+"""Finding back to a process that was cut off.
+
+A process that was stopped (Ctrl-Z) while messages waited for it loses its direct link: whoever
+sent them must go on. Both stay linked to the hub, which tells where peers are only when one joins
+it. So the one that finds itself without a peer that still lives joins the hub once more.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import socket
+import stat
+import threading
+from contextlib import suppress
+from typing import Any
+
+from gazelle.graph.config import client_config
+
+__all__ = ["Relinker"]
+
+_PAUSE_S = (0.3, 0.6)
+_ASK_S = 1.0
+_DESCRIPTORS = 1024
+
+
+class Relinker:
+    """Watches one session's links to other processes."""
+
+    def __init__(self, port: int) -> None:
+        """Do nothing before the first loss.
+
+        Args:
+            port: the hub's port.
+        """
+        self._port = port
+        self._ended = threading.Event()
+        self._linked: set[str] = set()
+
+    def linked(self, zid: str) -> None:
+        """Note a link to another process."""
+        self._linked.add(zid)
+
+    def lost(self, zid: str) -> None:
+        """Note a lost link; join the hub again if that process still lives."""
+        self._linked.discard(zid)
+        threading.Thread(target=self._look_after, args=(zid,), daemon=True).start()
+
+    def close(self) -> None:
+        """Look after nothing more."""
+        self._ended.set()
+
+    def _look_after(self, zid: str) -> None:
+        self._ended.wait(random.uniform(*_PAUSE_S))
+        if not self._ended.is_set() and zid not in self._linked and self._lives(zid):
+            _cut(self._port)
+
+    def _lives(self, zid: str) -> bool:
+        """Ask the hub as a client would: peers are told of nobody they have no link to."""
+        import zenoh
+
+        try:
+            session: Any = zenoh.open(client_config(self._port))
+        except zenoh.ZError:
+            return False
+        replies = session.liveliness().get(f"@ros2_lv/*/{zid}/**", timeout=_ASK_S)
+        lives = any(reply.ok is not None for reply in replies)
+        session.close()
+        return lives
+
+
+def _cut(port: int) -> None:
+    """End this process' connections to the hub; the session makes new ones by itself."""
+    for number in range(_DESCRIPTORS):
+        with suppress(OSError):
+            if not stat.S_ISSOCK(os.fstat(number).st_mode):
+                continue
+            with socket.socket(fileno=os.dup(number)) as own:
+                if own.getpeername() == ("127.0.0.1", port):
+                    own.shutdown(socket.SHUT_RDWR)
