@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import socket
-import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -14,6 +13,7 @@ from gazelle.interfaces import message_type, service_type
 String = message_type("std_msgs/msg/String")
 SetBool = service_type("std_srvs/srv/SetBool")
 Join = Callable[..., Graph]
+Wait = Callable[..., Any]
 
 
 @pytest.fixture
@@ -51,7 +51,9 @@ def test_client_without_a_graph_is_told_how_to_start_one(port: int) -> None:
         Graph.open(port=port, environ={}, role="client")
 
 
-def test_fresh_client_sees_everything(graph: Graph, other: Graph, join: Join) -> None:
+def test_fresh_client_sees_everything(
+    graph: Graph, other: Graph, join: Join, eventually: Wait
+) -> None:
     for number, member in enumerate((graph, other)):
         node = member.create_node(f"n{number}", rosout=False)
         for topic in range(20):
@@ -59,6 +61,9 @@ def test_fresh_client_sees_everything(graph: Graph, other: Graph, join: Join) ->
         node.create_subscription("t0", None, print)
         node.create_subscription("any", None, print)
         node.create_service(f"s{number}", SetBool, print)
+    # Two nodes, 40 publishers, 4 subscriptions and 2 services: all announced, so all are seen.
+    for member in (graph, other):
+        eventually(lambda member=member: len(member.entities()) == 48)
     tool = join(role="client")
     topics = tool.topics()
     assert len(topics) == 21
@@ -81,13 +86,15 @@ def test_hidden_names_are_left_out(graph: Graph) -> None:
     assert len(graph.topics(include_hidden=True)) == 2
 
 
-def test_node_info_knows_the_process(graph: Graph, join: Join) -> None:
+def test_node_info_knows_the_process(graph: Graph, join: Join, eventually: Wait) -> None:
     import os
 
     node = graph.create_node("n", rosout=False)
     node.create_publisher("a", String)
     node.create_client("s", SetBool)
-    info = join(role="client").node_info("n")
+    tool = join(role="client")
+    eventually(lambda: len(tool.entities()) == 3)
+    info = tool.node_info("n")
     assert info.publications == (Endpoint("/a", "std_msgs/msg/String"),)
     assert info.clients == (Endpoint("/s", "std_srvs/srv/SetBool"),)
     assert (info.pid, info.host) == (os.getpid(), socket.gethostname())
@@ -95,12 +102,14 @@ def test_node_info_knows_the_process(graph: Graph, join: Join) -> None:
         graph.node_info("/m")
 
 
-def test_node_can_be_killed_by_name(graph: Graph, join: Join, inbox: Any) -> None:
+def test_node_can_be_killed_by_name(graph: Graph, join: Join, inbox: Any, eventually: Wait) -> None:
     node = graph.create_node("n")
     node.on_shutdown(inbox)
-    assert join(role="client").kill_node("/n")
+    tool = join(role="client")
+    eventually(tool.node_names)
+    assert tool.kill_node("/n")
     assert inbox.wait_for(1) == ["user request"]
-    assert node.closed or threading.Event().wait(1) or node.closed
+    eventually(lambda: node.closed)
 
 
 def test_domains_do_not_see_each_other(graph: Graph, join: Join) -> None:
@@ -109,16 +118,18 @@ def test_domains_do_not_see_each_other(graph: Graph, join: Join) -> None:
     assert elsewhere.node_names() == ()
 
 
-def test_publishers_and_subscriptions_of_a_topic(graph: Graph, other: Graph) -> None:
+def test_publishers_and_subscriptions_of_a_topic(
+    graph: Graph, other: Graph, eventually: Wait
+) -> None:
     graph.create_node("a").create_publisher("x", String, latch=True, reliable=False, queue_size=3)
     other.create_node("b").create_subscription("x", String, print)
-    (publisher,) = other.publishers_info("x")
+    (publisher,) = eventually(lambda: other.publishers_info("x"))
     assert (publisher.node, publisher.type_name, publisher.qos) == (
         "/a",
         "std_msgs/msg/String",
         (False, True, 3),
     )
-    (subscription,) = graph.subscriptions_info("/x")
+    (subscription,) = eventually(lambda: graph.subscriptions_info("/x"))
     assert subscription.node == "/b"
 
 

@@ -30,7 +30,7 @@ def test_hub_is_taken_over_and_messages_flow_on(
     late.create_node("late").create_subscription("chatter", String, inbox)
     eventually(lambda: publisher.subscription_count == 2)
     client = join(role="client")
-    assert client.node_names() == ("/late", "/listener", "/talker")
+    eventually(lambda: client.node_names() == ("/late", "/listener", "/talker"))
 
 
 def test_last_member_leaves_the_port_free(graph: Graph, join: Callable[..., Graph]) -> None:

@@ -46,7 +46,7 @@ def test_newer_node_of_the_same_name_ends_the_older(
     assert inbox.wait_for(1) == ["new node registered with same name"]
     eventually(lambda: older.closed and "/old" not in dict(other.topic_names_and_types()))
     assert not newer.closed
-    assert other.node_names() == ("/n",)
+    eventually(lambda: other.node_names() == ("/n",))
     assert "shutdown request: [/n] Reason: new node registered with same name" in (
         capsys.readouterr().err
     )
@@ -60,6 +60,7 @@ def test_shutdown_takes_everything_off_the_graph(
     node.create_subscription("b", String, print)
     node.create_service("c", Empty, print)
     node.create_client("d", Empty)
+    eventually(lambda: len(other.entities()) == 6)
     assert len(other.node_info("n").publications) == 2
     reasons: list[str] = []
     node.on_shutdown(reasons.append)
