@@ -13,6 +13,7 @@ from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.bodies import SpecBuilder, VelocityDecay
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
+from gazelle.engine.idle_words import report_idle_words
 from gazelle.engine.library import mujoco
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
@@ -79,6 +80,7 @@ def compile_world(
             add_loop(spec, joint, model, tree, step_s, diagnostics)
     _add_world_joints(builder)
     pairs = set_up_contacts(builder)
+    report_idle_words(world, diagnostics)
     for motor in motors:
         add_motor(spec, motor, step_s)
     compiled = _finish(builder, _compile(spec), pairs, tuple(motors))

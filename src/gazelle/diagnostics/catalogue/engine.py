@@ -92,6 +92,21 @@ ENTRIES = (
         "nothing needs to be done",
     ),
     Entry(
+        "engine.idle-contact-word",
+        "info",
+        "A parameter of ODE's contact solver has no effect",
+        "minDepth and maxVel tune how ODE pushes bodies apart, soft_cfm and soft_erp are its words"
+        " for a spring; this engine's contact needs none of them (docs/contact.md).",
+        "use kp and kd for a soft contact; else nothing needs to be done",
+    ),
+    Entry(
+        "engine.idle-joint-word",
+        "info",
+        "A parameter of ODE's joint solver has no effect",
+        "cfm and erp soften ODE's joints, which otherwise shake; this engine's joints are exact.",
+        "use spring_stiffness and damping for a soft joint; else nothing needs to be done",
+    ),
+    Entry(
         "engine.velocity-decay",
         "info",
         "A velocity decay has no effect on a jointed link",
