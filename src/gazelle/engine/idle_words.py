@@ -54,10 +54,10 @@ def _report(code: str, kind: str, uses: dict[str, list[_Use]], diagnostics: Diag
     groups: dict[tuple[_Use, ...], list[str]] = {}
     for word, users in uses.items():
         groups.setdefault(tuple(users), []).append(word)
-    for users, words in groups.items():
+    for group, words in groups.items():
         verb = "has" if len(words) == 1 else "have"
-        message = f"{', '.join(words)} of {_named(kind, users)} {verb} no effect"
-        diagnostics.report(code, message, users[0][1])
+        message = f"{', '.join(words)} of {_named(kind, group)} {verb} no effect"
+        diagnostics.report(code, message, group[0][1])
 
 
 def _named(kind: str, users: Iterable[_Use]) -> str:
