@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.errors import GazelleError
 from gazelle.graph.keys import NO_HASH
 from gazelle.interfaces import from_cdr, message_type, to_cdr, wire_type
-from gazelle.interfaces.type_hash import type_hash
+from gazelle.interfaces.rihs01 import type_hash
 
 __all__ = [
     "convert",

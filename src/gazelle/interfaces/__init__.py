@@ -33,9 +33,9 @@ from gazelle.interfaces.services import (
 )
 
 if TYPE_CHECKING:
+    from gazelle.interfaces.echo_text import strify
     from gazelle.interfaces.plain import fill, time_keys, to_plain
-    from gazelle.interfaces.strify import strify
-    from gazelle.interfaces.type_hash import type_hash
+    from gazelle.interfaces.rihs01 import type_hash
 
 __all__ = [
     "ActionType",
@@ -82,10 +82,10 @@ __all__ = [
 
 _LATER = {
     "fill": "plain",
-    "strify": "strify",
+    "strify": "echo_text",
     "time_keys": "plain",
     "to_plain": "plain",
-    "type_hash": "type_hash",
+    "type_hash": "rihs01",
 }
 
 

@@ -132,7 +132,7 @@ class Ros1Message:
         return all(values_equal(getattr(self, name), getattr(other, name)) for name in self._names)
 
     def __str__(self) -> str:
-        from gazelle.interfaces.strify import strify
+        from gazelle.interfaces.echo_text import strify
 
         return strify(self)
 
