@@ -147,3 +147,4 @@ def test_an_unknown_server_plug_in_is_reported(
     text = capfd.readouterr().err
     assert "server plug-in 'libmine.so' is compiled code" in text
     assert "server plug-in 'libgazebo_ros_init.so' is part of Gazelle" in text
+    assert "simulator.server-plugin" in text

@@ -8,6 +8,7 @@ from gazelle.simulator.server_options import ServerOptions, read_server_options
 def read(text: str) -> tuple[ServerOptions, list[str]]:
     diagnostics = Diagnostics()
     options = read_server_options(text.split(), diagnostics)
+    assert all(item.code == "simulator.unknown-argument" for item in diagnostics)
     return options, [item.message for item in diagnostics]
 
 

@@ -108,10 +108,10 @@ def _serve_world(
     node.log("info", "Physics dynamic reconfigure ready.")
     threading.Thread(target=_stop_with, args=(stop, server), daemon=True).start()
     try:
+        server.run(options.iterations)
         if options.iterations:
-            server.step(options.iterations)
-        else:
-            server.run()
+            text = f"state hash {server.engine.state_hash()} at {server.time_ns * 1e-9:.9f} s"
+            node.log("info", text)
     finally:
         server.close()
         dropped = sum(server.frames.dropped.values())

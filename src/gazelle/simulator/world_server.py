@@ -117,8 +117,11 @@ class WorldServer:
         finally:
             self.commands.disown()
 
-    def run(self) -> None:
+    def run(self, iterations: int = 0) -> None:
         """Run until `stop`: at the wanted real-time factor, or as fast as possible.
+
+        Args:
+            iterations: stop by itself after so many steps; 0 for never.
 
         Raises:
             SimulationDivergedError: the state became non-finite.
@@ -126,8 +129,9 @@ class WorldServer:
         self.commands.own()
         self.pace.restart(self.engine.time_ns)
         try:
-            while not self._stop.is_set():
-                self._turn()
+            last = self.engine.iteration + iterations if iterations else None
+            while not self._stop.is_set() and self.engine.iteration != last:
+                self._turn(last)
         finally:
             self.commands.disown()
 
@@ -234,7 +238,7 @@ class WorldServer:
         """What the world itself offers, closed with the server."""
         return self._world_resources
 
-    def _turn(self) -> None:
+    def _turn(self, last: int | None) -> None:
         self.commands.apply()
         if self.paused:
             self.commands.wait(None)
@@ -246,10 +250,11 @@ class WorldServer:
             self.commands.wait(lead)
             self.commands.clear_wake()
             return
-        if self.pace.factor > 0:
-            self._advance(self.pace.slice_steps(self.engine.step_ns), pausing=True)
-        else:
-            self._advance(_FAST_SLICE, pausing=True)
+        factor = self.pace.factor
+        count = self.pace.slice_steps(self.engine.step_ns) if factor > 0 else _FAST_SLICE
+        if last is not None:
+            count = min(count, last - self.engine.iteration)
+        self._advance(count, pausing=True)
 
     def _warm_cameras(self) -> None:
         if self._warms_cameras:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from gazelle.description.model import (
     JointAxis,
     JointType,
     Link,
+    MeshShape,
     Model,
     Shape,
     Sphere,
@@ -81,3 +83,10 @@ def test_the_direction_of_turning_follows_sides_axes_and_mode(
 def test_a_wheel_without_a_shape_has_no_radius() -> None:
     bare = Model("m", links=(Link("left_wheel"),), joints=(wheel("left", 0.2, Sphere(1.0))[1],))
     assert wheel_radius_m(bare, bare.joints[0]) is None
+
+
+def test_an_unreadable_mesh_has_no_radius(tmp_path: Path) -> None:
+    path = tmp_path / "wheel.stl"
+    path.write_bytes(b"not a mesh")
+    robot = model(shape=MeshShape("wheel.stl", path))
+    assert wheel_radius_m(robot, robot.joints[0]) is None

@@ -33,6 +33,7 @@ class WorldServices:
             Row("set_physics_properties", "gazebo_msgs/SetPhysicsProperties", self._set_physics),
             Row("get_light_properties", "gazebo_msgs/GetLightProperties", self._get_light),
             Row("set_light_properties", "gazebo_msgs/SetLightProperties", self._set_light),
+            Row("get_state_hash", "std_srvs/Trigger", self._get_state_hash),
             Row("delete_light", "gazebo_msgs/DeleteLight", self._delete_light),
         ]
 
@@ -57,6 +58,10 @@ class WorldServices:
         response.rendering_enabled = True
         response.success = True
         response.status_message = "GetWorldProperties: got properties"
+
+    def _get_state_hash(self, request: Any, response: Any) -> None:
+        response.success = True
+        response.message = self._server.engine.state_hash()
 
     def _get_physics(self, request: Any, response: Any) -> None:
         values = self._physics.values

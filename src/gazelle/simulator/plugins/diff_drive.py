@@ -257,7 +257,8 @@ def _odometry_source(context: PluginContext, parameters: ParameterReader) -> str
     if source is None:
         text = f"<odometrySource> is '{word}', not 'encoder' or 'world': 'world' is used"
         context.report("plugin.bad-value", text, fix=did_you_mean(word, _SOURCES))
-    if word == "0" and not parameters.ros.present:
+    tag = parameters.tag("odometrySource")
+    if word == "0" and tag is not None and tag.name == "odometrySource":
         # ROS 1 knows only the words; its reader falls back to the default.
         return "world"
     return source or "world"

@@ -35,6 +35,7 @@ _THEORA = (
     DynamicParameter("quality", "int", 31, "Quality.", 0, 63),
     DynamicParameter("keyframe_frequency", "int", 64, "Frames between key frames.", 1, 64),
 )
+Build = Callable[[int, "CameraRecord"], object]
 DepthOf = Callable[["CameraRecord"], "NDArray[np.float32]"]
 
 
@@ -49,53 +50,60 @@ def add_transports(
         topic: of the raw picture, remappings applied: transports go by the final name.
         depth_of: None for a colour picture, else what depth to encode.
     """
-    frame = stream.calibration.frame
-    store = context.host.node.parameters
-
-    def parameters(kind: str, rows: tuple[DynamicParameter, ...]) -> DynamicParameters:
-        return DynamicParameters(
-            context.resources, store, join_names(topic, kind), rows, changed=lambda values: None
-        )
-
-    jpeg = parameters("compressed", _COMPRESSED)
-    deep = parameters("compressedDepth", _COMPRESSED_DEPTH)
-    parameters("theora", _THEORA)
-
-    def compressed(time_ns: int, record: CameraRecord) -> object:
-        assert record.rgb is not None
-        return compressed_message(
-            time_ns,
-            frame,
-            record.rgb,
-            kind=str(jpeg.values["format"]),
-            quality=int(jpeg.values["jpeg_quality"]),
-            png_level=int(jpeg.values["png_level"]),
-        )
-
-    def compressed_depth(time_ns: int, record: CameraRecord) -> object:
-        assert depth_of is not None
-        return compressed_depth_message(
-            time_ns,
-            frame,
-            depth_of(record),
-            depth_max_m=float(deep.values["depth_max"]),
-            quantization=float(deep.values["depth_quantization"]),
-            png_level=int(deep.values["png_level"]),
-        )
-
-    compressed_type = "sensor_msgs/CompressedImage"
+    frame, compressed_type = stream.calibration.frame, "sensor_msgs/CompressedImage"
+    jpeg = _parameters(context, topic, "compressed", _COMPRESSED)
+    deep = _parameters(context, topic, "compressedDepth", _COMPRESSED_DEPTH)
+    _parameters(context, topic, "theora", _THEORA)
     if depth_of is None:
-        stream.add(join_names(topic, "compressed"), compressed_type, compressed, rgb=True)
+        build = _compressed(frame, jpeg)
+        stream.add(join_names(topic, "compressed"), compressed_type, build, rgb=True)
         context.resources.publisher(join_names(topic, "compressedDepth"), compressed_type)
     else:
+        build = _compressed_depth(frame, deep, depth_of)
         context.resources.publisher(join_names(topic, "compressed"), compressed_type)
-        depth_topic = join_names(topic, "compressedDepth")
-        stream.add(depth_topic, compressed_type, compressed_depth, depth=True)
+        stream.add(join_names(topic, "compressedDepth"), compressed_type, build, depth=True)
     _learn_theora()
     context.resources.publisher(join_names(topic, "theora"), "theora_image_transport/Packet")
     idle = "compressedDepth and theora send" if depth_of is None else "compressed and theora send"
     text = f"'{topic}' is listed with its image transports; {idle} nothing"
     context.report("plugin.no-encoder", text)
+
+
+def _parameters(
+    context: PluginContext, topic: str, kind: str, rows: tuple[DynamicParameter, ...]
+) -> DynamicParameters:
+    store, namespace = context.host.node.parameters, join_names(topic, kind)
+    # Values are looked up at each picture: nothing to do when they change.
+    return DynamicParameters(context.resources, store, namespace, rows, changed=lambda values: None)
+
+
+def _compressed(frame: str, settings: DynamicParameters) -> Build:
+    def build(time_ns: int, record: CameraRecord) -> object:
+        assert record.rgb is not None
+        return compressed_message(
+            time_ns,
+            frame,
+            record.rgb,
+            kind=str(settings.values["format"]),
+            quality=int(settings.values["jpeg_quality"]),
+            png_level=int(settings.values["png_level"]),
+        )
+
+    return build
+
+
+def _compressed_depth(frame: str, settings: DynamicParameters, depth_of: DepthOf) -> Build:
+    def build(time_ns: int, record: CameraRecord) -> object:
+        return compressed_depth_message(
+            time_ns,
+            frame,
+            depth_of(record),
+            depth_max_m=float(settings.values["depth_max"]),
+            quantization=float(settings.values["depth_quantization"]),
+            png_level=int(settings.values["png_level"]),
+        )
+
+    return build
 
 
 def _learn_theora() -> None:

@@ -18,6 +18,7 @@ from gazelle.description.model import (
     Model,
     Sphere,
 )
+from gazelle.errors import GazelleError
 
 __all__ = ["DriveGeometry", "drive_geometry", "wheel_radius_m"]
 
@@ -123,5 +124,9 @@ def _outline_m(collision: Collision) -> tuple[NDArray[np.float64], float] | None
     if isinstance(shape, MeshShape) and shape.path is not None:
         from gazelle.geometry.loading import load_mesh
 
-        return load_mesh(shape.path).vertices_m * np.array(shape.scale), 0.0
+        try:
+            return load_mesh(shape.path).vertices_m * np.array(shape.scale), 0.0
+        except GazelleError:
+            # The engine has reported the file; a wheel without a shape has no radius.
+            return None
     return None
