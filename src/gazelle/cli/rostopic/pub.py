@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from functools import partial
 from optparse import OptionParser, Values
@@ -15,7 +16,7 @@ from gazelle.cli.rostopic.waiting import join_as_node
 from gazelle.cli.text.filling import documents, fill_from_words, yaml_words
 from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
 from gazelle.errors import NotFoundError
-from gazelle.graph import ANY_TYPE, Graph, Kind, Publisher, TimeJumpError
+from gazelle.graph import ANY_TYPE, Graph, Publisher, TimeJumpError
 from gazelle.interfaces import Ros1Message
 
 __all__ = ["run"]
@@ -23,7 +24,7 @@ __all__ = ["run"]
 _ONCE_S = 3.0
 _LISTENER_S = 5.0
 _STREAM_RATE_HZ = 10.0
-_LOOK_S = 1.0
+_MATCH_S = 0.01
 
 
 class _Job(NamedTuple):
@@ -118,13 +119,7 @@ def _publish_stream(job: _Job) -> None:
     if rate_hz is None and not options.latch and not options.once:
         rate_hz = _STREAM_RATE_HZ
     items = iter(_file_documents(options.file)) if options.file else documents(sys.stdin)
-    # A stream is over fast; somebody should have the chance to hear it.
-    job.graph.discovery.wait_for(
-        lambda known: any(
-            one.kind is Kind.SUBSCRIPTION and one.name == job.publisher.topic for one in known
-        ),
-        _LISTENER_S,
-    )
+    _wait_for_listener(job)
     if options.file and rate_hz is not None:
         found = list(items)
         if len(found) == 1:
@@ -140,6 +135,14 @@ def _publish_stream(job: _Job) -> None:
             job.ended.wait()
         if options.once:
             job.ended.wait(_ONCE_S)
+            return
+
+
+def _wait_for_listener(job: _Job) -> None:
+    """Give somebody the chance to hear a stream, which is over fast."""
+    deadline_s = time.monotonic() + _LISTENER_S
+    while not job.publisher.matched and time.monotonic() < deadline_s:
+        if job.ended.wait(_MATCH_S):
             return
 
 
