@@ -1,12 +1,24 @@
-"""Fixtures of all tests: where the sample workspaces and recorded outputs are."""
+"""Fixtures of all tests: sample workspaces, recorded outputs, launched commands."""
 
 from __future__ import annotations
 
+import contextlib
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 _SHARED = Path(__file__).parents[2] / "shared"
+_PATIENCE_S = 20.0
 
 
 @pytest.fixture(scope="session")
@@ -27,3 +39,224 @@ def workspaces_dir(shared_dir: Path) -> Path:
 def oracles_dir(shared_dir: Path) -> Path:
     """Recorded outputs of real ROS and Gazebo programs."""
     return shared_dir / "oracles"
+
+
+class Launched:
+    """A command that runs in a session of its own: its output and the graph it is on.
+
+    Attributes:
+        popen: the process.
+        port: of its graph.
+        lines: what it has written so far.
+    """
+
+    def __init__(
+        self, words: list[str], *, port: int, cwd: Path, environ: dict[str, str], stdin: Any
+    ) -> None:
+        self.port = port
+        self.lines: list[str] = []
+        self._changed = threading.Condition()
+        self._graph: Any = None
+        self._node: Any = None
+        self.popen = subprocess.Popen(
+            words, cwd=cwd, env=environ, text=True, start_new_session=True, stdin=stdin,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace",
+        )  # fmt: skip
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    @property
+    def text(self) -> str:
+        """Everything written so far."""
+        return "\n".join(self.lines)
+
+    @property
+    def graph(self) -> Any:
+        """The launch's graph, joined when first asked for."""
+        if self._graph is None:
+            from gazelle.graph import Graph
+
+            self.wait_for_line("setting /run_id to")
+            self._graph = Graph.open(port=self.port, role="client", environ={})
+        return self._graph
+
+    @property
+    def node(self) -> Any:
+        """A node of the test on that graph."""
+        if self._node is None:
+            self._node = self.graph.create_node("test", anonymous=True, rosout=False)
+        return self._node
+
+    def wait_for_line(self, pattern: str, timeout_s: float = _PATIENCE_S) -> str:
+        """Return the first line that a regular expression finds something in."""
+
+        def found() -> str:
+            return next((line for line in self.lines if re.search(pattern, line)), "")
+
+        with self._changed:
+            assert self._changed.wait_for(lambda: found() or self._ended, timeout_s), self.text
+            assert found(), f"no line matches {pattern!r}:\n{self.text}"
+            return found()
+
+    def messages(
+        self, wanted: dict[str, int], timeout_s: float = _PATIENCE_S
+    ) -> dict[str, list[Any]]:
+        """Return so many messages of each topic, all gathered at the same time."""
+        got: dict[str, list[Any]] = {topic: [] for topic in wanted}
+        done = threading.Condition()
+
+        def take(topic: str) -> Callable[[Any], None]:
+            def on_message(message: Any) -> None:
+                with done:
+                    got[topic].append(message)
+                    done.notify_all()
+
+            return on_message
+
+        listening = [
+            self.node.create_subscription(topic, self._type(topic), take(topic)) for topic in wanted
+        ]
+
+        def complete() -> bool:
+            return all(len(got[topic]) >= count for topic, count in wanted.items())
+
+        with done:
+            counts = {topic: len(items) for topic, items in got.items()}
+            assert done.wait_for(complete, timeout_s), f"{counts} of {wanted}\n{self.text}"
+        for subscription in listening:
+            subscription.unregister()
+        return got
+
+    def publish(self, topic: str, type_name: str, **fields: Any) -> Any:
+        """Publish a message as soon as somebody listens; returns the publisher."""
+        from gazelle.interfaces import fill, message_type
+
+        message_class = message_type(type_name)
+        publisher = self.node.create_publisher(topic, message_class)
+        self.eventually(lambda: publisher.matched)
+        message = message_class()
+        fill(message, fields)
+        publisher.publish(message)
+        return publisher
+
+    def call(self, service: str, type_name: str, **fields: Any) -> Any:
+        """Call a service and return its response."""
+        from gazelle.interfaces import fill, service_type
+
+        kind = service_type(type_name)
+        client = self.node.create_client(service, kind)
+        assert client.wait_for_service(_PATIENCE_S), f"no {service}\n{self.text}"
+        request = kind.Request()
+        fill(request, fields)
+        return client.call(request, timeout_s=_PATIENCE_S)
+
+    def eventually(self, condition: Callable[[], Any], timeout_s: float = _PATIENCE_S) -> Any:
+        """Return what a condition gives as soon as that is true."""
+        deadline = time.monotonic() + timeout_s
+        pause = threading.Event()
+        while not (found := condition()):
+            assert time.monotonic() < deadline, f"did not happen in time\n{self.text}"
+            pause.wait(0.01)
+        return found
+
+    def wait(self, timeout_s: float = _PATIENCE_S) -> int:
+        """Wait for the end and return the exit code."""
+        code = self.popen.wait(timeout_s)
+        self._reader.join(timeout_s)
+        return code
+
+    def stop(self, number: int = signal.SIGINT) -> int:
+        """Send a signal and return the exit code."""
+        self.popen.send_signal(number)
+        return self.wait()
+
+    def processes(self) -> dict[int, str]:
+        """Return the command lines of all processes on this graph's port, the test's apart."""
+        import psutil
+
+        found: dict[int, str] = {}
+        for process in psutil.process_iter():
+            with contextlib.suppress(psutil.Error):
+                on_port = process.environ().get("GAZELLE_PORT") == str(self.port)
+                if on_port and process.status() != psutil.STATUS_ZOMBIE:
+                    found[process.pid] = " ".join(process.cmdline())
+        return found
+
+    def close(self) -> None:
+        """End whatever is left."""
+        if self._graph is not None:
+            self._graph.close()
+        if self.popen.poll() is None:
+            self.popen.send_signal(signal.SIGTERM)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self.popen.wait(_PATIENCE_S)
+        for pid in self.processes():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        self.popen.wait(_PATIENCE_S)
+
+    @property
+    def _ended(self) -> bool:
+        return not self._reader.is_alive()
+
+    def _type(self, topic: str) -> str:
+        def named() -> str:
+            pairs = self.graph.topic_names_and_types()
+            return next((kind for name, kind in pairs if name == topic and kind != "*"), "")
+
+        return str(self.eventually(named))
+
+    def _read(self) -> None:
+        assert self.popen.stdout is not None
+        with self.popen.stdout:
+            for line in self.popen.stdout:
+                with self._changed:
+                    self.lines.append(line.rstrip("\n"))
+                    self._changed.notify_all()
+        self._reader_ended()
+
+    def _reader_ended(self) -> None:
+        with self._changed:
+            self._changed.notify_all()
+
+
+@pytest.fixture
+def free_port() -> int:
+    """A port nobody listens on."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+Run = Callable[..., Launched]
+
+
+@pytest.fixture
+def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
+    """Runs ``gazelle WORDS…`` on a port of the test's own; everything ends with the test."""
+    running: list[Launched] = []
+
+    def run(
+        *words: str, cwd: Path = tmp_path, port: int = free_port, stdin: Any = None, **environ: str
+    ) -> Launched:
+        clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
+        own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(tmp_path / "ros_home"), **environ}
+        command = [sys.executable, "-m", "gazelle.cli", *words]
+        running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
+        return running[-1]
+
+    yield run
+    for one in reversed(running):
+        one.close()
+
+
+@pytest.fixture
+def in_workspace(gazelle: Run, workspaces_dir: Path) -> Run:
+    """Runs ``gazelle WORDS…`` in the documents' catkin workspace, with their models."""
+
+    def run(*words: str, **options: Any) -> Launched:
+        options.setdefault("cwd", workspaces_dir / "catkin_ws")
+        options.setdefault("GAZEBO_MODEL_PATH", str(workspaces_dir / "gazebo_models"))
+        return gazelle(*words, **options)
+
+    return run

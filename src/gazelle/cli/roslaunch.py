@@ -87,7 +87,12 @@ def _parser() -> argparse.ArgumentParser:
     add("--sigint-timeout", type=float, default=15.0, help="seconds after SIGINT")
     add("--sigterm-timeout", type=float, default=2.0, help="seconds after SIGTERM")
     add("--fast", action="store_true", help="simulate as fast as possible")
-    add("--lockstep", action="store_true", help="the simulation waits for every sensor frame")
+    add(
+        "--lockstep",
+        action="store_true",
+        help="every run the same: time waits for spawners, frames",
+    )
+    add("--iters", type=int, default=0, metavar="N", help="end after N steps of the simulator")
     return parser
 
 
@@ -131,6 +136,8 @@ def _launch_options(options: argparse.Namespace) -> LaunchOptions:
         show_summary=not options.no_summary,
         run_id=options.run_id,
         simulator_args=tuple(words),
+        lockstep=options.lockstep,
+        iterations=options.iters,
         stop_times=StopTimes(options.sigint_timeout, options.sigterm_timeout),
     )
 

@@ -7,7 +7,7 @@ import itertools
 import os
 import socket
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from gazelle.diagnostics import nearest_names
@@ -15,6 +15,7 @@ from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import introspection
 from gazelle.graph.clock import Clock
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
+from gazelle.graph.console import print_record
 from gazelle.graph.control import Control, ask_process, shut_down_node
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
@@ -54,6 +55,7 @@ class Graph:
         clock: the clock of all nodes here.
         parameters: the parameter store, by global names.
         local: topics' ends in this process.
+        console: writes what nodes log, taken over by nodes when they are made.
     """
 
     _open: ClassVar[list[Graph]] = []
@@ -76,6 +78,7 @@ class Graph:
         self.parameter_share = ParameterShare(session)
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
         self.clock = Clock(lambda: self.parameters.get_cached(_USE_SIM_TIME, False))
+        self.console: Callable[..., None] = print_record
         self._environ = environ
         self._keeper = keeper
         self._discovery = Discovery(session, domain)

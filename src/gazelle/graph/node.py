@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from gazelle.errors import GraphError
 from gazelle.graph import wire
-from gazelle.graph.console import Level, LogRecord, level_of, print_record
+from gazelle.graph.console import Level, LogRecord, level_of
 from gazelle.graph.keys import ANY_TYPE, DEFAULT_QOS, NO_HASH, Entity, Kind, Qos, token
 from gazelle.graph.names import check_name, remap, resolve
 from gazelle.graph.parameters import ParameterStore
@@ -44,6 +44,7 @@ class Node:
         namespace: where its relative names start.
         parameters: the parameter store, by this node's names.
         log_level: what is less than this is not logged.
+        console: writes what is logged, see `Graph.console`.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Node:
         self.name = name
         self.namespace = namespace
         self.log_level = Level.INFO
+        self.console: Callable[..., None] = graph.console
         self.parameters = ParameterStore(graph.parameter_share, self.resolve_name, name)
         self._remappings = remap(remappings, namespace, node=name)
         self._created: list[_Closable] = []
@@ -191,6 +193,7 @@ class Node:
         logger: str = "",
         padded: bool = True,
         console: bool = True,
+        depth: int = 1,
     ) -> None:
         """Say something on the console and on ``/rosout``.
 
@@ -200,11 +203,12 @@ class Node:
             logger: name of the logger, the node's own when empty.
             padded: roscpp's layout ``[ INFO]``, else rospy's ``[INFO]``.
             console: print it too.
+            depth: whose file and line go with it: 1 for the caller's, 2 for its caller's.
         """
         severity = level_of(level)
         if severity < self.log_level:
             return
-        caller = sys._getframe(1)
+        caller = sys._getframe(depth)
         sim_ns = self.clock.now_ns() if self.clock.use_sim_time else None
         record = LogRecord(
             severity,
@@ -218,7 +222,7 @@ class Node:
             caller.f_lineno,
         )
         if console:
-            print_record(record, padded=padded)
+            self.console(record, padded=padded)
         if self._rosout is not None and self._rosout.matched and not self._closed:
             self._rosout.publish(self._rosout_message(record))
 

@@ -60,12 +60,12 @@ class NodeHost:
         self._status = os.fdopen(read_fd, "r", encoding="utf-8")
         threading.Thread(target=self._read_status, daemon=True).start()
 
-    def start(self, host_id: int, node: str, spec: NodeSpec) -> None:
+    def start(self, host_id: int, node: str, spec: NodeSpec, log_file: str) -> None:
         """Start a node; its end comes back as a `NodeEnded` event."""
         start = {
             "id": host_id,
             "node": node,
-            "argv": node_words(spec),
+            "argv": [*node_words(spec), f"__log:={log_file}"],
             "namespace": spec.namespace.rstrip("/") or "/",
             "output": spec.output,
         }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shlex
 import signal
@@ -16,7 +17,7 @@ from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.executables import Executable
 
-__all__ = ["LaunchedProcess", "end_text", "node_words", "start_process"]
+__all__ = ["LaunchedProcess", "code_text", "end_text", "node_words", "start_process"]
 
 
 @dataclass(slots=True)
@@ -84,12 +85,16 @@ def end_text(process: LaunchedProcess, code: int) -> str:
     if code == 0:
         return f"process has finished cleanly\n{log}"
     command = " ".join(process.words)
-    what = (
-        f"exit code {code}"
-        if code > 0
-        else f"signal {signal.Signals(-code).name}, exit code {code}"
-    )
-    return f"process has died [pid {process.pid}, {what}, cmd {command}].\n{log}"
+    return f"process has died [pid {process.pid}, {code_text(code)}, cmd {command}].\n{log}"
+
+
+def code_text(code: int) -> str:
+    """Return an exit code in words; negative ones are signals."""
+    if code >= 0:
+        return f"exit code {code}"
+    with contextlib.suppress(ValueError):
+        return f"signal {signal.Signals(-code).name}, exit code {code}"
+    return f"signal {-code}, exit code {code}"
 
 
 class _Inherited:

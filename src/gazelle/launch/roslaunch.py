@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
+import threading
 import uuid
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,18 +15,22 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.errors import LaunchError
+from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph
+from gazelle.interfaces import service_type
 from gazelle.launch.config import LaunchConfig, NodeSpec
 from gazelle.launch.console import Console, summary
 from gazelle.launch.environment import node_environment, ros_home
 from gazelle.launch.executables import Executable, find_executable
+from gazelle.launch.lockstep import HeldStart, holds_time, is_simulator, with_simulator_words
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.workspace import Workspace
 
 __all__ = ["LaunchOptions", "launch"]
 
 _ROSOUT = NodeSpec("rosout", "rosout", "rosout")
+_UNPAUSE = "/gazebo/unpause_physics"
+_UNPAUSE_S = 60.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +46,8 @@ class LaunchOptions:
         show_summary: print the SUMMARY block.
         run_id: identifier of the run, made up when empty.
         simulator_args: words added to every simulator server (``--fast``, ``--lockstep``).
+        lockstep: every run is the same: time stands still until all spawners have ended.
+        iterations: the launch ends after so many steps of the simulator, 0 for never.
     """
 
     screen: bool = False
@@ -50,6 +58,8 @@ class LaunchOptions:
     show_summary: bool = True
     run_id: str = ""
     simulator_args: tuple[str, ...] = ()
+    lockstep: bool = False
+    iterations: int = 0
     stop_times: StopTimes | None = None
 
 
@@ -90,27 +100,66 @@ def launch(
             console.plain(summary(config, {**config.params, **_core_params()}))
         _announce(graph, console, title, run_id)
         environment = node_environment(environ, workspace)
+        run = _Run(graph, workspace, console)
         supervisor = Supervisor(
-            environment, log_folder, _cwd(environ), console=console, stop_times=options.stop_times
+            environment,
+            log_folder,
+            _cwd(environ),
+            console=console,
+            stop_times=options.stop_times,
+            on_end=run.ended,
         )
-        code = _run(supervisor, nodes, workspace, diagnostics, console)
+        code = run(supervisor, nodes, held=options.lockstep and holds_time(nodes))
     console.bold("done")
     return 1 if missing else code
 
 
-def _run(
-    supervisor: Supervisor,
-    nodes: Sequence[tuple[NodeSpec, Executable]],
-    workspace: Workspace,
-    diagnostics: Diagnostics,
-    console: Console,
-) -> int:
-    rosout = find_executable("rosout", "rosout", workspace=workspace, diagnostics=diagnostics)
-    if rosout is not None and supervisor.start(_ROSOUT, rosout):
-        console.plain("started core service [/rosout]")
-    for spec, executable in nodes:
-        supervisor.start(spec, executable)
-    return supervisor.run()
+class _Run:
+    """Starts the nodes: all at once, or spawners in turn while time is held."""
+
+    def __init__(self, graph: Graph, workspace: Workspace, console: Console) -> None:
+        self._graph = graph
+        self._workspace = workspace
+        self._console = console
+        self._held: HeldStart | None = None
+
+    def __call__(
+        self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, held: bool
+    ) -> int:
+        """Start everything and stay until the launch is over."""
+        rosout = find_executable(
+            "rosout", "rosout", workspace=self._workspace, diagnostics=Diagnostics()
+        )
+        if rosout is not None and supervisor.start(_ROSOUT, rosout):
+            self._console.plain("started core service [/rosout]")
+        if held:
+            self._held = HeldStart(nodes, start=supervisor.start, release=self._release)
+        for spec, executable in HeldStart.others(nodes) if held else nodes:
+            pause = held and is_simulator(executable)
+            supervisor.start(with_simulator_words(spec, ["-u"]) if pause else spec, executable)
+        if self._held is not None:
+            self._held.begin()
+        return supervisor.run()
+
+    def ended(self, spec: NodeSpec) -> None:
+        """Hear that a node has ended."""
+        if self._held is not None:
+            self._held.ended(spec)
+
+    def _release(self) -> None:
+        """Let time go on, without keeping the supervisor from its events."""
+        threading.Thread(target=_unpause, args=(self._graph,), daemon=True).start()
+
+
+def _unpause(graph: Graph) -> None:
+    node = graph.create_node("roslaunch", anonymous=True, rosout=False)
+    kind = service_type("std_srvs/Empty")
+    # The launch may end while this waits for the simulator.
+    with contextlib.suppress(GraphError):
+        client = node.create_client(_UNPAUSE, kind)
+        if client.wait_for_service(_UNPAUSE_S):
+            client.call(kind.Request())
+        node.shutdown()
 
 
 def _executables(
@@ -132,12 +181,14 @@ def _executables(
 
 def _with_options(spec: NodeSpec, executable: Executable, options: LaunchOptions) -> NodeSpec:
     output = "screen" if options.screen else "log" if options.log else spec.output
-    builtin = executable.builtin
-    args = spec.args
-    if builtin is not None and builtin.type in {"gzserver", "gazebo", "debug"}:
-        args = " ".join([args, *options.simulator_args]).strip()
     required = spec.required or options.required
-    return replace(spec, output=output, required=required, args=args)
+    if is_simulator(executable):
+        words = list(options.simulator_args)
+        if options.iterations:
+            words += ["--iters", str(options.iterations)]
+            required = True
+        spec = with_simulator_words(spec, words)
+    return replace(spec, output=output, required=required)
 
 
 def _graph(options: LaunchOptions) -> Graph:

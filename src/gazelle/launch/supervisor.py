@@ -3,25 +3,36 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import queue
 import signal
 import subprocess
 import threading
 import time
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.console import Console
 from gazelle.launch.executables import Executable
+from gazelle.launch.guard import Guard
 from gazelle.launch.host import HostEnded, NodeEnded, NodeHost
-from gazelle.launch.process import LaunchedProcess, end_text, node_words, start_process
+from gazelle.launch.process import (
+    LaunchedProcess,
+    code_text,
+    end_text,
+    node_words,
+    start_process,
+)
 
 __all__ = ["StopTimes", "Supervisor"]
 
 _RULE = "=" * 80
+_HOST_DEATHS = 3
+_OFTEN_S = 60.0
 
 
 class StopTimes:
@@ -39,9 +50,8 @@ class _ProcessEnded:
 
 
 class _Respawn:
-    def __init__(self, spec: NodeSpec, executable: Executable) -> None:
-        self.spec = spec
-        self.executable = executable
+    def __init__(self, process: LaunchedProcess) -> None:
+        self.process = process
 
 
 class _Shutdown:
@@ -63,42 +73,62 @@ class Supervisor:
         *,
         console: Console,
         stop_times: StopTimes | None = None,
+        on_end: Callable[[NodeSpec], None] | None = None,
     ) -> None:
+        """Prepare; nothing runs yet.
+
+        Args:
+            environment: of all processes.
+            log_folder: where their logs go.
+            cwd: where they run, unless the file says otherwise.
+            console: the terminal.
+            stop_times: patience at the end.
+            on_end: hears of every node that has ended and is not started again.
+        """
         self._environment = environment
         self._log_folder = log_folder
         self._cwd = cwd
         self._console = console
         self._stop_times = stop_times or StopTimes()
+        self._on_end = on_end
         self._events: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._running: list[LaunchedProcess] = []
-        self._started: list[subprocess.Popen[bytes]] = []
+        self._leftovers: set[int] = set()
         self._executables: dict[str, Executable] = {}
         self._count = 0
         self._respawning = 0
+        self._guard: Guard | None = None
         self._host: NodeHost | None = None
+        self._host_ids = itertools.count(1)
+        self._host_deaths: deque[float] = deque(maxlen=_HOST_DEATHS)
         self._exit_code = 0
 
     def start(self, spec: NodeSpec, executable: Executable) -> bool:
         """Start a node; False (and a line on the terminal) when that is impossible."""
         self._count += 1
         label = f"{spec.full_name.strip('/').replace('/', '-')}-{self._count}"
-        words = (*executable.command, *node_words(spec))
-        process = LaunchedProcess(label, spec, words, self._log_folder / label)
         self._executables[label] = executable
+        return self._start(label, spec)
+
+    def _start(self, label: str, spec: NodeSpec) -> bool:
+        executable = self._executables[label]
+        stem = self._log_folder / label
+        words = (*executable.command, *node_words(spec), f"__log:={stem}.log")
+        process = LaunchedProcess(label, spec, words, stem)
         builtin = executable.builtin
-        if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
-            self._start_hosted(process, f"{builtin.package}/{builtin.type}")
-            return True
         try:
-            start_process(process, executable, self._environment, self._cwd)
-        except OSError as error:
+            if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
+                self._start_hosted(process, f"{builtin.package}/{builtin.type}")
+            else:
+                start_process(process, executable, self._environment, self._cwd)
+                self._watch(process.popen)
+                threading.Thread(target=self._wait_for, args=(process,), daemon=True).start()
+        except (OSError, ValueError) as error:
             self._console.error(f"cannot start [{label}]: {error}")
             self._exit_code = 1
+            self._tell_end(spec)
             return False
         self._running.append(process)
-        assert process.popen is not None
-        self._started.append(process.popen)
-        threading.Thread(target=self._wait_for, args=(process,), daemon=True).start()
         self._console.bold(f"process[{label}]: started with pid [{process.pid}]")
         return True
 
@@ -130,17 +160,25 @@ class Supervisor:
         self._wait_until(time.monotonic() + self._stop_times.sigint_s)
         self._escalate(signal.SIGTERM, self._stop_times.sigterm_s)
         self._escalate(signal.SIGKILL, self._stop_times.sigterm_s)
-        for popen in self._started:
-            _signal_group(popen, signal.SIGKILL)
+        for group in self._leftovers:
+            _signal_group(group, signal.SIGKILL)
+        if self._guard is not None:
+            self._guard.close()
 
     def _start_hosted(self, process: LaunchedProcess, node: str) -> None:
         if self._host is None:
             self._host = NodeHost(self._environment, self._cwd, self._events)
-        process.host_id = self._count
+            self._watch(self._host.popen)
+        process.host_id = next(self._host_ids)
         process.popen = self._host.popen
-        self._host.start(self._count, node, process.spec)
-        self._running.append(process)
-        self._console.bold(f"process[{process.label}]: started with pid [{process.pid}]")
+        self._host.start(process.host_id, node, process.spec, f"{process.log_stem}.log")
+
+    def _watch(self, popen: subprocess.Popen[bytes] | None) -> None:
+        """Let the guard end a process, and what it starts, should this one be killed."""
+        assert popen is not None
+        if self._guard is None:
+            self._guard = Guard()
+        self._guard.begun(popen.pid)
 
     def _wait_for(self, process: LaunchedProcess) -> None:
         assert process.popen is not None
@@ -152,7 +190,9 @@ class Supervisor:
             return False
         if isinstance(event, _Respawn):
             self._respawning -= 1
-            self.start(event.spec, event.executable)
+            self._start(event.process.label, event.process.spec)
+            return True
+        if isinstance(event, HostEnded) and self._revive_host(event):
             return True
         ended = [self._ended(process, code) for process, code in self._ends(event)]
         return all(ended)
@@ -172,6 +212,8 @@ class Supervisor:
         if process not in self._running:
             return True
         self._running.remove(process)
+        if process.host_id is None:
+            self._end_leftovers(process.pid)
         text = end_text(process, code)
         if process.spec.required:
             head = f"REQUIRED process [{process.label}] has died!"
@@ -182,12 +224,43 @@ class Supervisor:
         show(f"[{process.label}] {text}")
         if process.spec.respawn:
             self._respawn(process)
+        else:
+            self._tell_end(process.spec)
+        return True
+
+    def _tell_end(self, spec: NodeSpec) -> None:
+        if self._on_end is not None:
+            self._on_end(spec)
+
+    def _end_leftovers(self, group: int) -> None:
+        """End what a process has started and left behind."""
+        if _signal_group(group, signal.SIGTERM):
+            self._leftovers.add(group)
+        elif self._guard is not None:
+            self._guard.ended(group)
+
+    def _revive_host(self, event: HostEnded) -> bool:
+        """Start the nodes of a host that died in a new one; False when that happens too often."""
+        hosted = [item for item in self._running if item.host_id is not None]
+        now = time.monotonic()
+        often = len(self._host_deaths) == _HOST_DEATHS and now - self._host_deaths[0] < _OFTEN_S
+        if often or not hosted or self._host is None:
+            return False
+        self._host_deaths.append(now)
+        self._console.error(
+            f"the process of the built-in nodes [pid {self._host.popen.pid}] has died "
+            f"({code_text(event.code)}); its nodes are started again"
+        )
+        self._host = None
+        for item in hosted:
+            self._running.remove(item)
+            self._start(item.label, item.spec)
         return True
 
     def _respawn(self, process: LaunchedProcess) -> None:
         self._console.plain(f"[{process.label}] restarting process")
         self._respawning += 1
-        event = _Respawn(process.spec, self._executables[process.label])
+        event = _Respawn(process)
         if process.spec.respawn_delay_s > 0:
             timer = threading.Timer(process.spec.respawn_delay_s, self._events.put, (event,))
             timer.daemon = True
@@ -201,11 +274,12 @@ class Supervisor:
             if self._host is not None:
                 self._host.stop(process.host_id)
         elif process.popen is not None and process.popen.poll() is None:
-            _signal_group(process.popen, number)
+            _signal_group(process.popen.pid, number)
 
     def _close_host(self) -> None:
         if self._host is not None and self._host.popen.stdin is not None:
-            self._host.popen.stdin.close()
+            with contextlib.suppress(BrokenPipeError):
+                self._host.popen.stdin.close()
 
     def _wait_until(self, deadline: float) -> None:
         for popen in self._alive():
@@ -218,7 +292,7 @@ class Supervisor:
         for popen in self._alive():
             label = next((item.label for item in self._running if item.popen is popen), "nodes")
             self._console.warning(f"[{label}] escalating to {number.name}")
-            _signal_group(popen, number)
+            _signal_group(popen.pid, number)
         self._wait_until(time.monotonic() + seconds)
 
     def _alive(self) -> list[subprocess.Popen[bytes]]:
@@ -227,7 +301,10 @@ class Supervisor:
         return [popen for popen in dict.fromkeys([*own, *hosts]) if popen.poll() is None]
 
 
-def _signal_group(popen: subprocess.Popen[bytes], number: signal.Signals) -> None:
-    """Signal a process and what it started: each is the leader of a group of its own."""
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(popen.pid, number)
+def _signal_group(group: int, number: signal.Signals) -> bool:
+    """Signal a process and what it started: each leads a group; False when nothing is left."""
+    try:
+        os.killpg(group, number)
+    except (ProcessLookupError, PermissionError):
+        return False
+    return True

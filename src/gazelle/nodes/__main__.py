@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+from pathlib import Path
 
 from gazelle.errors import GazelleError
 from gazelle.graph.parent import end_with_parent
@@ -30,7 +31,9 @@ def main(words: list[str]) -> int:
 
 def _single(name: str, argv: list[str]) -> int:
     from gazelle.graph import Graph
+    from gazelle.nodes.arguments import read_arguments
     from gazelle.nodes.host import run_node
+    from gazelle.nodes.log_file import LogFile
 
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -38,6 +41,8 @@ def _single(name: str, argv: list[str]) -> int:
     namespace = os.environ.get("ROS_NAMESPACE", "/")
     try:
         with Graph.open() as graph:
+            if log_file := read_arguments(argv, name).log_file:
+                graph.console = LogFile(Path(log_file))
             request = {"node": name, "argv": argv, "namespace": namespace}
             return run_node(request, graph, stop)
     except GazelleError as error:

@@ -22,6 +22,7 @@ class NodeArguments:
         params: private parameters of the command line (``_rate:=5``).
         rest: the node's own arguments.
         output: ``screen``, or ``log`` for warnings and errors only on the terminal.
+        log_file: where the node's log goes (``__log:=``), empty for nowhere.
     """
 
     name: str
@@ -30,6 +31,7 @@ class NodeArguments:
     params: Mapping[str, Any] = field(default_factory=dict)
     rest: tuple[str, ...] = ()
     output: str = "screen"
+    log_file: str = ""
 
 
 def read_arguments(
@@ -44,4 +46,5 @@ def read_arguments(
         params=dict(line.params),
         rest=tuple(line.rest),
         output=output,
+        log_file=line.special.get("__log", ""),
     )

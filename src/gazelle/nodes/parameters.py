@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.log_file import keep_log
 
 __all__ = ["private", "start_node", "ticks"]
 
@@ -17,6 +18,7 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     node = graph.create_node(
         arguments.name, namespace=arguments.namespace, remappings=arguments.remappings
     )
+    keep_log(node, arguments.log_file, arguments.output)
     for name, value in arguments.params.items():
         node.parameters.set(node.resolve_name(f"~{name}"), value)
     return node

@@ -35,6 +35,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         text = str(node.parameters.get(name))
     except (GraphError, KeyError):
         node.log("error", f"Could not find parameter {name} on parameter server")
+        node.shutdown()
         return 1
     model = read_description(text)
     states = StateToTf(

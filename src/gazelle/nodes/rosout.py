@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import threading
+from logging import Formatter, Handler, LogRecord, NullHandler
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
 from typing import Any
 
-from gazelle.graph import Graph
+from gazelle.graph import Graph, Level
 from gazelle.interfaces import ros1_message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 
-__all__ = ["run"]
+__all__ = ["line_of", "run"]
+
+_FILE_BYTES = 100_000_000
+_FILES = 10
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -18,11 +24,43 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     log_type = ros1_message_type("rosgraph_msgs/Log")
     out = node.create_publisher("/rosout_agg", log_type, queue_size=100)
+    file = _file(arguments.log_file)
 
     def on_log(message: Any) -> None:
         out.publish(message)
+        _write(file, line_of(message))
 
+    _write(file, f"{node.clock.now_ns() / 1e9:.9f} Node Startup")
     node.create_subscription("/rosout", log_type, on_log, queue_size=0)
     stop.wait()
     node.shutdown()
+    file.close()
     return 0
+
+
+def line_of(message: Any) -> str:
+    """Return a ``rosgraph_msgs/Log`` as a line of ``rosout.log``, the layout of ROS 1."""
+    stamp = message.header.stamp
+    place = f"[{message.file}:{message.line}({message.function})]"
+    topics = f"[topics: {', '.join(message.topics)}]"
+    level = Level(message.level).name if message.level in set(Level) else str(message.level)
+    head = f"{stamp.secs}.{stamp.nsecs:09d} {level} {message.name}"
+    return f"{head} {place} {topics} {message.msg}"
+
+
+def _file(own_log: str) -> Handler:
+    """Open ``rosout.log`` beside the node's own log, nothing for a node without one."""
+    if not own_log:
+        handler: Handler = NullHandler()
+    else:
+        path = Path(own_log).with_name("rosout.log")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handler = RotatingFileHandler(
+            path, maxBytes=_FILE_BYTES, backupCount=_FILES, encoding="utf-8", errors="replace"
+        )
+    handler.setFormatter(Formatter("%(message)s"))
+    return handler
+
+
+def _write(file: Handler, line: str) -> None:
+    file.handle(LogRecord("rosout", 0, "", 0, line, None, None))

@@ -9,13 +9,14 @@ import threading
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node
 
 __all__ = ["run"]
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Say once that no window opens, then wait to be stopped."""
-    node = graph.create_node(arguments.name, namespace=arguments.namespace)
+    node = start_node(arguments, graph)
     node.log(
         "info",
         f"[{arguments.name}] no window opens: this version of Gazelle has no view yet; "

@@ -1,0 +1,50 @@
+"""Where a launched node's log goes: all of it to its file, the terminal as the launch says."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.graph import Level
+from gazelle.graph.console import LogRecord, format_record, print_record
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node
+
+__all__ = ["LogFile", "keep_log"]
+
+
+class LogFile:
+    """Writes every record to a file, and to the terminal those of a level.
+
+    Args:
+        path: the file; its folder is made.
+        terminal: least level that is printed too.
+    """
+
+    def __init__(self, path: Path, *, terminal: Level = Level.DEBUG) -> None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._stream = path.open("a", encoding="utf-8", errors="replace", buffering=1)
+        self._terminal = terminal
+
+    def __call__(self, record: LogRecord, *, padded: bool = True) -> None:
+        """Write one record."""
+        # The node may log once more while it is being closed.
+        with contextlib.suppress(ValueError):
+            self._stream.write(f"{format_record(record, padded=padded)}\n")
+        if record.level >= self._terminal:
+            print_record(record, padded=padded)
+
+    def close(self) -> None:
+        """Write nothing more to the file."""
+        self._stream.close()
+
+
+def keep_log(node: Node, path: str, output: str = "screen") -> None:
+    """Send a node's log to a file; with output ``log`` the terminal gets warnings and worse."""
+    if not path:
+        return
+    log = LogFile(Path(path), terminal=Level.WARN if output == "log" else Level.DEBUG)
+    node.console = log
+    node.on_shutdown(lambda _reason: log.close())
