@@ -6,13 +6,15 @@ import threading
 from typing import TYPE_CHECKING
 
 from gazelle.description.model import CameraSpec, Model, OtherSensorSpec, PluginTag, World
-from gazelle.diagnostics import Diagnostics
+from gazelle.description.xml import Tag
+from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.frames import FrameWorker
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.pace import Mode, Pace
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
+from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.ports import NodePort
 from gazelle.simulator.scheduler import Scheduler
@@ -25,6 +27,7 @@ __all__ = ["WorldServer"]
 
 # Without a real-time target, commands are looked for after so many steps at the latest.
 _FAST_SLICE = 50
+_NOWHERE = SourceSpan("<sensor>")
 
 
 class WorldServer:
@@ -307,5 +310,8 @@ class WorldServer:
                 self._warm_cameras()
             for plugin in place.sensor.plugins:
                 load(plugin, place)
+            if not place.sensor.plugins and is_gz_world(self.engine.world):
+                stand_in = PluginTag(place.sensor.name, "", Tag("plugin", _NOWHERE))
+                publish_sensor(PluginContext(self, model, stand_in, resources, place))
         for plugin in model.plugins:
             load(plugin, None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.table import PluginTable, Topic
 
 __all__ = ["BUILT_IN", "SERVER_TABLE", "TABLE", "load"]
 
@@ -30,7 +30,18 @@ TABLE = PluginTable(
         *(f"gz-sim-{name}-system" for name in BUILT_IN),
         *(f"ignition-gazebo-{name}-system" for name in BUILT_IN),
     ),
-    behaviour=("Their parameters have no effect; a notice says so once.",),
+    behaviour=(
+        "Their parameters have no effect; a notice says so once.",
+        "In a world that names one, sensors without a plug-in of their own publish on their"
+        " `<topic>`, by default `/world/W/model/M/link/L/sensor/S/…`, as the ROS types that"
+        " `ros_gz_bridge` maps them to.",
+    ),
+    topics=(
+        Topic("{topic}, {topic}/points", "LaserScan and PointCloud2 of lidars", "sensor's"),
+        Topic("{topic}, camera_info beside it", "Image and CameraInfo of cameras", "sensor's"),
+        Topic("{topic}/image, /depth_image, /points, /camera_info", "of RGB-D cameras", "sensor's"),
+        Topic("{topic}", "sensor_msgs/msg/Imu", "sensor's"),
+    ),
 )
 
 SERVER_TABLE = PluginTable(

@@ -22,7 +22,16 @@ from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, sensor_pe
 if TYPE_CHECKING:
     from gazelle.sensors import ImuRecord
 
-__all__ = ["HECTOR_TABLE", "SENSOR_TABLE", "TABLE", "load", "load_hector", "load_sensor"]
+__all__ = [
+    "HECTOR_TABLE",
+    "SENSOR_TABLE",
+    "TABLE",
+    "imu_message",
+    "load",
+    "load_hector",
+    "load_sensor",
+    "publish_readings",
+]
 
 _OFFSETS = (
     Parameter("xyzOffset", "vector", (0.0, 0.0, 0.0), "mounting position", "m", ("xyzOffsets",)),
@@ -193,7 +202,7 @@ def load_sensor(context: PluginContext) -> None:
             spec = _spec((sigma,) * 3, (sigma,) * 3)
         T_link_imu = sensor.T_link_sensor @ offset
         relative = parameters.flag("initialOrientationAsReference")
-        _publish_readings(
+        publish_readings(
             context,
             topic,
             frame,
@@ -212,14 +221,15 @@ def _start_own(
     topic = context.topic(parameters, parameters.text("topicName"))
     period = period_in_steps(parameters.number("updateRate"), host.engine.step_ns)
     name = f"{context.model.name}::{context.plugin.name}"
-    _publish_readings(
+    publish_readings(
         context, topic, frame, period, lambda: host.sensors.imu_at(name, link_name, offset, spec)
     )
 
 
-def _publish_readings(
+def publish_readings(
     context: PluginContext, topic: str, frame: str, period: Any, read: Callable[[], ImuRecord]
 ) -> None:
+    """Publish readings every so many steps, while somebody listens."""
     engine = context.host.engine
     publisher = context.resources.publisher(topic, "sensor_msgs/Imu")
 

@@ -18,7 +18,16 @@ from gazelle.simulator.scheduler import ORDER_SENSOR, sensor_period_in_steps
 if TYPE_CHECKING:
     from gazelle.sensors import LidarRecord
 
-__all__ = ["ROS2_TABLE", "TABLE", "load", "load_ray_sensor"]
+__all__ = [
+    "ROS2_TABLE",
+    "TABLE",
+    "cloud_builder",
+    "lidar_place",
+    "load",
+    "load_ray_sensor",
+    "scan_builder",
+    "start_scans",
+]
 
 TABLE = PluginTable(
     family="laser",
@@ -67,7 +76,7 @@ def load(context: PluginContext) -> None:
     if place is not None:
         topic = context.topic(parameters, parameters.text("topicName"))
         frame = _prefixed_frame(context, parameters)
-        _start(context, place, topic, "sensor_msgs/LaserScan", _scan_builder(place, frame))
+        start_scans(context, place, topic, "sensor_msgs/LaserScan", scan_builder(place, frame))
     parameters.report_unread()
 
 
@@ -80,12 +89,12 @@ def load_ray_sensor(context: PluginContext) -> None:
         frame = parameters.text("frame_name") or place.link_name.split("::")[-1]
         topic = context.topic(parameters, "~/out")
         builders: dict[str, Callable[[int, LidarRecord], Any]] = {
-            "LaserScan": _scan_builder(place, frame),
+            "LaserScan": scan_builder(place, frame),
             "PointCloud": _points_builder(frame, parameters.number("min_intensity")),
-            "PointCloud2": _cloud_builder(frame, parameters.number("min_intensity")),
+            "PointCloud2": cloud_builder(frame, parameters.number("min_intensity")),
             "Range": _range_builder(place, frame, parameters.text("radiation_type")),
         }
-        _start(context, place, topic, f"sensor_msgs/{kind}", builders[kind])
+        start_scans(context, place, topic, f"sensor_msgs/{kind}", builders[kind])
     parameters.report_unread()
 
 
@@ -100,13 +109,14 @@ def lidar_place(context: PluginContext) -> SensorPlace | None:
     return None
 
 
-def _start(
+def start_scans(
     context: PluginContext,
     place: SensorPlace,
     topic: str,
     type_name: str,
     build: Callable[[int, LidarRecord], Any],
 ) -> None:
+    """Publish a message made of each scan, at the sensor's rate, while somebody listens."""
     host = context.host
     publisher = context.resources.publisher(topic, type_name, reliable=False)
 
@@ -134,7 +144,8 @@ def _output_kind(context: PluginContext, parameters: ParameterReader) -> str:
     return "PointCloud2"
 
 
-def _scan_builder(place: SensorPlace, frame: str) -> Callable[[int, LidarRecord], Any]:
+def scan_builder(place: SensorPlace, frame: str) -> Callable[[int, LidarRecord], Any]:
+    """Return what makes a ``sensor_msgs/LaserScan`` of a scan's middle row."""
     spec = place.sensor.spec
     assert isinstance(spec, LidarSpec)
 
@@ -164,7 +175,9 @@ def _points(record: LidarRecord, least: float) -> tuple[Any, Any]:
     return points.astype(np.float32), record.intensities[seen]
 
 
-def _cloud_builder(frame: str, least: float) -> Callable[[int, LidarRecord], Any]:
+def cloud_builder(frame: str, least: float) -> Callable[[int, LidarRecord], Any]:
+    """Return what makes a ``sensor_msgs/PointCloud2`` of all points seen."""
+
     def build(time_ns: int, record: LidarRecord) -> Any:
         points, intensities = _points(record, least)
         data = np.column_stack([points, intensities]).astype(np.float32)
