@@ -44,7 +44,6 @@ class Task:
         order: tasks due at the same step run in this order, then as they were added.
         wanted: asked before `action`; when it says no the task sleeps and is asked again at least
             every 50 ms, and whenever `Scheduler.look` is called.
-        runs: how often `action` has run.
     """
 
     name: str
@@ -52,7 +51,6 @@ class Task:
     action: Callable[[], None]
     order: int = ORDER_CONTROL
     wanted: Callable[[], bool] | None = None
-    runs: int = 0
     _start: int = 0
     _tick: int = 0
     _ratio: tuple[int, int] = (1, 1)
@@ -154,7 +152,6 @@ class Scheduler:
                 continue
             task._tick += 1
             heapq.heapreplace(heap, (task._due(), task.order, task._sequence, task))
-            task.runs += 1
             ran += 1
             task.action()
             heap = self._heap

@@ -220,14 +220,6 @@ class WorldServer:
         self._resources.clear()
         self._world_resources.close()
 
-    def place(self, name: str) -> SensorPlace:
-        """Return a sensor by its full name, ``model::link::sensor``.
-
-        Raises:
-            KeyError: there is none.
-        """
-        return self.sensor_places()[name]
-
     def sensor_places(self) -> dict[str, SensorPlace]:
         """Return all sensors of the world by their full names."""
         return {

@@ -23,7 +23,8 @@ __all__ = ["load"]
 
 # gz-sim commands joint velocities outright; the engine needs some bound on the torque.
 _TORQUE_NM = 1e3
-_CONTROL_HZ = 1000.0
+# gz-sim limits and commands at every step; a hundredth of a second is fine enough.
+_CONTROL_HZ = 100.0
 
 
 def load(context: PluginContext) -> None:
@@ -101,7 +102,7 @@ class _GzDrive:
         step_ns, resources = self._engine.step_ns, self._context.resources
         period = period_in_steps(parameters.number("odom_publish_frequency"), step_ns)
         self._publish_period_s = float(period * step_ns) * 1e-9
-        control = period_in_steps(_CONTROL_HZ / 10, step_ns)
+        control = period_in_steps(_CONTROL_HZ, step_ns)
         self._control_period_s = float(control * step_ns) * 1e-9
         resources.task(f"{self._context.plugin.name} drive", control, self._control)
         resources.task(f"{self._context.plugin.name} odometry", period, self._publish)
