@@ -8,6 +8,7 @@ import re
 import socket
 
 from gazelle.graph import Graph, Node
+from gazelle.interfaces import ros1_service_type
 
 
 def _like_ros_live(graph: Graph) -> None:
@@ -21,8 +22,6 @@ def _like_ros_live(graph: Graph) -> None:
     state.create_subscription("/joint_states", "sensor_msgs/JointState", print)
     for name in ("get_loggers", "set_logger_level"):
         kind = "GetLoggers" if name == "get_loggers" else "SetLoggerLevel"
-        from gazelle.interfaces import ros1_service_type
-
         service = ros1_service_type(f"roscpp/{kind}")
         state.create_service(f"/robot_state_publisher/{name}", service, print)
 
@@ -68,7 +67,7 @@ def test_ping_asks_the_process(robot: Node, run, monkeypatch) -> None:
     lines = run("rosnode", "ping", "-c", "2", "robot").out.splitlines()
     assert lines[:2] == [
         "rosnode: node is [/robot]",
-        "pinging /robot with a timeout of 3.0s",
+        "pinging /robot with a timeout of 2.0s",
     ]
     assert all(re.fullmatch(r"reply from \S+\ttime=[\d.]+ms", line) for line in lines[2:4])
     assert re.fullmatch(r"ping average: [\d.]+ms", lines[4])

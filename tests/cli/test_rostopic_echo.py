@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 
 from gazelle.graph import Graph, Node
@@ -92,12 +94,10 @@ def _scan():
 
 
 def test_field_of_each_item_of_a_slice(robot: Node, run) -> None:
-    kind = ros1_message_type("geometry_msgs/Point")
-    polygon = ros1_message_type("sensor_msgs/PointCloud")()
+    cloud = ros1_message_type("sensor_msgs/PointCloud")()
     point = ros1_message_type("geometry_msgs/Point32")
-    polygon.points = [point(1.0, 2.0, 3.0), point(4.0, 5.0, 6.0)]
-    _latched(robot, "/cloud", polygon)
-    assert kind is not point
+    cloud.points = [point(1.0, 2.0, 3.0), point(4.0, 5.0, 6.0)]
+    _latched(robot, "/cloud", cloud)
     assert run("rostopic", "echo", "-n1", "/cloud/points[:]/x").out == "[1.0, 4.0]\n---\n"
 
 
@@ -172,17 +172,57 @@ def test_waits_for_a_topic_and_says_so(graph: Graph, robot: Node, run, monkeypat
     )
 
 
-def test_warns_when_simulated_time_stands_still(graph, robot, run, monkeypatch, pump) -> None:
+def test_warns_when_nothing_comes_in_simulated_time(
+    graph: Graph, robot: Node, run, monkeypatch, pump
+) -> None:
     from gazelle.cli.rostopic import echo
 
+    warned = threading.Event()
+
+    def say(*words, **options) -> None:
+        print(*words, **options)
+        warned.set()
+
     monkeypatch.setattr(echo, "_SIM_TIME_S", 0.0)
+    monkeypatch.setattr(echo, "print", say, raising=False)
     graph.parameters.set("/use_sim_time", True)
     kind = ros1_message_type("std_msgs/String")
     publisher = robot.create_publisher("/chat", kind)
-    pump(lambda: publisher.publish(kind(data="late")))
-    found = run("rostopic", "echo", "-n3", "/chat")
-    assert found.code == 0
-    assert found.out.count("late") == 3
+    pump(lambda: warned.is_set() and publisher.publish(kind(data="late")))
+    found = run("rostopic", "echo", "-n1", "/chat")
+    assert found.out == 'data: "late"\n---\n'
+    assert found.err == (
+        "WARNING: no messages received and simulated time is active.\nIs /clock being published?\n"
+    )
+
+
+def test_log_messages_have_the_fields_of_ros1(graph: Graph, run, when_heard) -> None:
+    talker = graph.create_node("talker")
+    when_heard("/rosout", lambda: talker.log("warn", "look out", console=False))
+    lines = run("rostopic", "echo", "-n1", "--filter", "m.name == '/talker'", "/rosout").out
+    assert 'level: 4\nname: "/talker"\nmsg: "look out"\n' in lines
+
+
+def test_bytes_are_shown_as_numbers(robot: Node, run) -> None:
+    image = ros1_message_type("sensor_msgs/Image")(data=bytes([0, 7, 255]), width=3)
+    _latched(robot, "/image", image)
+    assert run("rostopic", "echo", "-n1", "/image/data").out == "[0, 7, 255]\n---\n"
+    assert "data: [0, 7, 255]\n" in run("rostopic", "echo", "-n1", "/image").out
+    assert run("rostopic", "echo", "-n1", "/image/data[1]").out == "7\n---\n"
+    short = run("rostopic", "echo", "-n1", "--noarr", "/image").out
+    assert 'data: "<array type: uint8, length: 3>"\n' in short
+
+
+def test_a_type_that_is_not_known_here_is_one_error(graph: Graph, run, monkeypatch) -> None:
+    from gazelle.cli.rostopic import echo, topics
+
+    found = topics.FoundTopic("/x", "other_msgs/Thing", ())
+    monkeypatch.setattr(echo, "wait_for_topic", lambda _graph, _word: found)
+    result = run("rostopic", "echo", "/x")
+    assert result.code == 1
+    assert result.err.startswith(
+        "ERROR: Cannot load message class for [other_msgs/Thing]. Are your messages built?\n"
+    )
 
 
 def test_a_field_that_is_not_there_is_named_with_those_that_are(robot: Node) -> None:

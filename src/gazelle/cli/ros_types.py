@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from gazelle.errors import NotFoundError
+from gazelle.errors import InterfaceError, NotFoundError
 from gazelle.interfaces import ros1_message_type, ros1_service_type, ros1_type_of
 
 if TYPE_CHECKING:
     from gazelle.interfaces import Ros1Message, Ros1Service
 
-__all__ = ["learn_workspace_types", "message_class", "service_class", "shown_type"]
+__all__ = ["learn_workspace_types", "message_class", "service_class", "shown_type", "topic_class"]
 
 _PARTS = ("msg", "srv", "action")
 
@@ -32,6 +32,22 @@ def message_class(name: str) -> type[Ros1Message]:
     except NotFoundError:
         learn_workspace_types()
         return ros1_message_type(short)
+
+
+def topic_class(name: str) -> type[Ros1Message]:
+    """Return the class of what is published, as `message_class`.
+
+    Raises:
+        InterfaceError: nothing defines it here; the text is what ROS says, and where to look.
+        UserFileError: its definition has errors.
+    """
+    try:
+        return message_class(name)
+    except NotFoundError as error:
+        raise InterfaceError(
+            f"Cannot load message class for [{shown_type(name)}]. Are your messages built?\n"
+            f"  {error}"
+        ) from None
 
 
 def service_class(name: str) -> type[Ros1Service]:

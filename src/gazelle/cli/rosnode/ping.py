@@ -13,7 +13,7 @@ from gazelle.graph import Graph
 __all__ = ["cleanup", "run"]
 
 _PERIOD_S = 1.0
-_TIMEOUT_S = 3.0
+_TIMEOUT_S = 2.0  # what the graph waits for a process
 
 
 def run(words: list[str]) -> int:

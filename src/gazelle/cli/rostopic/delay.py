@@ -8,7 +8,7 @@ import threading
 from collections import deque
 from typing import Any
 
-from gazelle.cli.ros_types import message_class
+from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
 from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
@@ -74,7 +74,7 @@ def run(words: list[str]) -> int:
     with joined() as graph:
         node, ended = join_as_node(graph)
         topic = wait_for_topic(graph, global_name(args[0], "rostopic"))
-        kind = message_class(topic.type_name)
+        kind = topic_class(topic.type_name)
         if not kind._has_header:
             raise ToolError(f"msg does not have header: {topic.type_name} has no time of its own")
 

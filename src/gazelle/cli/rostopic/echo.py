@@ -9,7 +9,7 @@ from functools import partial
 from optparse import OptionParser, Values
 from typing import Any
 
-from gazelle.cli.ros_types import message_class
+from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
 from gazelle.cli.text.fields import FieldError, field_type, field_value
@@ -45,7 +45,7 @@ def run(words: list[str]) -> int:
         node, ended = join_as_node(graph)
         topic = wait_for_topic(graph, word)
         echo = Echo(topic, options, graph.clock, count=count, width=width, wanted=wanted)
-        node.create_subscription(topic.name, message_class(topic.type_name), echo)
+        node.create_subscription(topic.name, topic_class(topic.type_name), echo)
         if uses_sim_time(graph) and not echo.done.wait(_SIM_TIME_S) and not echo.count:
             print(_NO_CLOCK, file=sys.stderr, flush=True)
         while not echo.done.wait(_LOOK_S) and not ended.is_set():
@@ -97,6 +97,8 @@ class Echo:
     ) -> None:
         """Print fields of `topic` as the options say."""
         self.done = threading.Event()
+        if count is not None and count <= 0:
+            self.done.set()
         self.count = 0
         self.error: ToolError | None = None
         self._topic = topic

@@ -15,7 +15,7 @@ from gazelle.cli.ros_types import message_class, shown_type
 from gazelle.cli.rostopic.waiting import join_as_node
 from gazelle.cli.text.filling import documents, fill_from_words, yaml_words
 from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
-from gazelle.errors import NotFoundError
+from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import ANY_TYPE, Graph, Publisher, TimeJumpError
 from gazelle.interfaces import Ros1Message
 
@@ -41,6 +41,14 @@ class _Job(NamedTuple):
         made = self.kind()
         fill_from_words(made, values, self.graph.clock.now_ns())
         return made
+
+    def publish(self, message: Ros1Message) -> None:
+        try:
+            self.publisher.publish(message)
+        except GraphError:
+            # The node may be killed at any moment.
+            if not self.ended.is_set():
+                raise
 
 
 def run(words: list[str]) -> int:
@@ -84,7 +92,7 @@ def _publish_latched(job: _Job, values: Any, *, once: bool) -> None:
     shown = f"[{message}]" if job.options.verbose else "message"
     end = f" for {_ONCE_S} seconds" if once else ". Press ctrl-C to terminate"
     print(f"publishing and latching {shown}{end}", flush=True)
-    job.publisher.publish(message)
+    job.publish(message)
 
 
 def _publish_at_rate(job: _Job, values: Any, rate_hz: float) -> None:
@@ -94,7 +102,7 @@ def _publish_at_rate(job: _Job, values: Any, rate_hz: float) -> None:
             message = job.message(values)
         if job.options.verbose:
             print(f"publishing {message}", flush=True)
-        job.publisher.publish(message)
+        job.publish(message)
 
 
 def _ticks(job: _Job, rate_hz: float) -> Iterator[None]:

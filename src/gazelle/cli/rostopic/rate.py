@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
-from gazelle.cli.ros_types import message_class
+from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.rostopic.topics import wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
@@ -120,7 +120,7 @@ def run(words: list[str]) -> int:
             wanted = expression(options.filter_expr, word) if options.filter_expr else None
             take = partial(_take, meter, now_ns, wanted)
             # Undecoded and in the receiving thread, to see messages when they come.
-            kind = None if wanted is None else message_class(topic.type_name)
+            kind = None if wanted is None else topic_class(topic.type_name)
             node.create_subscription(topic.name, kind, take, raw=wanted is None, inline=True)
             print(f"subscribed to [{topic.name}]", flush=True)
         if uses_sim_time(graph):

@@ -88,12 +88,19 @@ def _lacks_field(topic: TopicInfo, steps: tuple[Step, ...]) -> bool:
 
 
 def _advice(entities: Iterable[Entity], word: str) -> str:
+    """Return lines about what is there and was perhaps meant, empty when there is nothing."""
     topics = {one.name: one for one in topics_of(entities)}
-    near = hint(word, list(topics))
     for name in sorted(_starts_of(word, topics), reverse=True):
-        type_name = topics[name].type_name
-        if type_name != ANY_TYPE:
-            fields = ", ".join(message_class(type_name)._names)
-            near = f"\n  {name} is published; the fields of {shown_type(type_name)}: {fields}"
-            break
-    return near.lstrip("\n") + "\n" if near else ""
+        fields = _field_names(topics[name])
+        if fields:
+            kind = shown_type(topics[name].type_name)
+            return f"  {name} is published; the fields of {kind}: {', '.join(fields)}\n"
+    near = hint(word, list(topics)).lstrip("\n")
+    return f"{near}\n" if near else ""
+
+
+def _field_names(topic: TopicInfo) -> tuple[str, ...]:
+    try:
+        return () if topic.type_name == ANY_TYPE else message_class(topic.type_name)._names
+    except GazelleError:
+        return ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from gazelle.cli.ros_types import message_class
+from gazelle.cli.ros_types import topic_class
 from gazelle.cli.tool import ToolError, hint
 
 __all__ = ["FieldError", "Step", "field_type", "field_value", "has_field", "parse_path"]
@@ -74,7 +74,7 @@ def field_type(type_name: str, steps: tuple[Step, ...]) -> str:
     for step in steps:
         if "/" not in found:
             raise FieldError(f"no field named {step.name} in {found}")
-        owner = message_class(found.partition("[")[0])
+        owner = topic_class(found.partition("[")[0])
         if step.name not in owner._names:
             raise _no_field(step.name, owner())
         found = owner._slot_types[owner._names.index(step.name)]
