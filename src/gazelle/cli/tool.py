@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from optparse import OptionParser
@@ -30,7 +30,6 @@ __all__ = [
 BAGS_LATER = "unable to use bag file: this version of Gazelle does not read bags"
 _USAGE_CODE = 64
 _NO_MASTER = "Unable to communicate with master!"
-
 
 Command = Callable[[list[str]], int]
 
@@ -104,7 +103,7 @@ def global_name(name: str, tool: str) -> str:
     return resolve(name, namespace, node=f"/{tool}")
 
 
-def hint(name: str, existing: Iterator[str] | tuple[str, ...] | list[str]) -> str:
+def hint(name: str, existing: Iterable[str]) -> str:
     """Return a line that names what exists and is spelled alike, empty when nothing is."""
     near = did_you_mean(name, existing)
     return f"\n  {near}" if near else ""
