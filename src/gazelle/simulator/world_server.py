@@ -5,7 +5,15 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from gazelle.description.model import CameraSpec, Model, OtherSensorSpec, PluginTag, World
+from gazelle.description.model import (
+    CameraSpec,
+    ImuSpec,
+    LidarSpec,
+    Model,
+    OtherSensorSpec,
+    PluginTag,
+    World,
+)
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose
@@ -28,6 +36,8 @@ __all__ = ["WorldServer"]
 # Without a real-time target, commands are looked for after so many steps at the latest.
 _FAST_SLICE = 50
 _NOWHERE = SourceSpan("<sensor>")
+# Sensors that give data, and those whose reader has said already that they do not.
+_SENSED = (CameraSpec, ImuSpec, LidarSpec, OtherSensorSpec)
 
 
 class WorldServer:
@@ -294,10 +304,10 @@ class WorldServer:
             load_plugin(PluginContext(self, model, plugin, resources, place, namespace))
 
         for place in sensor_places(model):
-            if isinstance(place.sensor.spec, OtherSensorSpec):
+            if not isinstance(place.sensor.spec, _SENSED):
                 text = f"sensor '{place.name}' is of type '{place.sensor.type}', which is not "
                 code = "simulator.sensor-not-simulated"
-                self.diagnostics.report(code, text + "simulated", place.sensor.span)
+                self.diagnostics.report(code, text + "simulated yet", place.sensor.span)
             if isinstance(place.sensor.spec, CameraSpec):
                 self._warm_cameras()
             for plugin in place.sensor.plugins:

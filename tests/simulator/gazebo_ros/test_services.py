@@ -71,6 +71,23 @@ def test_physics_properties_are_gazebos_defaults(world: World) -> None:
     assert found.status_message == "GetPhysicsProperties: got properties"
 
 
+def test_words_of_ode_are_kept_and_said_to_change_nothing(world: World) -> None:
+    found = world.call("get_physics_properties", "GetPhysicsProperties")
+    found.ode_config.sor_pgs_iters = 200
+    answer = world.call(
+        "set_physics_properties",
+        "SetPhysicsProperties",
+        time_step=found.time_step,
+        max_update_rate=found.max_update_rate,
+        gravity=found.gravity,
+        ode_config=found.ode_config,
+    )
+    assert answer.success
+    assert answer.status_message.endswith("for ODE is not at work: sor_pgs_iters")
+    kept = world.call("get_physics_properties", "GetPhysicsProperties")
+    assert kept.ode_config.sor_pgs_iters == 200
+
+
 def test_physics_properties_change_step_and_gravity(world: World) -> None:
     found = world.call("get_physics_properties", "GetPhysicsProperties")
     found.gravity.z = -1.6

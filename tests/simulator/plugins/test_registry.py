@@ -130,9 +130,7 @@ def test_a_missing_joint_is_reported(load: Callable[..., Simulation], plugin: st
 
 
 def test_a_sensor_kind_that_is_not_simulated_is_reported(load: Callable[..., Simulation]) -> None:
-    sensor = "<gazebo reference='l'><sensor name='s' type='wireless_receiver'/></gazebo>"
+    sensor = "<gazebo reference='l'><sensor name='s' type='gps'/></gazebo>"
     sim = load(f"<robot name='r'>{LINK}{sensor}</robot>", world=None)
     (found,) = sim.diagnostics.by_code("simulator.sensor-not-simulated")
-    assert (
-        "sensor 'r::l::s' is of type 'wireless_receiver', which is not simulated" in found.message
-    )
+    assert "sensor 'r::l::s' is of type 'gps', which is not simulated" in found.message

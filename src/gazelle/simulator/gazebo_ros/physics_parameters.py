@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PhysicsParameters"]
 
+_ACTING = ("time_step", "max_update_rate", "gravity_x", "gravity_y", "gravity_z")
 _ODE = "A word of ODE; kept and returned, MuJoCo does the physics."
 
 
@@ -33,11 +34,19 @@ class PhysicsParameters:
         """Present values by name."""
         return self._dynamic.values
 
-    def set(self, values: dict[str, Any]) -> None:
-        """Change some values, as ``set_physics_properties`` does."""
+    def set(self, values: dict[str, Any]) -> tuple[str, ...]:
+        """Change some values, as ``set_physics_properties`` does.
+
+        Returns:
+            the names of those that have changed and have no effect here.
+        """
+        before = dict(self._dynamic.values)
         self._dynamic.values.update(values)
         self._apply(self._dynamic.values)
         self._dynamic.announce()
+        return tuple(
+            name for name in values if name not in _ACTING and values[name] != before[name]
+        )
 
     def _apply(self, values: dict[str, Any]) -> None:
         server, engine = self._server, self._server.engine

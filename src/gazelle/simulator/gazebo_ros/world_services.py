@@ -86,9 +86,12 @@ class WorldServices:
         }
         for field in message_class("gazebo_msgs/ODEPhysics").FIELDS:
             values[field.name] = getattr(request.ode_config, field.name)
-        self._physics.set(values)
+        idle = self._physics.set(values)
         response.success = True
         response.status_message = "physics engine updated"
+        if idle:
+            names = ", ".join(idle)
+            response.status_message += f"; kept without effect, for ODE is not at work: {names}"
 
     def _get_light(self, request: Any, response: Any) -> None:
         light = self._light(request.light_name)
