@@ -241,3 +241,14 @@ def test_luck_keeps_its_ros2_control_block(workspaces_dir: Path) -> None:
     (control,) = model.ros2_controls
     assert control.element.text_of("hardware", "plugin") == "gazebo_ros2_control/GazeboSystem"
     assert len(control.element.find_all("joint")) == 6
+
+
+def test_equal_findings_of_a_file_are_said_once() -> None:
+    bare = "".join(
+        f'<link name="l{index}"/><joint name="j{index}" type="continuous"><parent link="a"/>'
+        f'<child link="l{index}"/></joint>'
+        for index in range(6)
+    )
+    (_model,), diagnostics = _load(URDF.replace("</robot>", f"{bare}</robot>"))
+    (finding,) = diagnostics.by_code("urdf.no-inertia")
+    assert "the same 5 more times: 'l1'" in finding.message

@@ -165,3 +165,35 @@ def test_the_slambot_worlds_models_are_found(workspaces_dir: Path, discover):
     missing = discover(workspaces_dir / "catkin_ws").resolve("model://ISCAS_Museum")
     assert missing.path is None
     assert "GAZEBO_MODEL_PATH" in missing.note
+
+
+def _model(folder: Path) -> Path:
+    folder.mkdir(parents=True)
+    (folder / "model.sdf").touch()
+    return folder
+
+
+@pytest.mark.parametrize("place", ["src/robot/models", "src/robot/worlds", "src/other/models"])
+def test_model_near_its_user_is_found_without_a_path(
+    workspace, tmp_path, robot, make_package, place
+):
+    make_package(tmp_path / "src/other")
+    lamp = _model(tmp_path / place / "lamp")
+    found = workspace.resolve("model://lamp", base_dir=robot / "worlds")
+    assert (found.path, found.is_off_path) == (lamp, True)
+    assert found.note == f"found in '{lamp.parent}', which no GAZEBO_MODEL_PATH names"
+
+
+def test_model_path_comes_before_the_neighbourhood(workspace, robot, tmp_path):
+    _model(robot / "models/Chair")
+    found = workspace.resolve("model://Chair", base_dir=robot / "worlds")
+    assert (found.path, found.is_off_path) == (tmp_path / "models/Chair", False)
+
+
+def test_missing_file_of_a_neighbour_names_the_model(workspace, robot):
+    lamp = _model(robot / "models/lamp")
+    (lamp / "shade.dae").touch()
+    found = workspace.resolve("model://lamp/shades.dae", base_dir=robot / "worlds")
+    assert found.path is None
+    assert found.note == "model 'lamp' has no 'shades.dae'"
+    assert found.nearest == ("model://lamp/shade.dae",)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.workspace.resolved import Resolved
 
 if TYPE_CHECKING:
-    from gazelle.diagnostics import Diagnostics
+    from gazelle.diagnostics import Diagnostics, SourceSpan
     from gazelle.workspace import Workspace
 
 __all__ = ["ReadContext"]
@@ -51,6 +51,22 @@ class ReadContext:
             return Resolved(None, note="there is no workspace to look in")
         path = (self.base_dir or Path()) / text
         return Resolved(path if path.exists() else None, (str(path),))
+
+    def report_note(self, uri: str, found: Resolved, span: SourceSpan, code: str) -> None:
+        """Report how a file was found when it was not as written; each way of it once.
+
+        Args:
+            uri: as it was written.
+            found: what it led to.
+            span: where it was written.
+            code: of a file that was found under another name.
+        """
+        if not found.note or not self.first_time("note", found.note):
+            return
+        if found.is_off_path:
+            self.diagnostics.report("load.off-path", f"'{uri}' was {found.note}", span)
+        else:
+            self.diagnostics.report(code, f"'{uri}': {found.note}", span)
 
     def first_time(self, *key: Hashable) -> bool:
         """Tell whether this is asked for the first time, to report equal things once."""

@@ -8,8 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.context import ReadContext
+from gazelle.description.grouping import grouped
 from gazelle.description.model import Model, World
 from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
+from gazelle.description.text_place import TEXT_NAME, place_of_text
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, parse_xml, read_xml
@@ -18,7 +20,6 @@ from gazelle.workspace import Resolved, Workspace
 
 __all__ = ["TEXT_NAME", "load_models", "load_world"]
 
-TEXT_NAME = "<robot_description>"
 _SDF_ROOTS = frozenset({"light", "model", "sdf", "world"})
 _MODEL_CONFIG = "model.config"
 
@@ -42,7 +43,18 @@ def load_models(
     Returns:
         The models; none when nothing could be read, with the reason reported as an error.
     """
-    text = str(source)
+    found = Diagnostics()
+    models = _load_models(str(source), workspace, found, mappings)
+    _pass_on(found, diagnostics)
+    return models
+
+
+def _load_models(
+    text: str,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None,
+) -> tuple[Model, ...]:
     if text.lstrip("\ufeff \t\r\n").startswith("<"):
         return _models_of_text(text, workspace, diagnostics)
     path = _locate(text, workspace, diagnostics)
@@ -74,10 +86,12 @@ def load_world(
         UserFileError: there is no world to be read; holds all findings.
     """
     text = str(source)
+    found = Diagnostics()
     if text.lstrip("\ufeff \t\r\n").startswith("<"):
-        world = _world_of_text(text, workspace, diagnostics)
+        world = _world_of_text(text, workspace, found)
     else:
-        world = _world_of_path(text, workspace, diagnostics, mappings)
+        world = _world_of_path(text, workspace, found, mappings)
+    _pass_on(found, diagnostics)
     if world is None:
         if not diagnostics.errors:
             shown = TEXT_NAME if text.lstrip().startswith("<") else text
@@ -87,11 +101,17 @@ def load_world(
     return world
 
 
+def _pass_on(found: Diagnostics, diagnostics: Diagnostics) -> None:
+    for item in grouped(found):
+        diagnostics.add(item)
+
+
 def _world_of_text(
     text: str, workspace: Workspace | None, diagnostics: Diagnostics
 ) -> World | None:
-    context = ReadContext(workspace, diagnostics, TEXT_NAME, None)
-    root = parse_xml(text, TEXT_NAME, diagnostics)
+    place = place_of_text(text)
+    context = ReadContext(workspace, diagnostics, place, None)
+    root = parse_xml(text, place, diagnostics)
     if root is None:
         return None
     if root.name in _SDF_ROOTS:
@@ -118,9 +138,7 @@ def _world_of_path(
     root = _peek(found.path) if found.path.is_file() else None
     if root in _SDF_ROOTS:
         return read_world_file(found.path, workspace=workspace, diagnostics=diagnostics)
-    models = load_models(
-        found.path, workspace=workspace, diagnostics=diagnostics, mappings=mappings
-    )
+    models = _load_models(str(found.path), workspace, diagnostics, mappings)
     return World(models=models, file=found.path) if models else None
 
 
@@ -133,8 +151,9 @@ def _peek(path: Path) -> str:
 def _models_of_text(
     text: str, workspace: Workspace | None, diagnostics: Diagnostics
 ) -> tuple[Model, ...]:
-    root = parse_xml(text, TEXT_NAME, diagnostics)
-    context = ReadContext(workspace, diagnostics, TEXT_NAME, None)
+    place = place_of_text(text)
+    root = parse_xml(text, place, diagnostics)
+    context = ReadContext(workspace, diagnostics, place, None)
     return () if root is None else _models_of_root(root, context)
 
 

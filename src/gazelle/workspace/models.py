@@ -6,14 +6,36 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-__all__ = ["fuel_model", "fuel_models", "is_model_folder", "models_in", "newest_version"]
+__all__ = [
+    "folders_around",
+    "fuel_model",
+    "fuel_models",
+    "is_model_folder",
+    "models_in",
+    "newest_version",
+]
 
 _FILES = ("model.config", "manifest.xml", "model.sdf")
+_LEVELS = 4
 
 
 def is_model_folder(folder: Path) -> bool:
     """Return whether a folder holds a model (``model.config`` or ``model.sdf``)."""
     return any((folder / name).is_file() for name in _FILES)
+
+
+def folders_around(base_dir: Path | None) -> Iterator[Path]:
+    """Yield folders near a file that may hold models: those around it and their ``models``.
+
+    Args:
+        base_dir: the file's folder; None yields nothing.
+    """
+    if base_dir is None:
+        return
+    here = base_dir.absolute()
+    for folder in (here, *here.parents)[:_LEVELS]:
+        yield folder
+        yield folder / "models"
 
 
 def models_in(folder: Path) -> Iterator[tuple[str, Path]]:

@@ -21,12 +21,15 @@ class Resolved:
         nearest: existing names most like the missing one, best first.
         note: what to tell the user although it was found (case differs …) or why it was not
             (the package is unknown …); empty when there is nothing to say.
+        is_off_path: it was found near the file that names it, in a folder that no search path
+            names; Gazebo would need one.
     """
 
     path: Path | None
     tried: tuple[str, ...] = ()
     nearest: tuple[str, ...] = ()
     note: str = ""
+    is_off_path: bool = False
 
     def explain(self, uri: str) -> str:
         """Return a message for a URI that leads nowhere: reason, nearest names, places."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from gazelle.diagnostics import nearest_names
-from gazelle.workspace.models import fuel_model
+from gazelle.workspace.models import folders_around, fuel_model, is_model_folder
 from gazelle.workspace.resolved import Resolved, locate, nearest_below
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def resolve(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolved:
     if text != written and result.path is not None:
         note = "'\\' was read as '/'"
         note = f"{note}; {result.note}" if result.note else note
-        return Resolved(result.path, result.tried, result.nearest, note)
+        return replace(result, note=note)
     return result
 
 
@@ -78,7 +79,7 @@ def _by_scheme(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolve
         return _in_package(workspace, name, inside)
     if scheme == "model":
         name, _, inside = _unquoted(rest).lstrip("/").partition("/")
-        return _in_model(workspace, name, inside)
+        return _in_model(workspace, name, inside, base_dir)
     if scheme in {"http", "https"}:
         return _in_fuel_cache(workspace, _unquoted(rest))
     schemes = "package://, model://, file://"
@@ -106,15 +107,17 @@ def _in_package(workspace: Workspace, name: str, inside: str) -> Resolved:
     return Resolved(None, tried, near, f"package '{name}' has no '{inside}'")
 
 
-def _in_model(workspace: Workspace, name: str, inside: str) -> Resolved:
+def _in_model(workspace: Workspace, name: str, inside: str, base_dir: Path | None) -> Resolved:
     tried: list[str] = []
     for folder in _model_candidates(workspace, name):
         tried.append(str(folder / inside) if inside else str(folder))
         path, note = locate(folder, inside)
         if path is not None and (inside or path.is_dir()):
             return Resolved(path, tuple(tried), note=note)
-    return _case_differs(workspace, name, inside, tried) or _no_model(
-        workspace, name, inside, tried
+    return (
+        _off_the_path(workspace, name, inside, base_dir)
+        or _case_differs(workspace, name, inside, tried)
+        or _no_model(workspace, name, inside, tried, base_dir)
     )
 
 
@@ -131,6 +134,28 @@ def _model_candidates(workspace: Workspace, name: str) -> Iterable[Path]:
         yield package.path
 
 
+def _off_the_path(
+    workspace: Workspace, name: str, inside: str, base_dir: Path | None
+) -> Resolved | None:
+    folder = _folder_off_the_path(workspace, name, base_dir)
+    path, note = (None, "") if folder is None else locate(folder, inside)
+    if folder is None or path is None:
+        return None
+    text = f"found in '{folder.parent}', which no GAZEBO_MODEL_PATH names"
+    return Resolved(path, (str(path),), note=f"{text}; {note}" if note else text, is_off_path=True)
+
+
+def _folder_off_the_path(workspace: Workspace, name: str, base_dir: Path | None) -> Path | None:
+    """Look where models lie in practice although nothing names the folder.
+
+    Packages leave it to the user's shell or to a launch file to put their ``models`` folder
+    into ``GAZEBO_MODEL_PATH``.
+    """
+    packages = (package.path for package in workspace.packages.values() if not package.is_builtin)
+    folders = (*folders_around(base_dir), *(path / "models" for path in packages))
+    return next((path / name for path in folders if is_model_folder(path / name)), None)
+
+
 def _case_differs(
     workspace: Workspace, name: str, inside: str, tried: list[str]
 ) -> Resolved | None:
@@ -143,9 +168,15 @@ def _case_differs(
     return None
 
 
-def _no_model(workspace: Workspace, name: str, inside: str, tried: list[str]) -> Resolved:
+def _no_model(
+    workspace: Workspace, name: str, inside: str, tried: list[str], base_dir: Path | None
+) -> Resolved:
     places = [*tried, *(f"{root} (Fuel cache)" for root in workspace.fuel_folders)]
-    home = workspace.models.get(name) or getattr(workspace.packages.get(name), "path", None)
+    home = (
+        workspace.models.get(name)
+        or getattr(workspace.packages.get(name), "path", None)
+        or _folder_off_the_path(workspace, name, base_dir)
+    )
     if home is not None:
         near = tuple(f"model://{name}/{item}" for item in nearest_below(home, inside))
         return Resolved(None, tuple(places), near, f"model '{name}' has no '{inside}'")

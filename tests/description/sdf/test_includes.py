@@ -209,3 +209,21 @@ def test_merging_into_a_world_is_plain_including(world, models_folder):
     models_folder("box", BOX)
     found = world("<include merge='1'><uri>model://box</uri><pose>1 0 0 0 0 0</pose></include>")
     assert found.model("box").T_world_model.position_m == (1, 0, 0)
+
+
+def test_model_off_every_path_is_found_and_said_once_per_folder(here, diagnostics):
+    for name in ("lamp", "shelf"):
+        folder = here.base_dir / name
+        folder.mkdir(parents=True)
+        (folder / "model.sdf").write_text(
+            f"<sdf version='1.6'><model name='{name}'><link name='l'/></model></sdf>"
+        )
+    body = "<include><uri>model://lamp</uri></include><include><uri>model://shelf</uri></include>"
+    text = f"<sdf version='1.9'><world name='w'>{body}</world></sdf>"
+    assert [model.name for model in read_sdf(text, context=here).worlds[0].models] == [
+        "lamp",
+        "shelf",
+    ]
+    (finding,) = diagnostics
+    assert (finding.code, finding.severity) == ("load.off-path", Severity.INFO)
+    assert "'model://lamp' was found in" in finding.message

@@ -137,3 +137,15 @@ def test_density_of_zero_is_reported_and_waters_used(model, diagnostics):
     text = "<inertial auto='true'><density>0</density></inertial>" + BOX.format(extra="")
     assert _inertial(model, text).mass_kg == pytest.approx(6000)
     assert "<density> is 0" in diagnostics.by_code("sdf.bad-value")[0].message
+
+
+@pytest.mark.parametrize("word", ["nan", "-nan", "inf"])
+def test_infinite_tensor_becomes_the_default(model, diagnostics, word):
+    found = _inertial(
+        model,
+        f"<inertial><mass>2</mass><inertia><ixx>{word}</ixx><iyy>0.1</iyy></inertia></inertial>",
+    )
+    assert (found.mass_kg, found.inertia_kg_m2) == (2.0, (1, 0, 0, 1, 0, 1))
+    (finding,) = diagnostics
+    assert (finding.code, finding.severity) == ("sdf.bad-inertia", Severity.WARNING)
+    assert "link 'base' is not finite (ixx)" in finding.message

@@ -107,3 +107,38 @@ def test_missing_file_is_one_error(tmp_path: Path) -> None:
     (error,) = diagnostics
     assert error.code == "xacro.file-missing"
     assert str(gone) in error.message
+
+
+def test_include_from_a_missing_package_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "one.xacro"
+    path.write_text(
+        f'{HEAD}<link name="a"/>\n<xacro:include filename="$(find lidars)/x.xacro"/></robot>',
+        encoding="utf-8",
+    )
+    diagnostics = Diagnostics()
+    workspace = Workspace.discover(environ={}, cwd=tmp_path)
+    expanded = expand_xacro(path, workspace=workspace, diagnostics=diagnostics)
+    assert expanded is not None
+    assert '<link name="a"/>' in expanded.text
+    assert "xacro:include" not in expanded.text
+    (finding,) = diagnostics
+    assert finding.code == "xacro.include-left-out"
+    assert finding.message == "package 'lidars' not found: this include is left out"
+    assert (finding.span.line, finding.span.column) == (3, 1)
+
+
+def test_macro_of_a_missing_package_says_which_package(tmp_path: Path) -> None:
+    text = '<xacro:include filename="$(find lidars)/x.xacro"/>\n<xacro:spinner/>'
+    error = _fail(text, tmp_path)
+    assert error.code == "xacro.unknown-macro"
+    assert error.message.endswith("; missing packages may define it: lidars")
+
+
+def test_include_of_a_missing_file_in_a_package_stays_an_error(tmp_path: Path) -> None:
+    folder = tmp_path / "src/lidars"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(
+        "<package><name>lidars</name><version>1.0.0</version></package>", encoding="utf-8"
+    )
+    error = _fail('<xacro:include filename="$(find lidars)/gone.xacro"/>', tmp_path)
+    assert error.code == "xacro.file-missing"

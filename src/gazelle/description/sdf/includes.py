@@ -31,9 +31,8 @@ def included_file(tag: Tag, context: ReadContext) -> Path | None:
     file = model_file_in(path, context) if path is not None and path.is_dir() else path
     if file is None:
         _report_missing(uri, found, place, context)
-    elif found.note:
-        message = f"'{uri}': {found.note}"
-        context.diagnostics.report("sdf.bad-value", message, place.span)
+    else:
+        context.report_note(uri, found, place.span, "sdf.bad-value")
     return file
 
 

@@ -20,6 +20,7 @@ Inertia6 = tuple[float, float, float, float, float, float]
 _WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _DEFAULTS: Inertia6 = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 _TRUE = ("1", "true")
+_NOT_NUMBERS = frozenset({"inf", "+inf", "-inf", "nan", "-nan"})
 
 
 def read_inertial(
@@ -41,14 +42,24 @@ def read_inertial(
     inertial = Inertial(
         mass_kg=child_float(tag, "mass", 1.0, context),
         T_link_com=pose_of(tag, context),
-        inertia_kg_m2=_tensor(tag.find("inertia"), context),
+        inertia_kg_m2=_tensor(tag.find("inertia"), link, context),
         span=tag.span,
     )
     return inertial if static else _checked(inertial, link, tag, context)
 
 
-def _tensor(tag: Tag | None, context: ReadContext) -> Inertia6:
+def _tensor(tag: Tag | None, link: Tag, context: ReadContext) -> Inertia6:
     if tag is None:
+        return _DEFAULTS
+    # CAD exporters write nan for shapes without volume; Gazebo goes on with its defaults.
+    lost = [child.name for child in tag.children if child.text.strip().lower() in _NOT_NUMBERS]
+    if lost:
+        name = link.attributes.get("name", "")
+        message = (
+            f"the inertia of link '{name}' is not finite ({', '.join(lost)}); the default, moments "
+            "of 1 kg m2, is used"
+        )
+        context.diagnostics.report("sdf.bad-inertia", message, tag.span, severity=Severity.WARNING)
         return _DEFAULTS
     ixx, ixy, ixz, iyy, iyz, izz = (
         child_float(tag, word, default, context)

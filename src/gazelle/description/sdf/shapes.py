@@ -174,9 +174,7 @@ def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
         if context.first_time("missing file", uri, context.file):
             context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
         return None
-    if found.note and context.first_time("note", uri, context.file):
-        message = f"'{uri}': {found.note}"
-        context.diagnostics.report("sdf.bad-value", message, place.span)
+    context.report_note(uri, found, place.span, "sdf.bad-value")
     return found.path
 
 

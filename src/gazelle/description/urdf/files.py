@@ -16,7 +16,9 @@ def find_file(uri: str, span: SourceSpan, context: ReadContext) -> Resolved:
     differ, is reported.
     """
     found = context.resolve(uri)
-    if found.path is not None and found.note:
+    if found.path is not None and found.is_off_path:
+        context.report_note(uri, found, span, "urdf.file-note")
+    elif found.path is not None and found.note:
         message = f"'{uri}' was found as '{found.path}': {found.note}"
         context.diagnostics.report("urdf.file-note", message, span)
     return found

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import replace
 from types import ModuleType, TracebackType
 from typing import Any
 from xml.parsers.expat import ErrorString, ExpatError
 
 from gazelle.description.xacro.dom import EntityRefusedError, node_in, place_of
-from gazelle.description.xacro.session import Session
+from gazelle.description.xacro.session import Session, causes_of
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
@@ -22,6 +21,7 @@ _LOCATION = re.compile(
 )
 # A stack of hundreds of recursive calls says no more than its innermost part.
 _DEEPEST = 12
+_NEEDS_DEFINITION = frozenset({"xacro.undefined-name", "xacro.unknown-macro"})
 _NAME_ERROR = re.compile(r"name '(.+?)' is not defined")
 
 
@@ -31,7 +31,7 @@ def report_printed(session: Session, file: str, diagnostics: Diagnostics) -> Non
     Args:
         session: the run.
         file: its input file, the place of warnings that name no other.
-        diagnostics: receives ``xacro.warning`` and ``xacro.message``.
+        diagnostics: receives ``xacro.warning``, ``xacro.message``, ``xacro.include-left-out``.
     """
     for line, span in session.printed:
         if not line or _LOCATION.match(line):
@@ -39,6 +39,9 @@ def report_printed(session: Session, file: str, diagnostics: Diagnostics) -> Non
         text, warned = re.subn(r"^(warning|error): ", "", line)
         code = "xacro.warning" if warned else "xacro.message"
         diagnostics.report(code, text, span or SourceSpan(file))
+    for missing, span in session.left_out:
+        message = f"package '{missing.name}' not found: this include is left out"
+        diagnostics.report("xacro.include-left-out", message, span or SourceSpan(file))
 
 
 def report_failure(
@@ -73,6 +76,9 @@ def report_failure(
     via = tuple(call for call in session.tracker.via() if call != here)
     span = replace(place, via=(via or place.via)[:_DEEPEST])
     code, message, fix = _explain(error, node, workspace)
+    if session.left_out and code in _NEEDS_DEFINITION:
+        names = dict.fromkeys(missing.name for missing, _ in session.left_out)
+        message += "; missing packages may define it: " + ", ".join(names)
     diagnostics.report(code, message, span, fix=fix, severity=Severity.ERROR)
 
 
@@ -87,7 +93,7 @@ def _node_of(traceback: TracebackType | None) -> Any:
 
 def _explain(error: Exception, node: Any, workspace: Workspace | None) -> tuple[str, str, str]:
     """Return code, message and remedy for what the library raised."""
-    causes = tuple(_causes(error))
+    causes = tuple(causes_of(error))
     text = _one_line(str(error) or repr(error))
     for cause in causes:
         if isinstance(cause, NotFoundError) or (
@@ -117,18 +123,6 @@ def _explain(error: Exception, node: Any, workspace: Workspace | None) -> tuple[
     if any(isinstance(cause, SyntaxError) for cause in causes) or "evaluating expression" in text:
         return "xacro.bad-expression", text, ""
     return "xacro.failed", text, ""
-
-
-def _causes(error: BaseException) -> Iterable[BaseException]:
-    """Yield the error and what it wraps, outermost first."""
-    seen: set[int] = set()
-    queue: list[Any] = [error]
-    while queue:
-        item = queue.pop(0)
-        if isinstance(item, BaseException) and id(item) not in seen:
-            seen.add(id(item))
-            yield item
-            queue += [getattr(item, "exc", None), item.__cause__, item.__context__]
 
 
 def _names_in(traceback: TracebackType | None) -> tuple[str, ...]:

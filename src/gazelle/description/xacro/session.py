@@ -17,9 +17,10 @@ from typing import Any
 
 from gazelle.description.xacro.dom import Tracker, node_in, place_of
 from gazelle.diagnostics import SourceSpan
+from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 
-__all__ = ["Session", "run_session"]
+__all__ = ["Session", "causes_of", "run_session"]
 
 _LOCK = threading.RLock()
 
@@ -32,10 +33,12 @@ class Session:
         tracker: places of elements, and the calls being worked on.
         printed: lines that the library and ``xacro.message`` would have printed, with the
             place that was being worked on.
+        left_out: the missing packages of includes that were left out, with the includes' places.
     """
 
     tracker: Tracker = field(default_factory=Tracker)
     printed: list[tuple[str, SourceSpan | None]] = field(default_factory=list)
+    left_out: list[tuple[NotFoundError, SourceSpan | None]] = field(default_factory=list)
 
 
 @contextmanager
@@ -66,6 +69,7 @@ def _replacements(library: Any, session: Session, root_dir: str) -> list[tuple[A
         (library, "parse", _parser(library, tracker)),
         (library, "handle_macro_call", _tracked(library.handle_macro_call, tracker)),
         (library, "process_include", _tracked(library.process_include, tracker)),
+        (library, "get_include_files", _lenient(library.get_include_files, session)),
         (library, "print", _printer(session)),
         (library, "root_dir", root_dir or "."),
         (library, "verbosity", 1),
@@ -150,6 +154,42 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
         return result
 
     return call
+
+
+def _lenient(function: Callable[..., Any], session: Session) -> Callable[..., Any]:
+    """Leave out includes of files in packages that are not there.
+
+    Robots include the macros of every sensor they can carry and use those that an argument
+    asks for. A name that stays undefined because of it is an error where it is used.
+    """
+
+    def files(filename: str, symbols: Any) -> list[str]:
+        try:
+            return list(function(filename, symbols))
+        except Exception as error:
+            missing = next(
+                (item for item in causes_of(error) if isinstance(item, NotFoundError)), None
+            )
+            if missing is None:
+                raise
+            calls = session.tracker.via()
+            place = replace(calls[0], via=calls[1:]) if calls else None
+            session.left_out.append((missing, place))
+            return []
+
+    return files
+
+
+def causes_of(error: BaseException) -> Iterator[BaseException]:
+    """Yield an error and what it wraps, outermost first."""
+    seen: set[int] = set()
+    queue: list[Any] = [error]
+    while queue:
+        item = queue.pop(0)
+        if isinstance(item, BaseException) and id(item) not in seen:
+            seen.add(id(item))
+            yield item
+            queue += [getattr(item, "exc", None), item.__cause__, item.__context__]
 
 
 def _printer(session: Session) -> Callable[..., None]:

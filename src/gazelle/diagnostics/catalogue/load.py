@@ -31,4 +31,12 @@ ENTRIES = (
         "give a file with a <model> (for a robot) or a <world>",
         "Unable to find <world> element",
     ),
+    Entry(
+        "load.off-path",
+        "info",
+        "A model was found in a folder that no search path names",
+        "Gazelle also looks around the file that names the model and in the models folders of "
+        "the workspace's packages.",
+        "nothing here; for Gazebo name the folder in GAZEBO_MODEL_PATH or GZ_SIM_RESOURCE_PATH",
+    ),
 )

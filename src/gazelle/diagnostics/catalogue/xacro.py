@@ -40,6 +40,15 @@ ENTRIES = (
         "package not found",
     ),
     Entry(
+        "xacro.include-left-out",
+        "warning",
+        "An include of a file in a missing package is left out",
+        "Robots include macros of sensors and mounts they may carry. Where none of them is used, "
+        "nothing is lost; where one is used, xacro.unknown-macro follows.",
+        "put the package's source folder into the workspace",
+        "package not found",
+    ),
+    Entry(
         "xacro.file-missing",
         "error",
         "A file cannot be read",
