@@ -287,3 +287,32 @@ def test_big_images_arrive_whole(
     eventually(lambda: publisher.matched)
     publisher.publish(Image(height=480, width=640, step=1920, data=pixels))
     assert np.array_equal(inbox.wait_for(1)[0].data, pixels)
+
+
+def test_unregistering_while_another_thread_publishes_is_clean(
+    talker: Node, listener: Node, inbox: Any, eventually: Wait
+) -> None:
+    listener.create_subscription("chatter", String, inbox)
+    ended: list[BaseException] = []
+
+    def publish_until_closed(publisher: Any) -> None:
+        try:
+            while True:
+                publisher.publish(String(data="x" * 1000))
+        except BaseException as error:  # noqa: BLE001 - whatever ends the thread is the result
+            ended.append(error)
+
+    for _ in range(20):
+        publisher = talker.create_publisher("chatter", String)
+        eventually(lambda one=publisher: one.matched)
+        threads = [
+            threading.Thread(target=publish_until_closed, args=(publisher,)) for _ in range(2)
+        ]
+        for thread in threads:
+            thread.start()
+        inbox.wait_for(len(inbox.items) + 5)
+        publisher.unregister()
+        for thread in threads:
+            thread.join(10)
+    assert len(ended) == 40
+    assert {type(error) for error in ended} == {GraphError}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +40,8 @@ class Publisher:
         self._graph = graph
         self._copy_local = copy_local
         self._closed = False
+        # zenoh refuses to undeclare what another thread is just using.
+        self._transport = threading.Lock()
         self._last: Any = None
         self._sequence = 0
         text = token(graph.domain, entity)
@@ -55,7 +58,7 @@ class Publisher:
         """True when somebody subscribes, here or elsewhere; takes about a microsecond."""
         if self._local.subscriptions:
             return True
-        return not self._closed and bool(self._matcher.matching_status.matching)
+        return self._matched_elsewhere()
 
     @property
     def subscription_count(self) -> int:
@@ -82,7 +85,7 @@ class Publisher:
         local = self._local.subscriptions
         if local:
             self._hand(message, local)
-        if self._matcher.matching_status.matching:
+        if self._matched_elsewhere():
             self._send(message)
 
     def unregister(self) -> None:
@@ -91,10 +94,11 @@ class Publisher:
             return
         self._closed = True
         self._local.remove_publisher(self)
-        self._token.undeclare()
-        self._matcher.undeclare()
-        if self._sender is not self._matcher:
-            self._sender.undeclare()
+        with self._transport:
+            self._token.undeclare()
+            self._matcher.undeclare()
+            if self._sender is not self._matcher:
+                self._sender.undeclare()
         self._graph.forget(self)
 
     def hand_latched(self, subscription: Subscription) -> None:
@@ -115,8 +119,15 @@ class Publisher:
         for subscription in subscriptions:
             subscription.take_local(message, attachment)
 
+    def _matched_elsewhere(self) -> bool:
+        with self._transport:
+            return not self._closed and bool(self._matcher.matching_status.matching)
+
     def _send(self, message: Any) -> None:
-        self._sender.put(wire.encode(message), attachment=self._attachment().to_bytes())
+        payload, attachment = wire.encode(message), self._attachment().to_bytes()
+        with self._transport:
+            if not self._closed:
+                self._sender.put(payload, attachment=attachment)
 
     def _attachment(self) -> Attachment:
         return Attachment(self._sequence, time.time_ns(), self.gid)
