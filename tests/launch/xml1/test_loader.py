@@ -253,6 +253,12 @@ def test_unknown_substitution_says_what_exists(tmp_path: Path) -> None:
     assert found.fix == "did you mean 'find'?"
 
 
+def test_empty_substitution_is_reported(tmp_path: Path) -> None:
+    _, diagnostics = _load('<launch><param name="p" value="$()"/></launch>', tmp_path)
+    (found,) = diagnostics.by_code("launch.substitution")
+    assert "unknown substitution '$()'; known are find, env" in found.message
+
+
 def test_text_from_standard_input_is_a_launch_file_too(tmp_path: Path) -> None:
     diagnostics = Diagnostics()
     config = load_launch_text(

@@ -67,7 +67,7 @@ class Substitution:
         return _CALL.sub(lambda match: self._call(match.group(1)), text)
 
     def _call(self, body: str) -> str:
-        word, *rest = body.split()
+        word, *rest = body.split() or [""]
         if word == "eval":
             raise SubstitutionError(
                 "launch.substitution",
