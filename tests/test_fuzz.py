@@ -69,7 +69,7 @@ def _read_launch(text: str, diagnostics: Diagnostics, workspace: Workspace) -> N
 
 def _read_definition(text: str, diagnostics: Diagnostics, workspace: Workspace) -> None:
     del workspace
-    parse_message("p/msg/M", text, Generation.ROS1, file="<fuzz>", diagnostics=diagnostics)
+    parse_message(text, "p/msg/M", Generation.ROS2, file="<fuzz>", diagnostics=diagnostics)
 
 
 def _urdf_text() -> str:
@@ -87,7 +87,7 @@ def _urdf_text() -> str:
 def _launch_text() -> str:
     """Return the example's launch file without its command, which damage would turn into others."""
     text = (SCOUT / "launch" / "scout.launch").read_text()
-    return re.sub(r'command="[^"]*"', 'textfile="$(dirname)/robot.urdf"', text)
+    return re.sub(r'command="[^"]*"', 'value="a robot"', text)
 
 
 SOURCES: dict[str, tuple[Callable[[], str], Callable[[str, Diagnostics, Workspace], None]]] = {
