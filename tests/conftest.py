@@ -121,8 +121,9 @@ class Launched:
             return all(len(got[topic]) >= count for topic, count in wanted.items())
 
         with done:
+            in_time = done.wait_for(complete, timeout_s)
             counts = {topic: len(items) for topic, items in got.items()}
-            assert done.wait_for(complete, timeout_s), f"{counts} of {wanted}\n{self.text}"
+        assert in_time, f"{counts} of {wanted}\n{self.text}"
         for subscription in listening:
             subscription.unregister()
         return got

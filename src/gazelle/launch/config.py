@@ -99,6 +99,8 @@ class LaunchConfig:
         dumps: namespaces to write to files afterwards.
         nodes: nodes in the order of the file.
         args: arguments of the top-level file.
+        node_files: the file that defines each node.
+        text_files: files whose text went into parameters.
     """
 
     files: list[str] = field(default_factory=list)
@@ -111,3 +113,4 @@ class LaunchConfig:
     machines: list[Machine] = field(default_factory=list)
     args: list[ArgDeclaration] = field(default_factory=list)
     node_files: dict[str, str] = field(default_factory=dict)
+    text_files: list[str] = field(default_factory=list)

@@ -14,6 +14,7 @@ from typing import Any
 
 import yaml
 
+from gazelle.description.text_place import TEXT_FILES_VARIABLE, TEXT_NAME, place_of_text
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph
@@ -99,7 +100,10 @@ def launch(
         if options.show_summary:
             console.plain(summary(config, {**config.params, **_core_params()}))
         _announce(graph, console, title, run_id)
-        environment = node_environment(environ, workspace)
+        environment = {
+            **node_environment(environ, workspace),
+            TEXT_FILES_VARIABLE: os.pathsep.join(_text_files(config, log_folder)),
+        }
         run = _Run(graph, workspace, console)
         supervisor = Supervisor(
             environment,
@@ -210,6 +214,19 @@ def _set_params(config: LaunchConfig, graph: Graph, run_id: str) -> None:
     for dump in config.dumps:
         text = yaml.safe_dump(store.get(dump.namespace), default_flow_style=False)
         Path(dump.file).write_text(text, encoding="utf-8")
+
+
+def _text_files(config: LaunchConfig, log_folder: Path) -> list[str]:
+    """Return the files that hold the XML of parameters; what no file holds is written to one."""
+    files = list(dict.fromkeys(config.text_files))
+    for name, value in config.params.items():
+        if not isinstance(value, str) or not value.lstrip().startswith("<"):
+            continue
+        if place_of_text(value, {TEXT_FILES_VARIABLE: os.pathsep.join(files)}) == TEXT_NAME:
+            path = log_folder / f"{name.strip('/').replace('/', '-')}.xml"
+            path.write_text(value, encoding="utf-8")
+            files.append(str(path))
+    return files
 
 
 def _core_params() -> dict[str, Any]:

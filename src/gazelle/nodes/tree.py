@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
+from gazelle.description.text_place import place_of_text
 from gazelle.description.urdf import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import UserFileError
@@ -53,7 +54,7 @@ def read_description(text: str) -> Model:
         UserFileError: the text is no usable robot.
     """
     diagnostics = Diagnostics()
-    context = ReadContext(None, diagnostics, "<robot_description>", None)
+    context = ReadContext(None, diagnostics, place_of_text(text), None)
     model = read_urdf(text, context=context)
     if model is None:
         raise UserFileError(tuple(diagnostics))

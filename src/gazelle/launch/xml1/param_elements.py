@@ -90,6 +90,7 @@ def _value(tag: Tag, name: str, scope: Scope, reading: Reading) -> Any:
         return _read_bytes(Path(source), tag)
     if given[0] == "textfile":
         text = _read_text(Path(source), "textfile", tag)
+        reading.config.text_files.append(source)
     elif given[0] == "command":
         text = _run(source, name, scope, reading)
     else:
@@ -110,6 +111,7 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
         raise TagError("launch.param-command-failed", f"[{name}]: {error}: {command}") from error
     if words and Path(words[0]).name in {"xacro", "xacro.py"}:
         return _run_xacro(words[1:], name, reading)
+    reading.config.text_files += [word for word in words[1:] if Path(word).is_file()]
     environment = {**node_environment(reading.environ, reading.workspace), **scope.env}
     try:
         done = subprocess.run(words, capture_output=True, env=environment, check=False)

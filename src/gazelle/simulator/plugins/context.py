@@ -67,9 +67,9 @@ class Resources:
     def publisher(
         self, topic: str, type_name: str, *, latch: bool = False, reliable: bool = True
     ) -> PublisherPort:
-        """Offer a topic."""
+        """Offer a topic; in lock-step all are reliable, so that every run is heard the same."""
         made = self._host.node.create_publisher(
-            topic, message_class(type_name), latch=latch, reliable=reliable
+            topic, message_class(type_name), latch=latch, reliable=reliable or self._host.lockstep
         )
         self._closers.append(made.unregister)
         return made
