@@ -227,3 +227,9 @@ def test_model_off_every_path_is_found_and_said_once_per_folder(here, diagnostic
     (finding,) = diagnostics
     assert (finding.code, finding.severity) == ("load.off-path", Severity.INFO)
     assert "'model://lamp' was found in" in finding.message
+
+
+def test_bare_name_of_a_model_is_looked_up_like_an_address(world, models_folder, diagnostics):
+    models_folder("box", BOX)
+    assert world("<include><uri>box</uri></include>").models[0].name == "box"
+    assert not diagnostics.errors

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from gazelle.description.xml import Tag, parse_xml, read_xml
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostics, Severity
 
 
 def parse(text: str | bytes) -> tuple[Tag | None, Diagnostics]:
@@ -103,3 +103,26 @@ def test_every_sample_file_parses(workspaces_dir):
     for path in files:
         assert read_xml(path, diagnostics) is not None
     assert not len(diagnostics)
+
+
+@pytest.mark.parametrize(
+    "comment", ["<!-- gz sim --levels w.sdf -->", "<!-- a --->", "<!----- line ----->"]
+)
+def test_dashes_in_a_comment_are_forgiven_as_by_gazebo(comment: str) -> None:
+    root, diagnostics = parse(f"<a>\n{comment}\n  <b/></a>")
+    assert str(root.find("b").span) == "a.urdf:3:3"
+    (found,) = diagnostics
+    assert (found.code, found.severity, found.span.line) == ("xml.lenient", Severity.INFO, 2)
+
+
+def test_bare_ampersand_is_forgiven_as_by_gazebo() -> None:
+    root, diagnostics = parse("<a t='x &amp; y'>Bed & Breakfast &#65;</a>")
+    assert (root.text, root.attributes["t"]) == ("Bed & Breakfast A", "x & y")
+    assert [item.code for item in diagnostics] == ["xml.lenient"]
+
+
+def test_real_mistake_beside_a_dashed_comment_is_the_error() -> None:
+    root, diagnostics = parse("<a>\n<!-- -- -->\n<b></a>")
+    assert root is None
+    (found,) = diagnostics
+    assert (found.code, found.span.line) == ("xml.malformed", 3)

@@ -63,8 +63,12 @@ def _short(path: Path) -> str:
 
 
 def _by_last_name(uri: str, context: ReadContext) -> Path | None:
-    """Return the local folder of a model that a server's address names."""
-    if context.workspace is None or not uri.strip().lower().startswith(("http://", "https://")):
+    """Return the local folder of a model that a server's address or a bare name means."""
+    if context.workspace is None:
+        return None
+    if "/" not in uri.strip():
+        return context.resolve(f"model://{uri.strip()}").path
+    if not uri.strip().lower().startswith(("http://", "https://")):
         return None
     parts = [unquote(part) for part in uri.strip().rstrip("/").split("/")]
     if parts[-1].isdigit() or parts[-1] == "tip":

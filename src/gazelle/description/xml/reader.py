@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 from xml.parsers import expat
@@ -10,6 +11,9 @@ from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["parse_xml", "read_xml"]
+
+_COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
+_BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
 
 
 def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
@@ -31,20 +35,45 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     Args:
         text: the document; bytes follow their XML declaration's encoding.
         file: name for the spans.
-        diagnostics: receives ``xml.malformed`` or ``xml.entity``.
+        diagnostics: receives ``xml.malformed``, ``xml.entity`` or ``xml.lenient``.
     """
-    builder = _Builder(file)
+    data = text.encode("utf-8") if isinstance(text, str) else text
+    # A str is already decoded; an encoding named in its declaration no longer applies.
+    encoding = "utf-8" if isinstance(text, str) else None
     try:
-        builder.parse(text)
+        try:
+            return _parsed(data, encoding, file)
+        except expat.ExpatError as error:
+            repaired = _repaired(data)
+            if repaired == data:
+                raise
+            root = _parsed(repaired, encoding, file)
+            span = SourceSpan(file, error.lineno, error.offset + 1)
+            diagnostics.report("xml.lenient", "'--' in a comment or a bare '&' is no XML", span)
+            return root
     except expat.ExpatError as error:
         span = SourceSpan(file, error.lineno, error.offset + 1)
         message = f"not well-formed XML: {expat.ErrorString(error.code)}"
         diagnostics.report("xml.malformed", message, span)
-        return None
     except _EntityError as error:
         diagnostics.report("xml.entity", f"entity '{error.name}' is refused", error.span)
-        return None
+    return None
+
+
+def _parsed(data: bytes, encoding: str | None, file: str) -> Tag | None:
+    builder = _Builder(file)
+    builder.parse(data, encoding)
     return builder.root
+
+
+def _repaired(data: bytes) -> bytes:
+    """Return a document with what TinyXML, the parser of Gazebo and urdfdom, lets pass.
+
+    These are ``--`` inside comments, as in command lines that worlds quote, and ``&`` that
+    starts no reference. Lines stay where they are.
+    """
+    quiet = _COMMENT.sub(lambda found: b"<!--%b-->" % found[1].replace(b"-", b" "), data)
+    return _BARE_AND.sub(b"&amp;", quiet)
 
 
 class _EntityError(Exception):
@@ -79,11 +108,8 @@ class _Builder:
         self._parser: Any = None
         self._line_shift = 0
 
-    def parse(self, text: str | bytes) -> None:
-        # A str is already decoded; an encoding named in its declaration no longer applies.
-        self._parser = self._new_parser("utf-8" if isinstance(text, str) else None)
-        if isinstance(text, str):
-            text = text.encode("utf-8")
+    def parse(self, text: bytes, encoding: str | None) -> None:
+        self._parser = self._new_parser(encoding)
         # Leading blank lines before <?xml …?> are common in hand-made files and in launch output.
         stripped = text.lstrip(b" \t\r\n")
         self._line_shift = text[: len(text) - len(stripped)].count(b"\n")

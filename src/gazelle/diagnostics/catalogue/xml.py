@@ -23,6 +23,14 @@ ENTRIES = (
         "write the text itself where the entity is used",
     ),
     Entry(
+        "xml.lenient",
+        "info",
+        "The file is read although it is no well-formed XML",
+        "Gazebo's parser reads '--' in comments and a bare '&', and so does Gazelle; xacro and "
+        "most other tools refuse them.",
+        "write '-' in comments and '&amp;' for '&'",
+    ),
+    Entry(
         "xml.unreadable",
         "error",
         "The file cannot be read",
