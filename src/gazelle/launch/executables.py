@@ -16,6 +16,14 @@ from gazelle.workspace import Package, Workspace
 
 __all__ = ["Executable", "find_executable", "script_command"]
 
+# Commands that launch files and rosrun name as nodes.
+_COMMANDS = {
+    **{(name, name): name for name in ("rosmsg", "rosnode", "rosparam", "rosservice", "rostopic")},
+    ("tf", "tf_echo"): "tf_echo",
+    ("tf2_ros", "tf2_echo"): "tf_echo",
+    ("xacro", "xacro"): "xacro",
+    ("xacro", "xacro.py"): "xacro",
+}
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
 
@@ -51,6 +59,9 @@ def find_executable(
     found = _in_workspace(package, type_name, workspace, diagnostics, span)
     if found is not None:
         return found
+    if _COMMANDS.get((package, type_name)):
+        words = (sys.executable, "-m", "gazelle.cli", _COMMANDS[package, type_name])
+        return Executable(words)
     builtin = builtin_node(package, type_name)
     if builtin is not None:
         words = (sys.executable, "-m", "gazelle.nodes", f"{builtin.package}/{builtin.type}")

@@ -113,6 +113,9 @@ def launch(
             stop_times=options.stop_times,
             on_end=run.ended,
         )
+        if missing and not nodes:
+            console.error("none of the nodes can be started, roslaunch will exit")
+            return 1
         code = run(supervisor, nodes, held=options.lockstep and holds_time(nodes))
     console.bold("done")
     return 1 if missing else code
@@ -134,7 +137,7 @@ class _Run:
         rosout = find_executable(
             "rosout", "rosout", workspace=self._workspace, diagnostics=Diagnostics()
         )
-        if rosout is not None and supervisor.start(_ROSOUT, rosout):
+        if rosout is not None and supervisor.start(_ROSOUT, rosout, core=True):
             self._console.plain("started core service [/rosout]")
         if held:
             self._held = HeldStart(nodes, start=supervisor.start, release=self._release)

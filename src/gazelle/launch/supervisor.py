@@ -31,6 +31,7 @@ from gazelle.launch.process import (
 __all__ = ["StopTimes", "Supervisor"]
 
 _RULE = "=" * 80
+_ALL_DIED = "all processes on machine have died, roslaunch will exit"
 _HOST_DEATHS = 3
 _OFTEN_S = 60.0
 
@@ -95,6 +96,7 @@ class Supervisor:
         self._running: list[LaunchedProcess] = []
         self._leftovers: set[int] = set()
         self._executables: dict[str, Executable] = {}
+        self._core: set[str] = set()
         self._count = 0
         self._respawning = 0
         self._guard: Guard | None = None
@@ -103,26 +105,24 @@ class Supervisor:
         self._host_deaths: deque[float] = deque(maxlen=_HOST_DEATHS)
         self._exit_code = 0
 
-    def start(self, spec: NodeSpec, executable: Executable) -> bool:
-        """Start a node; False (and a line on the terminal) when that is impossible."""
+    def start(self, spec: NodeSpec, executable: Executable, *, core: bool = False) -> bool:
+        """Start a node; False (and a line on the terminal) when that is impossible.
+
+        Args:
+            spec: what to start.
+            executable: its command.
+            core: the launch does not go on for its sake alone, as for rosout.
+        """
         self._count += 1
         label = f"{spec.full_name.strip('/').replace('/', '-')}-{self._count}"
         self._executables[label] = executable
+        if core:
+            self._core.add(label)
         return self._start(label, spec)
 
     def _start(self, label: str, spec: NodeSpec) -> bool:
-        executable = self._executables[label]
-        stem = self._log_folder / label
-        words = (*executable.command, *node_words(spec), f"__log:={stem}.log")
-        process = LaunchedProcess(label, spec, words, stem)
-        builtin = executable.builtin
         try:
-            if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
-                self._start_hosted(process, f"{builtin.package}/{builtin.type}")
-            else:
-                start_process(process, executable, self._environment, self._cwd)
-                self._watch(process.popen)
-                threading.Thread(target=self._wait_for, args=(process,), daemon=True).start()
+            process = self._begin(label, spec)
         except (OSError, ValueError) as error:
             self._console.error(f"cannot start [{label}]: {error}")
             self._exit_code = 1
@@ -132,8 +132,30 @@ class Supervisor:
         self._console.bold(f"process[{label}]: started with pid [{process.pid}]")
         return True
 
+    def _begin(self, label: str, spec: NodeSpec) -> LaunchedProcess:
+        """Start a process, or a node in the host.
+
+        Raises:
+            OSError: the command cannot be started.
+            ValueError: its arguments have an open quotation mark.
+        """
+        executable = self._executables[label]
+        stem = self._log_folder / label
+        words = (*executable.command, *node_words(spec), f"__log:={stem}.log")
+        process = LaunchedProcess(label, spec, words, stem)
+        builtin = executable.builtin
+        if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
+            self._start_hosted(process, f"{builtin.package}/{builtin.type}")
+            return process
+        start_process(process, executable, self._environment, self._cwd)
+        self._watch(process.popen)
+        threading.Thread(target=self._wait_for, args=(process,), daemon=True).start()
+        return process
+
     def run(self) -> int:
         """Handle events until every process has ended or a shutdown is asked for.
+
+        With nothing but core nodes from the start, it stays until it is told to end.
 
         Returns:
             0 when all went well, 1 when a required process died or a start failed.
@@ -143,13 +165,22 @@ class Supervisor:
             for number in (signal.SIGINT, signal.SIGTERM)
         }
         try:
-            while (self._running or self._respawning) and self._handle(self._events.get()):
-                continue
+            only_core = self._count == len(self._core)
+            while self._running or self._respawning:
+                if not only_core and not self._has_work():
+                    self._console.bold(_ALL_DIED)
+                    break
+                if not self._handle(self._events.get()):
+                    break
         finally:
             self.shutdown()
             for number, handler in previous.items():
                 signal.signal(number, handler)
         return self._exit_code
+
+    def _has_work(self) -> bool:
+        """Return whether a node other than the core's runs or is about to."""
+        return bool(self._respawning) or any(one.label not in self._core for one in self._running)
 
     def shutdown(self) -> None:
         """End all processes: SIGINT, then SIGTERM, then SIGKILL."""
@@ -164,6 +195,8 @@ class Supervisor:
             _signal_group(group, signal.SIGKILL)
         if self._guard is not None:
             self._guard.close()
+        self._console.plain("shutting down processing monitor...")
+        self._console.plain("... shutting down processing monitor complete")
 
     def _start_hosted(self, process: LaunchedProcess, node: str) -> None:
         if self._host is None:

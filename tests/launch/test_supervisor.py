@@ -1,0 +1,165 @@
+"""Nodes of a launch: how they start, end, start again, and what they see."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Launch = Callable[..., Any]
+
+
+def test_ends_of_nodes_are_told_as_roslaunch_does_and_the_last_one_ends_the_launch(
+    launch: Launch, node: Launch
+) -> None:
+    run = launch(node("fine", "exit=0") + node("bad", "exit=3"))
+    assert run.wait() == 0
+    assert re.search(
+        r"\[fine-\d\] process has finished cleanly\nlog file: .*/fine-\d\*\.log", run.text
+    )
+    assert re.search(
+        r"\[bad-\d\] process has died \[pid \d+, exit code 3, cmd .*does exit=3", run.text
+    )
+    assert "all processes on machine have died, roslaunch will exit" in run.text
+    assert run.lines[-1] == "done"
+
+
+def test_required_node_ends_the_launch(launch: Launch, node: Launch) -> None:
+    run = launch(node("stays", "wait") + node("key", "exit=4", required="true"))
+    assert run.wait() == 1
+    assert "REQUIRED process [key-3] has died!" in run.text
+    assert "exit code 4" in run.text and "Initiating shutdown!" in run.text
+    assert "[stays-2] killing on exit" in run.text
+
+
+def test_required_node_that_ends_well_ends_the_launch_well(launch: Launch, node: Launch) -> None:
+    run = launch(node("stays", "wait") + node("key", "exit=0", required="true"))
+    assert run.wait() == 0
+    assert "REQUIRED process [key-3] has died!\nprocess has finished cleanly" in run.text
+
+
+def test_respawn_starts_again_under_the_same_label_after_its_delay(
+    launch: Launch, node: Launch
+) -> None:
+    run = launch(node("again", "exit=1", respawn="true", respawn_delay="0.2"))
+    run.eventually(lambda: len(re.findall(r"process\[again-2\]: started", run.text)) >= 3)
+    assert "[again-2] restarting process" in run.text
+    assert run.stop() == 0
+
+
+def test_node_sees_its_environment_folder_arguments_and_prefix(
+    launch: Launch, node: Launch, package: Path, tmp_path: Path
+) -> None:
+    body = (
+        '<env name="COLOUR" value="blue"/>'
+        + node("one", "env=COLOUR cwd env=ROS_NAMESPACE", output="screen", ns="deep")
+        + node("two", "cwd env=PRE", cwd="node", output="screen", launch_prefix="env PRE=fix")
+    )
+    run = launch(body)
+    assert run.wait() == 0
+    assert {"COLOUR is blue", "ROS_NAMESPACE is /deep", "PRE is fix"} <= set(run.lines)
+    assert f"cwd is {tmp_path / 'ros_home'}" in run.lines
+    assert f"cwd is {package / 'scripts'}" in run.lines
+
+
+def test_log_output_goes_to_files_and_standard_error_to_the_terminal(
+    launch: Launch, node: Launch, tmp_path: Path
+) -> None:
+    run = launch(
+        node("quiet", "say=hello complain=trouble") + node("loud", "say=hi", output="screen")
+    )
+    assert run.wait() == 0
+    assert "hello" not in run.lines
+    assert {"trouble", "hi"} <= set(run.lines)
+    (file,) = (tmp_path / "ros_home" / "log" / "latest").glob("quiet-*-stdout.log")
+    assert file.read_text(encoding="utf-8") == "hello\n"
+
+
+def test_screen_and_log_options_override_the_file(launch: Launch, node: Launch) -> None:
+    run = launch(node("quiet", "say=hello"), "--screen")
+    assert run.wait() == 0
+    assert "hello" in run.lines
+    run = launch(node("loud", "say=hello", output="screen"), "--log")
+    assert run.wait() == 0
+    assert "hello" not in run.lines
+
+
+@pytest.mark.parametrize(
+    ("ignored", "last"), [("ignore=SIGINT", "SIGTERM"), ("ignore=SIGINT ignore=SIGTERM", "SIGKILL")]
+)
+def test_stubborn_nodes_get_stronger_signals(
+    launch: Launch, node: Launch, ignored: str, last: str
+) -> None:
+    run = launch(
+        node("mule", f"{ignored} say=ready wait", output="screen"),
+        "--sigint-timeout=0.2", "--sigterm-timeout=0.2",
+    )  # fmt: skip
+    run.wait_for_line("^ready$")
+    assert run.stop() == 0
+    assert re.findall(r"\[mule-2\] escalating to (\w+)", run.text)[-1] == last
+    assert run.processes() == {}
+
+
+def test_broken_arguments_are_told_and_the_rest_starts(launch: Launch, node: Launch) -> None:
+    run = launch(node("torn", "'open") + node("fine", "say=hi", output="screen"))
+    assert run.wait() == 1
+    assert "cannot start [torn-2]: No closing quotation" in run.text
+    assert "hi" in run.lines
+
+
+def test_killed_launcher_leaves_nothing_behind(launch: Launch, node: Launch) -> None:
+    """Not even a deaf grandchild, which no parent-death signal reaches."""
+    run = launch(
+        node("parent", "child ignore=SIGTERM wait", output="screen")
+        + node("ros", "node=ros")
+        + '<node pkg="tf2_ros" type="static_transform_publisher" name="tf" args="0 0 0 0 0 0 a b"/>'
+    )
+    run.wait_for_line("child is there")
+    run.eventually(lambda: {"/ros", "/tf"} <= set(run.graph.node_names()))
+    assert len(run.processes()) >= 6  # launcher, guard, host, parent, child, ros
+    run.popen.kill()
+    run.eventually(lambda: run.processes() == {}, timeout_s=3.0)
+
+
+def test_killed_user_node_is_reported_and_leaves_the_graph(launch: Launch, node: Launch) -> None:
+    run = launch(node("ros", "node=ros") + node("stays", "wait"))
+    run.eventually(lambda: "/ros" in run.graph.node_names())
+    pid = int(re.search(r"process\[ros-2\]: started with pid \[(\d+)\]", run.text)[1])
+    os.kill(pid, signal.SIGKILL)
+    run.wait_for_line(r"\[ros-2\] process has died .* signal SIGKILL, exit code -9", 3.0)
+    run.eventually(lambda: "/ros" not in run.graph.node_names(), timeout_s=3.0)
+    assert run.popen.poll() is None
+    assert run.stop() == 0
+
+
+def test_killed_process_of_light_nodes_is_replaced(launch: Launch) -> None:
+    run = launch(
+        '<node pkg="tf2_ros" type="static_transform_publisher" name="tf" args="0 0 1 0 0 0 a b"/>'
+    )
+    pid = int(re.search(r"\[(\d+)\]", run.wait_for_line(r"process\[tf-2\]: started"))[1])
+    run.eventually(lambda: "/tf" in run.graph.node_names())
+    os.kill(pid, signal.SIGKILL)
+    run.wait_for_line(rf"the process of the built-in nodes \[pid {pid}\] has died", 3.0)
+    (message,) = run.messages({"/tf_static": 1}, timeout_s=3.0)["/tf_static"]
+    assert message.transforms[0].transform.translation.z == 1.0
+    assert run.stop() == 0
+    assert run.processes() == {}
+
+
+def test_killed_simulator_is_reported_and_comes_back_when_the_file_says_so(
+    gazelle: Launch,
+) -> None:
+    run = gazelle("roslaunch", "gazebo_ros", "empty_world.launch", "respawn_gazebo:=true")
+    pid = int(re.search(r"\[(\d+)\]", run.wait_for_line(r"process\[gazebo-2\]: started"))[1])
+    run.messages({"/clock": 1})
+    os.kill(pid, signal.SIGKILL)
+    run.wait_for_line(r"\[gazebo-2\] process has died .*signal SIGKILL", 3.0)
+    run.wait_for_line(r"\[gazebo-2\] restarting process", 3.0)
+    run.messages({"/clock": 1}, timeout_s=3.0)
+    assert run.stop() == 0
+    assert run.processes() == {}
