@@ -36,11 +36,11 @@ def test_plain_surfaces_are_not_mentioned() -> None:
 
 
 def test_words_of_several_collisions_are_one_finding() -> None:
-    surface = Surface(min_depth_m=0.001, max_vel_m_s=0.1)
+    surface = Surface(min_depth_m=0.001, soft_erp=0.1)
     assert _findings(_link("a", surface), _link("b", surface)) == [
         (
             "engine.idle-contact-word",
-            "minDepth, maxVel of collision 'm::a::box' and 1 more have no effect",
+            "minDepth, soft_erp of collision 'm::a::box' and 1 more have no effect",
         )
     ]
 

@@ -257,3 +257,30 @@ def test_slow_swing_does_not_fall_asleep(build):
         engine.step(25)
         reached.append(abs(joint.position))
     assert max(reached) == pytest.approx(0.01, rel=0.05)
+
+
+def test_max_vel_parts_overlapping_bodies_slowly(build):
+    soft = {"kp": 1e5, "kd": 1.0, "max_vel_m_s": 0.01}
+    engine = build.engine(build.ground(), build.ball(pose=Pose((0, 0, 0.09)), **soft))
+    highest_m_s = 0.0
+    for _ in range(100):
+        engine.step(5)
+        highest_m_s = max(highest_m_s, float(engine.model_velocity("ball")[0][2]))
+    assert 0.005 < highest_m_s < 0.0105
+
+
+def test_max_vel_leaves_the_depth_at_rest_to_kp(build):
+    engine = build.engine(build.ground(), build.ball(kp=2e4, kd=50.0, max_vel_m_s=0.1))
+    engine.step(8000)
+    depth = 0.1 - engine.model_pose("ball").position_m[2]
+    assert depth == pytest.approx(build.G / 2e4, rel=0.02)
+
+
+def test_max_vel_of_a_spring_that_is_slower_anyway_changes_nothing(build):
+    hashes = set()
+    for limit in (None, 100.0):
+        surface = {"kp": 1e4, "kd": 50.0, "max_vel_m_s": limit}
+        engine = build.engine(build.ground(), build.ball(**surface))
+        engine.step(500)
+        hashes.add(engine.state_hash())
+    assert len(hashes) == 1

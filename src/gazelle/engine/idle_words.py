@@ -12,7 +12,6 @@ __all__ = ["report_idle_words"]
 
 _SURFACE_WORDS = {
     "min_depth_m": "minDepth",
-    "max_vel_m_s": "maxVel",
     "soft_cfm": "soft_cfm",
     "soft_erp": "soft_erp",
 }

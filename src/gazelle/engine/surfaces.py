@@ -46,6 +46,13 @@ HARD_DAMPING_RATIO = 1.5
 """Damping ratio of a saturated contact: a critical one would still return a tenth of the speed."""
 
 BOUNCE_STEPS = 24.0
+
+OVERLAP_M = 0.01
+"""The overlap that is parted with ``max_vel``; smaller ones are parted more slowly."""
+
+MOST_IMPEDANCE = 0.99
+"""Impedance of a slowly parting contact at most: harder springs sink 0.1 mm and more instead."""
+
 FRICTION_RATE = 0.05
 """Sliding speed decays at this rate in units of 1/h: over 20 steps. A higher one lifts sliding
 bodies off the ground, for the solver's friction cone couples sliding and normal speed."""
@@ -69,6 +76,7 @@ class PairSurface:
         kp: stiffness of one contact point, N/m.
         kd: damping of one contact point, N·s/m.
         restitution: bounce coefficient 0…1.
+        max_vel_m_s: speed at which bodies that overlap are pushed apart at most.
     """
 
     mu1: float
@@ -78,6 +86,7 @@ class PairSurface:
     kp: float
     kd: float
     restitution: float
+    max_vel_m_s: float = math.inf
 
     @property
     def condim(self) -> int:
@@ -114,12 +123,14 @@ def combine(first: Surface, second: Surface) -> PairSurface:
         kp,
         _damping(first) + _damping(second),
         min(restitution_of(first), restitution_of(second)),
+        min(_max_vel(first), _max_vel(second)),
     )
 
 
 def is_plain(pair: PairSurface) -> bool:
     """Whether isotropic sliding friction and a hard contact describe the pair in full."""
     extras = pair.torsional_m > 0 or pair.rolling_m > 0 or pair.restitution > 0
+    extras = extras or math.isfinite(pair.max_vel_m_s)
     return not extras and pair.mu1 == pair.mu2
 
 
@@ -136,6 +147,9 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
     """
     if pair.restitution > 0:
         return _bouncing(pair.restitution, step_s)
+    gentle = pair.max_vel_m_s / (step_s * OVERLAP_M)
+    if gentle < pair.kp * inverse_mass:
+        return _pushed_apart(gentle, pair.kp * inverse_mass, step_s)
     if step_s * step_s * pair.kp * inverse_mass > RESOLVED:
         return hard_spring(step_s)
     drag = (pair.kd + step_s * pair.kp) * inverse_mass
@@ -155,6 +169,26 @@ def hard_spring(step_s: float) -> ContactSpring:
         (-rate * rate, -2.0 * HARD_DAMPING_RATIO * rate),
         _friction_rate(HARD_IMPEDANCE, step_s),
         HARD_SOLIMP,
+    )
+
+
+def _pushed_apart(gentle: float, stiffness: float, step_s: float) -> ContactSpring:
+    """Return a contact that parts bodies slowly and sinks as deep as its spring says.
+
+    The damper takes all speed within one step, so an overlap r is left with speed h·gentle·r,
+    which is ``max_vel`` for one of `OVERLAP_M`. The impedance d makes the depth at rest that of
+    the spring, g (1 − d) / (d gentle) = g / stiffness.
+
+    Args:
+        gentle: the slow spring's stiffness over mass, 1/s².
+        stiffness: kp over mass, 1/s².
+        step_s: length of a step.
+    """
+    impedance = min(1.0 / (1.0 + gentle / stiffness), MOST_IMPEDANCE)
+    return ContactSpring(
+        (-gentle * impedance, -impedance / step_s),
+        _friction_rate(impedance, step_s),
+        (impedance, impedance, 0.001, 0.5, 2.0),
     )
 
 
@@ -218,7 +252,14 @@ def surface_key(surface: Surface) -> tuple[object, ...]:
         stiffness_of(surface),
         _damping(surface),
         restitution_of(surface),
+        _max_vel(surface),
     )
+
+
+def _max_vel(surface: Surface) -> float:
+    """Return the speed limit of pushing apart; a limit of 0 or less is none (ODE)."""
+    limit = surface.max_vel_m_s
+    return limit if limit is not None and limit > 0 else math.inf
 
 
 def _friction(surface: Surface) -> tuple[float, float]:

@@ -95,8 +95,8 @@ ENTRIES = (
         "engine.idle-contact-word",
         "info",
         "A parameter of ODE's contact solver has no effect",
-        "minDepth and maxVel tune how ODE pushes bodies apart, soft_cfm and soft_erp are its words"
-        " for a spring; this engine's contact needs none of them (docs/contact.md).",
+        "minDepth is the overlap that ODE leaves alone, soft_cfm and soft_erp are its words for a"
+        " spring; this engine's contact needs none of them (docs/contact.md).",
         "use kp and kd for a soft contact; else nothing needs to be done",
     ),
     Entry(
