@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gazelle.description.sdf.frames import FrameGraph, FramePoint
-from gazelle.diagnostics import SourceSpan
+from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 SPAN = SourceSpan("test.sdf", 1, 1)
@@ -175,3 +175,15 @@ def test_unknown_placement_frame_of_a_model_is_reported(model, diagnostics):
     (found,) = diagnostics.by_code("sdf.unknown-frame")
     assert "placement_frame 'flang' is no frame of model 'm'" in found.message
     assert found.fix == "did you mean 'flange'?"
+
+
+def test_unknown_frame_of_a_links_child_is_a_warning(model, diagnostics):
+    body = (
+        "<link name='l'><sensor name='s' type='imu'>"
+        "<pose relative_to='m'>1 0 0 0 0 0</pose></sensor></link>"
+    )
+    (sensor,) = model(body).link("l").sensors
+    assert sensor.T_link_sensor.position_m == (1, 0, 0)
+    (finding,) = diagnostics.by_code("sdf.unknown-frame")
+    assert finding.severity is Severity.WARNING
+    assert "relative_to='m' of sensor 's'" in finding.message

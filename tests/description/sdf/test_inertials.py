@@ -149,3 +149,13 @@ def test_infinite_tensor_becomes_the_default(model, diagnostics, word):
     (finding,) = diagnostics
     assert (finding.code, finding.severity) == ("sdf.bad-inertia", Severity.WARNING)
     assert "link 'base' is not finite (ixx)" in finding.message
+
+
+@pytest.mark.parametrize(("version", "severity"), [("1.6", "WARNING"), ("1.7", "ERROR")])
+@pytest.mark.parametrize("body", ["<mass>-1</mass>", "<inertia><ixx>0</ixx></inertia>"])
+def test_impossible_inertia_stops_only_what_gazebo_refuses(
+    model, diagnostics, version, severity, body
+):
+    _inertial(model, f"<inertial>{body}</inertial>", version=version)
+    (finding,) = diagnostics.by_code("sdf.bad-inertia")
+    assert finding.severity is Severity[severity]

@@ -131,3 +131,15 @@ def test_missing_geometry_is_reported(tag, context, diagnostics):
 def test_null_normal_is_reported(shape, diagnostics):
     assert shape("<plane><normal>0 0 0</normal></plane>") == Plane()
     assert "length 0" in diagnostics.by_code("sdf.bad-value")[0].message
+
+
+def test_single_scale_counts_for_all_axes(model, diagnostics, tmp_path):
+    (tmp_path / "a.stl").touch()
+    body = (
+        "<link name='l'><visual name='v'><geometry><mesh><uri>a.stl</uri><scale>0.001</scale>"
+        "</mesh></geometry></visual></link>"
+    )
+    (visual,) = model(body).link("l").visuals
+    assert visual.shape.scale == (0.001, 0.001, 0.001)
+    (finding,) = diagnostics
+    assert finding.message == "<scale> needs 3 numbers, found 1: 0.001 is used for all axes"

@@ -87,8 +87,18 @@ class FrameGraph:
         return self._poses[name]
 
     def placed(self, pose: Pose, relative_to: str, *, default: str, user: FramePoint) -> Pose:
-        """Return a pose given in `relative_to` (or `default`) in the scope's own frame."""
-        return self.pose(self._known(relative_to, default, user)) @ pose
+        """Return the pose of a link's child in the scope's own frame.
+
+        Gazebo resolves these poses late and goes on with the default when there is no such frame.
+
+        Args:
+            pose: as written, in `relative_to`.
+            relative_to: the frame's name; `default` when empty or (reported) unknown.
+            default: the link's name.
+            user: the child, for the message.
+        """
+        known = self._known(relative_to, default, user, severity=Severity.WARNING)
+        return self.pose(known) @ pose
 
     def known_frame(self, name: str, default: str, *, user: FramePoint, word: str) -> str:
         """Return `name`, or `default` after reporting that there is no such frame."""
@@ -133,22 +143,36 @@ class FrameGraph:
             pose = pose @ self._points[item].pose
             self._poses[item] = pose
 
-    def _known(self, name: str, default: str, user: FramePoint, word: str = "relative_to") -> str:
+    def _known(
+        self,
+        name: str,
+        default: str,
+        user: FramePoint,
+        word: str = "relative_to",
+        *,
+        severity: Severity | None = None,
+    ) -> str:
         if not name:
             return default
         if name in self:
             return name
-        self._report_unknown(name, user, word)
+        self._report_unknown(name, user, word, severity)
         return default
 
-    def _report_unknown(self, name: str, user: FramePoint, word: str) -> None:
+    def _report_unknown(
+        self, name: str, user: FramePoint, word: str, severity: Severity | None = None
+    ) -> None:
         message = (
             f"{word}='{name}' of {user.what} '{user.name}' is no link, joint, frame or nested "
             f"model of {self._scope}; the default frame is used"
         )
         fix = did_you_mean(name, self.names) or "write one of: " + ", ".join(self.names[:12])
         self._diagnostics.report(
-            "sdf.unknown-frame", message, user.span, fix=fix, severity=self._unknown_severity
+            "sdf.unknown-frame",
+            message,
+            user.span,
+            fix=fix,
+            severity=severity or self._unknown_severity,
         )
 
     def _report_circle(self, names: list[str], point: FramePoint, word: str) -> None:

@@ -71,10 +71,12 @@ def _tensor(tag: Tag | None, link: Tag, context: ReadContext) -> Inertia6:
 def _checked(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> Inertial:
     """Report a mass or tensor that no body can have; return one that a body can have."""
     name = link.attributes.get("name", "")
+    # Gazebo classic, at home up to SDF 1.6, says nothing and simulates something.
+    worst = Severity.WARNING if context.version < (1, 7) else Severity.ERROR
     if inertial.mass_kg <= 0.0:
         place = tag.find("mass") or tag
         message = f"link '{name}' has the mass {inertial.mass_kg:g} kg; 1 kg is used"
-        context.diagnostics.report("sdf.bad-inertia", message, place.span)
+        context.diagnostics.report("sdf.bad-inertia", message, place.span, severity=worst)
         inertial = replace(inertial, mass_kg=1.0)
     problems = inertia_problems(inertial.inertia_kg_m2)
     if not problems:
@@ -87,6 +89,6 @@ def _checked(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> I
     positive = min(
         MassProperties(1.0, inertia_kg_m2=inertial.inertia_kg_m2).principal_moments_kg_m2
     )
-    severity = Severity.WARNING if positive > 0.0 else Severity.ERROR
+    severity = Severity.WARNING if positive > 0.0 else worst
     context.diagnostics.report("sdf.bad-inertia", message, place.span, severity=severity)
     return replace(inertial, inertia_kg_m2=legalised_inertia(inertial.inertia_kg_m2))

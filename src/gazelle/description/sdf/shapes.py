@@ -143,11 +143,22 @@ def _mesh(tag: Tag, context: ReadContext) -> Shape:
     return MeshShape(
         uri=uri,
         path=_file(uri, tag, context),
-        scale=child_vector3(tag, "scale", _ONE, context),
+        scale=_scale(tag, context),
         submesh=submesh.text_of("name") if submesh else "",
         center_submesh=child_bool(submesh, "center", False, context) if submesh else False,
         span=(tag.find("uri") or tag).span,
     )
+
+
+def _scale(tag: Tag, context: ReadContext) -> tuple[float, float, float]:
+    """Return the scale; one number instead of three counts for all axes."""
+    scale = tag.find("scale")
+    if scale is None or len(scale.text.split()) != 1:
+        return child_vector3(tag, "scale", _ONE, context)
+    factor = child_float(tag, "scale", 1.0, context)
+    message = f"<scale> needs 3 numbers, found 1: {factor:g} is used for all axes"
+    context.diagnostics.report("sdf.bad-value", message, scale.span)
+    return (factor, factor, factor)
 
 
 def _heightmap(tag: Tag, context: ReadContext) -> Shape:
