@@ -27,7 +27,7 @@ from gazelle.launch.lockstep import HeldStart, holds_time, is_simulator, with_si
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.workspace import Workspace
 
-__all__ = ["LaunchOptions", "launch"]
+__all__ = ["LaunchOptions", "find_executables", "launch"]
 
 _ROSOUT = NodeSpec("rosout", "rosout", "rosout")
 _UNPAUSE = "/gazebo/unpause_physics"
@@ -92,7 +92,7 @@ def launch(
     log_folder = _log_folder(run_id)
     console.plain(f"... logging to {log_folder}/roslaunch-{os.uname().nodename}-{os.getpid()}.log")
     console.plain("Press Ctrl-C to interrupt\n")
-    nodes, missing = _executables(config, workspace, diagnostics, options)
+    nodes, missing = find_executables(config, workspace, diagnostics, options)
     render(diagnostics)
     environ = _environ(options)
     with _graph(options) as graph:
@@ -169,7 +169,7 @@ def _unpause(graph: Graph) -> None:
         node.shutdown()
 
 
-def _executables(
+def find_executables(
     config: LaunchConfig, workspace: Workspace, diagnostics: Diagnostics, options: LaunchOptions
 ) -> tuple[list[tuple[NodeSpec, Executable]], int]:
     """Return every node with its command, and how many have none."""

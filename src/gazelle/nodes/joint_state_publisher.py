@@ -26,12 +26,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.description.model import Joint, JointType, Model
-from gazelle.errors import GraphError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node, ticks
-from gazelle.nodes.tree import read_description
+from gazelle.nodes.tree import robot_of
 
 __all__ = ["default_position", "run"]
 
@@ -48,13 +47,11 @@ class _Dependent:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish ``joint_states`` until told to stop."""
     node = start_node(arguments, graph)
-    name = node.parameters.search("robot_description") or "/robot_description"
-    try:
-        text = node.parameters.get(name)
-    except (GraphError, KeyError):
-        node.log("error", f"Parameter {name} is not set; set robot_description before this node")
+    model = robot_of(node)
+    if model is None:
+        node.shutdown()
         return 1
-    publisher = _Publisher(node, arguments, read_description(str(text)))
+    publisher = _Publisher(node, arguments, model)
     period_ns = int(1e9 / float(private(node, arguments, "rate", 10)))
     for _ in ticks(node, period_ns, stop):
         publisher.publish()
@@ -116,12 +113,15 @@ class _Publisher:
         self._out.publish(message)
 
     def _position(self, name: str) -> float:
-        dependent = self._dependents.get(name)
-        if dependent is None:
-            return self._positions[name]
-        if dependent.parent not in self._positions and dependent.parent not in self._dependents:
-            return dependent.offset
-        return dependent.factor * self._position(dependent.parent) + dependent.offset
+        factor, offset = 1.0, 0.0
+        # Joints that mimic each other in a ring stand at their offsets.
+        for _ in self._names:
+            dependent = self._dependents.get(name)
+            if dependent is None:
+                return factor * self._positions.get(name, 0.0) + offset
+            offset += factor * dependent.offset
+            factor, name = factor * dependent.factor, dependent.parent
+        return offset
 
     def _on_others(self, message: Any) -> None:
         if message is self._sent:

@@ -16,13 +16,12 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from gazelle.errors import GraphError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node
-from gazelle.nodes.tree import TreeJoint, joint_tree, read_description
+from gazelle.nodes.tree import TreeJoint, joint_tree, robot_of
 
 __all__ = ["StateToTf", "run"]
 
@@ -30,14 +29,10 @@ __all__ = ["StateToTf", "run"]
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish tf until told to stop."""
     node = start_node(arguments, graph)
-    name = node.parameters.search("robot_description") or "/robot_description"
-    try:
-        text = str(node.parameters.get(name))
-    except (GraphError, KeyError):
-        node.log("error", f"Could not find parameter {name} on parameter server")
+    model = robot_of(node)
+    if model is None:
         node.shutdown()
         return 1
-    model = read_description(text)
     states = StateToTf(
         joint_tree(model),
         prefix=str(private(node, arguments, "tf_prefix", "")),

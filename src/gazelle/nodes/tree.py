@@ -10,10 +10,11 @@ from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.text_place import place_of_text
 from gazelle.description.urdf import read_urdf
 from gazelle.diagnostics import Diagnostics
-from gazelle.errors import UserFileError
+from gazelle.errors import GraphError, LaunchError
 from gazelle.geometry import Pose
+from gazelle.graph import Node
 
-__all__ = ["TreeJoint", "joint_tree", "read_description"]
+__all__ = ["TreeJoint", "joint_tree", "read_description", "robot_of"]
 
 _TURNING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS})
 
@@ -51,14 +52,36 @@ def read_description(text: str) -> Model:
     """Read a ``robot_description`` for its links and joints only; meshes are not looked for.
 
     Raises:
-        UserFileError: the text is no usable robot.
+        LaunchError: the text is no usable robot; the first error in one line, since whoever
+            loads the robot into a world reports all of them with their places.
     """
     diagnostics = Diagnostics()
     context = ReadContext(None, diagnostics, place_of_text(text), None)
     model = read_urdf(text, context=context)
     if model is None:
-        raise UserFileError(tuple(diagnostics))
+        first = diagnostics.errors[0] if diagnostics.errors else None
+        where = f" at {first.span}" if first is not None and first.span is not None else ""
+        what = f"{first.message}{where} [{first.code}]" if first is not None else "it is empty"
+        raise LaunchError(f"robot_description is no robot: {what}")
     return model
+
+
+def robot_of(node: Node) -> Model | None:
+    """Return the robot of the nearest ``robot_description``; None when the node has said why not.
+
+    The node's own ``robot_description`` remap applies, and the search goes up its namespaces.
+    """
+    name = node.parameters.search("robot_description") or node.resolve_name("robot_description")
+    try:
+        text = str(node.parameters.get(name))
+    except (GraphError, KeyError):
+        node.log("error", f"Could not find parameter {name} on parameter server")
+        return None
+    try:
+        return read_description(text)
+    except LaunchError as error:
+        node.log("fatal", str(error))
+        return None
 
 
 def joint_tree(model: Model) -> tuple[TreeJoint, ...]:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import Model
-from gazelle.diagnostics import Diagnostics
-from gazelle.errors import GazelleError
+from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.errors import GazelleError, UserFileError
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
 from gazelle.simulator.messages import pose_from_message
 from gazelle.simulator.sources import models_from
@@ -81,7 +81,7 @@ class SpawnServices:
                 placed = replace(model, T_world_model=pose @ model.T_world_model)
                 self._server.spawn(placed, name=chosen, namespace=request.robot_namespace)
         except GazelleError as error:
-            response.status_message = f"{word}: Failure - {error}"
+            response.status_message = f"{word}: Failure - {_in_short(error)}"
             self._report(found)
             return
         for item in list(self._server.diagnostics)[already:]:
@@ -120,3 +120,11 @@ class SpawnServices:
         self._server.delete(name)
         response.success = True
         response.status_message = f"{word}: successfully deleted model"
+
+
+def _in_short(error: GazelleError) -> str:
+    """Return an error for the caller; findings in full go to the simulator's own terminal."""
+    if not isinstance(error, UserFileError):
+        return str(error)
+    errors = [item for item in error.diagnostics if item.severity is Severity.ERROR]
+    return "; ".join(f"{item.span}: {item.message} [{item.code}]" for item in errors)

@@ -1,0 +1,132 @@
+"""Which command a (package, type) means, and what is said when there is none."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.executables import Executable, find_executable
+from gazelle.launch.roslaunch import LaunchOptions, find_executables
+from gazelle.workspace import Workspace
+
+_SPAN = SourceSpan("a.launch", 3, 5)
+
+
+def _find(
+    package: str, type_name: str, folder: Path, **environ: str
+) -> tuple[Executable | None, Diagnostics]:
+    diagnostics = Diagnostics()
+    workspace = Workspace.discover(environ={}, cwd=folder)
+    found = find_executable(
+        package, type_name, workspace=workspace, diagnostics=diagnostics, span=_SPAN,
+        environ=environ,
+    )  # fmt: skip
+    return found, diagnostics
+
+
+def test_python_script_runs_through_the_runner(package: Path) -> None:
+    found, diagnostics = _find("tests_pkg", "does", package)
+    assert found is not None and not list(diagnostics)
+    script = package / "scripts" / "does"
+    assert found.command == (sys.executable, "-m", "gazelle.compat.runner", str(script))
+    assert found.folder == script.parent
+
+
+def test_other_scripts_run_as_they_are(package: Path) -> None:
+    script = package / "scripts" / "greet.sh"
+    script.write_text("#!/bin/sh\necho hi\n", encoding="utf-8")
+    script.chmod(0o755)
+    found, _ = _find("tests_pkg", "greet.sh", package)
+    assert found is not None and found.command == (str(script),)
+
+
+def test_file_of_the_workspace_wins_over_a_built_in_node(package: Path) -> None:
+    own = package.parent / "robot_state_publisher"
+    package.rename(own)
+    manifest = own / "package.xml"
+    text = manifest.read_text(encoding="utf-8").replace("tests_pkg", "robot_state_publisher")
+    manifest.write_text(text, encoding="utf-8")
+    (own / "scripts" / "does").rename(own / "scripts" / "robot_state_publisher")
+    found, _ = _find("robot_state_publisher", "robot_state_publisher", own)
+    assert found is not None and found.builtin is None
+
+
+@pytest.mark.parametrize(
+    ("package_name", "type_name", "command"),
+    [
+        ("rostopic", "rostopic", "rostopic"),
+        ("rosservice", "rosservice", "rosservice"),
+        ("tf", "tf_echo", "tf_echo"),
+    ],
+)
+def test_commands_are_nodes_too(
+    tmp_path: Path, package_name: str, type_name: str, command: str
+) -> None:
+    found, _ = _find(package_name, type_name, tmp_path)
+    assert found is not None
+    assert found.command == (sys.executable, "-m", "gazelle.cli", command)
+
+
+def test_executable_of_an_installed_ros_is_the_last_resort(tmp_path: Path) -> None:
+    native = tmp_path / "prefix" / "lib" / "some_pkg" / "some_node"
+    native.parent.mkdir(parents=True)
+    native.write_bytes(b"\x7fELF")
+    native.chmod(0o755)
+    found, _ = _find("some_pkg", "some_node", tmp_path, AMENT_PREFIX_PATH=str(tmp_path / "prefix"))
+    assert found is not None and found.command == (str(native),)
+
+
+def test_missing_package_is_named_with_its_place(package: Path) -> None:
+    found, diagnostics = _find("tests_pgk", "does", package)
+    (error,) = diagnostics
+    assert found is None
+    assert (error.code, error.span) == ("launch.package-missing", _SPAN)
+    assert "package 'tests_pgk' not found; did you mean 'tests_pkg'?" in error.message
+
+
+def test_missing_executable_lists_what_there_is(package: Path) -> None:
+    (package / "scripts" / "drive.py").write_text("print()\n", encoding="utf-8")
+    _, diagnostics = _find("tests_pkg", "driver.py", package)
+    (error,) = diagnostics
+    assert error.code == "launch.executable-missing"
+    assert error.message == (
+        "Cannot locate node of type [driver.py] in package [tests_pkg]; "
+        "the package has: does, drive.py"
+    )
+    assert error.fix == "did you mean 'drive.py'?"
+
+
+def test_compiled_node_is_called_so(package: Path) -> None:
+    (package / "src").mkdir()
+    source = package / "src" / "planner.cpp"
+    source.write_text("int main() {}\n", encoding="utf-8")
+    _, diagnostics = _find("tests_pkg", "planner", package)
+    (error,) = diagnostics
+    assert error.code == "launch.compiled-node"
+    assert f"it is compiled code ('{source}') that is not built here" in error.message
+
+
+def test_script_without_execute_permission_runs_with_a_warning(package: Path) -> None:
+    script = package / "scripts" / "drive.py"
+    script.write_text("print('hi')\n", encoding="utf-8")
+    found, diagnostics = _find("tests_pkg", "drive.py", package)
+    (warning,) = diagnostics
+    assert found is not None
+    assert warning.code == "launch.not-executable"
+    assert warning.fix == f"chmod +x {script}"
+
+
+def test_node_for_another_machine_runs_here_and_that_is_said(package: Path) -> None:
+    spec = NodeSpec("tests_pkg", "does", "one", machine="robot1", span=_SPAN)
+    config, diagnostics = LaunchConfig(nodes=[spec]), Diagnostics()
+    nodes, missing = find_executables(
+        config, Workspace.discover(environ={}, cwd=package), diagnostics, LaunchOptions()
+    )
+    assert (len(nodes), missing) == (1, 0)
+    (told,) = diagnostics
+    assert told.code == "launch.remote-machine"
+    assert "node 'one' asks for machine 'robot1'; it runs here" in told.message
