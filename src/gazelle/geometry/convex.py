@@ -19,7 +19,10 @@ from gazelle.geometry.shading import group_points
 __all__ = ["ConvexParts", "cache_folder", "convex_hull", "convex_parts"]
 
 _CONVEX_SHARE = 0.98
-_DEFAULT_THRESHOLD = 0.08
+_THRESHOLD = 0.08
+# Scans and CAD exports of whole bodies: finer pieces take half a minute and slow every contact.
+_COARSE_THRESHOLD = 0.15
+_MANY_FACES = 4000
 _CACHE_VERSION = 2
 # A fraction of CoACD's own effort: the pieces fill the same volume within a few percent and a
 # robot's body takes seconds instead of half a minute.
@@ -68,7 +71,7 @@ def convex_hull(vertices_m: NDArray[np.float64]) -> MeshPart:
     return _hull_part(ConvexHull(thick, qhull_options="QJ Pp"))
 
 
-def convex_parts(mesh: Mesh, *, threshold: float = _DEFAULT_THRESHOLD) -> ConvexParts:
+def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
     """Split a mesh into convex pieces.
 
     A mesh that fills 98 % of its hull is its hull. Others are split by ``coacd`` where it is
@@ -77,8 +80,11 @@ def convex_parts(mesh: Mesh, *, threshold: float = _DEFAULT_THRESHOLD) -> Convex
 
     Args:
         mesh: closed or not.
-        threshold: CoACD's concavity limit, 0.01 (fine) to 1 (coarse).
+        threshold: CoACD's concavity limit, 0.01 (fine) to 1 (coarse); None for 0.08, and 0.15
+            above 4000 triangles.
     """
+    if threshold is None:
+        threshold = _THRESHOLD if len(mesh.faces) <= _MANY_FACES else _COARSE_THRESHOLD
     hull = convex_hull(mesh.vertices_m)
     if _fills(mesh, hull):
         return ConvexParts((hull,), True)

@@ -126,3 +126,9 @@ def test_real_mistake_beside_a_dashed_comment_is_the_error() -> None:
     assert root is None
     (found,) = diagnostics
     assert (found.code, found.span.line) == ("xml.malformed", 3)
+
+
+def test_licence_before_the_declaration_is_forgiven_as_by_gazebo() -> None:
+    root, diagnostics = parse("<!--\n free -->\n<?xml version='1.0'?>\n<a><b/></a>")
+    assert str(root.find("b").span) == "a.urdf:4:4"
+    assert [item.code for item in diagnostics] == ["xml.lenient"]

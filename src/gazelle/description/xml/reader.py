@@ -12,7 +12,9 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["parse_xml", "read_xml"]
 
+_FORGIVEN = "this is no XML: '--' in a comment, a bare '&' or something before <?xml …?>"
 _COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
+_LATE_DECLARATION = re.compile(rb"(?<=\S)\s*<\?xml\s[^>]*\?>")
 _BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
 
 
@@ -49,7 +51,7 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
                 raise
             root = _parsed(repaired, encoding, file)
             span = SourceSpan(file, error.lineno, error.offset + 1)
-            diagnostics.report("xml.lenient", "'--' in a comment or a bare '&' is no XML", span)
+            diagnostics.report("xml.lenient", _FORGIVEN, span)
             return root
     except expat.ExpatError as error:
         span = SourceSpan(file, error.lineno, error.offset + 1)
@@ -69,10 +71,11 @@ def _parsed(data: bytes, encoding: str | None, file: str) -> Tag | None:
 def _repaired(data: bytes) -> bytes:
     """Return a document with what TinyXML, the parser of Gazebo and urdfdom, lets pass.
 
-    These are ``--`` inside comments, as in command lines that worlds quote, and ``&`` that
-    starts no reference. Lines stay where they are.
+    These are ``--`` inside comments, as in command lines that worlds quote, ``&`` that starts no
+    reference, and a licence before the declaration. Lines stay where they are.
     """
     quiet = _COMMENT.sub(lambda found: b"<!--%b-->" % found[1].replace(b"-", b" "), data)
+    quiet = _LATE_DECLARATION.sub(lambda found: re.sub(rb"[^\n]", b" ", found[0]), quiet)
     return _BARE_AND.sub(b"&amp;", quiet)
 
 

@@ -26,9 +26,9 @@ ENTRIES = (
         "xml.lenient",
         "info",
         "The file is read although it is no well-formed XML",
-        "Gazebo's parser reads '--' in comments and a bare '&', and so does Gazelle; xacro and "
-        "most other tools refuse them.",
-        "write '-' in comments and '&amp;' for '&'",
+        "Gazebo's parser reads '--' in comments, a bare '&' and a comment before <?xml …?>, and so "
+        "does Gazelle; xacro and most other tools refuse them.",
+        "write '-' in comments, '&amp;' for '&', and <?xml …?> first",
     ),
     Entry(
         "xml.unreadable",
