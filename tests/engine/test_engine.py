@@ -340,3 +340,8 @@ def test_joint_limits_that_meet_lock_the_joint(build):
     engine = build.engine(build.arm(axis=JointAxis((0, 1, 0), lower=0.3, upper=0.3)))
     engine.step(2000)
     assert engine.joint("arm::joint").position == pytest.approx(0.3, abs=1e-5)
+
+
+def test_two_models_of_one_name_are_one_clear_error(build):
+    with pytest.raises(EngineError, match="two models are named 'ball'; names in a world are"):
+        build.engine(build.ball(), build.ball())

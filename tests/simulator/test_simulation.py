@@ -156,3 +156,20 @@ def test_it_is_a_context_manager(bare_workspace: object, tmp_path: Path) -> None
     with Simulation.load(path, world=None, workspace=bare_workspace) as sim:  # type: ignore[arg-type]
         sim.step()
         assert sim.model("pendulum").joints == ("swing",)
+
+
+WORLD = """<sdf version="1.6"><world name="own"><model name="stone"><static>true</static>
+  <link name="link"/></model></world></sdf>"""
+
+
+@pytest.mark.parametrize("name", ["own.sdf", "own.world"])
+def test_a_file_that_holds_a_world_stands_for_itself(
+    load: Callable[..., Simulation], tmp_path: Path, name: str
+) -> None:
+    (tmp_path / name).write_text(WORLD)
+    world = load(tmp_path / name).world
+    assert (world.name, [model.name for model in world.models]) == ("own", ["stone"])
+
+
+def test_text_that_holds_a_world_stands_for_itself(load: Callable[..., Simulation]) -> None:
+    assert load(WORLD).world.name == "own"

@@ -70,6 +70,7 @@ def compile_world(
         EngineError: MuJoCo refuses the model; its words are part of the message.
         NotFoundError: a joint names a link that is not there.
     """
+    _check_names(world)
     spec = _new_spec(world, step_s)
     builder = SpecBuilder(world, spec, diagnostics, step_s)
     for model in world.models:
@@ -86,6 +87,16 @@ def compile_world(
     compiled = _finish(builder, _compile(spec), pairs, tuple(motors))
     compiled.retime(step_s)
     return compiled
+
+
+def _check_names(world: World) -> None:
+    names = [model.name for model in world.models]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise EngineError(
+            f"two models are named '{twice[0]}'; names in a world are unique: rename one or leave"
+            " it out"
+        )
 
 
 def _new_spec(world: World, step_s: float) -> Any:

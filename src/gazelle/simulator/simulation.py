@@ -22,13 +22,11 @@ from gazelle.simulator.handles import (
 from gazelle.simulator.names import full_name
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.ports import NodePort, SubscriptionPort
-from gazelle.simulator.sources import models_from, world_from
+from gazelle.simulator.sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.world_server import WorldServer
 from gazelle.workspace import Workspace
 
 __all__ = ["Simulation"]
-
-Source = str | os.PathLike[str] | Model
 
 
 class Simulation:
@@ -105,15 +103,15 @@ class Simulation:
         """
         workspace = workspace or Workspace.discover()
         diagnostics = Diagnostics()
-        models = models_from(source, workspace, diagnostics, mappings=mappings)
-        if models.world is not None:
-            chosen = models.world
+        loaded = loaded_from(source, workspace, diagnostics, mappings=mappings)
+        if loaded.world is not None:
+            chosen = loaded.world
         elif isinstance(world, World):
             chosen = world
         else:
             chosen = world_from(world, workspace, diagnostics)
         diagnostics.raise_if_errors()
-        placed = tuple(_placed(model, name, pose) for model in models.models)
+        placed = tuple(_placed(model, name, pose) for model in loaded.models)
         chosen = replace(chosen, models=(*chosen.models, *placed))
         return cls(chosen, workspace=workspace, diagnostics=diagnostics, node=node, seed=seed)
 
@@ -194,7 +192,7 @@ class Simulation:
             EngineError: the name is taken.
         """
         found = Diagnostics()
-        models = models_from(source, self._workspace, found, mappings=mappings).models
+        models = models_from(source, self._workspace, found, mappings=mappings)
         self.diagnostics.extend(found)
         found.raise_if_errors()
         if not models:

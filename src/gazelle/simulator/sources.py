@@ -8,12 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.description.model import Model, World
+from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 
-__all__ = ["Loaded", "models_from", "world_from"]
+__all__ = ["Loaded", "Source", "loaded_from", "models_from", "world_from"]
+
+
+Source = str | os.PathLike[str] | Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,32 +28,48 @@ class Loaded:
     world: World | None = None
 
 
-def models_from(
-    source: str | os.PathLike[str] | Model | None,
+def loaded_from(
+    source: Source | None,
     workspace: Workspace,
     diagnostics: Diagnostics,
     *,
     mappings: Mapping[str, str] | None = None,
 ) -> Loaded:
-    """Read a model file, its text, a model folder or a known model's name.
+    """Read what `models_from` reads, or a world file or text, which stands for itself.
+
+    Raises:
+        NotFoundError: neither a file nor a known model.
+        UserFileError: a world has errors.
+    """
+    from gazelle.description.loader import load_world
+
+    if source is None:
+        return Loaded()
+    if not isinstance(source, Model):
+        source = _text_or_path(source, workspace)
+        if _holds_world(source):
+            return Loaded(world=load_world(source, workspace=workspace, diagnostics=diagnostics))
+    return Loaded(models_from(source, workspace, diagnostics, mappings=mappings))
+
+
+def models_from(
+    source: Source,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    *,
+    mappings: Mapping[str, str] | None = None,
+) -> tuple[Model, ...]:
+    """Read a model file, its text, a model folder or a known model's name; a world's models too.
 
     Raises:
         NotFoundError: neither a file nor a known model.
     """
     from gazelle.description.loader import load_models
 
-    if source is None:
-        return Loaded()
     if isinstance(source, Model):
-        return Loaded((source,))
-    text = os.fspath(source)
-    if "<" not in text:
-        path = _existing(text, workspace)
-        if path.suffix == ".world":
-            return Loaded(world=world_from(path, workspace, diagnostics))
-        text = str(path)
-    models = load_models(text, workspace=workspace, diagnostics=diagnostics, mappings=mappings)
-    return Loaded(tuple(models))
+        return (source,)
+    text = _text_or_path(source, workspace)
+    return load_models(text, workspace=workspace, diagnostics=diagnostics, mappings=mappings)
 
 
 def world_from(
@@ -73,6 +93,25 @@ def world_from(
             raise NotFoundError("world", text, searched=found.tried, nearest=found.nearest)
         path = found.path
     return load_world(path, workspace=workspace, diagnostics=diagnostics)
+
+
+def _text_or_path(source: str | os.PathLike[str], workspace: Workspace) -> str:
+    text = os.fspath(source)
+    return text if "<" in text else str(_existing(text, workspace))
+
+
+def _holds_world(text: str) -> bool:
+    """Return whether a file or text is SDF with a world in it; ``.sdf`` says nothing about that."""
+    unheard = Diagnostics()
+    if "<" in text:
+        root = parse_xml(text, "<text>", unheard)
+    elif Path(text).suffix == ".world":
+        return True
+    elif Path(text).suffix in {".sdf", ".xml"}:
+        root = read_xml(Path(text), unheard)
+    else:
+        return False
+    return root is not None and root.find("world") is not None
 
 
 def _existing(text: str, workspace: Workspace) -> Path:

@@ -97,7 +97,7 @@ class SpawnServices:
             from gazelle.workspace import Workspace
 
             workspace = Workspace.discover()
-        models = models_from(text, workspace, found).models
+        models = models_from(text, workspace, found)
         found.raise_if_errors()
         if not models:
             raise GazelleError(

@@ -46,7 +46,7 @@ def read_calibration(
     """Read the calibration keys (GazeboRosCameraUtils): 0 means computed from the sensor."""
     computed = spec.width_px / (2 * math.tan(spec.horizontal_fov_rad / 2))
     focal = parameters.number("focalLength")
-    if focal and abs(focal - computed) > 1e-8:
+    if focal and abs(focal - computed) > 1e-6 * computed:
         text = f"<focalLength> {focal:g} does not fit the image's width and field of view, which "
         text += f"give {computed:.10g}; camera_info says {focal:g}, the picture is unchanged"
         context.report("plugin.bad-value", text)
