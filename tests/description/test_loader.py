@@ -252,3 +252,11 @@ def test_equal_findings_of_a_file_are_said_once() -> None:
     (_model,), diagnostics = _load(URDF.replace("</robot>", f"{bare}</robot>"))
     (finding,) = diagnostics.by_code("urdf.no-inertia")
     assert "the same 5 more times: 'l1'" in finding.message
+
+
+def test_sdf_of_2012_says_how_to_go_on() -> None:
+    models, diagnostics = _load("<gazebo version='1.2'><model name='m'/></gazebo>")
+    assert models == ()
+    (finding,) = diagnostics
+    assert finding.code == "load.unknown-format"
+    assert "SDF 1.2 or older" in finding.fix

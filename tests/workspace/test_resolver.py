@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from gazelle.workspace.resolved import nearest_packages
+
 
 @pytest.fixture
 def robot(tmp_path, make_package) -> Path:
@@ -197,3 +199,16 @@ def test_missing_file_of_a_neighbour_names_the_model(workspace, robot):
     assert found.path is None
     assert found.note == "model 'lamp' has no 'shades.dae'"
     assert found.nearest == ("model://lamp/shade.dae",)
+
+
+@pytest.mark.parametrize(
+    ("written", "nearest"),
+    [
+        ("hector_sensors_description", ()),
+        ("husky_descripton", ("husky_description",)),
+        ("huskey_description", ("husky_description",)),
+        ("husky_gazebo", ("husky_description",)),
+    ],
+)
+def test_common_ending_alone_makes_no_package_near(written, nearest):
+    assert nearest_packages(written, ["champ_description", "husky_description"])[:1] == nearest

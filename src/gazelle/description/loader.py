@@ -195,7 +195,9 @@ def _models_of_root(root: Tag, context: ReadContext) -> tuple[Model, ...]:
             context.diagnostics.report("load.nothing", message, root.span)
         return models
     message = f"the outermost element of '{context.file}' is <{root.name}>"
-    context.diagnostics.report("load.unknown-format", message, root.span)
+    old = root.name == "gazebo"
+    fix = "this is SDF 1.2 or older; bring it to 1.3 or later with 'gz sdf -p FILE'" if old else ""
+    context.diagnostics.report("load.unknown-format", message, root.span, fix=fix)
     return ()
 
 

@@ -3,12 +3,25 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
 
-__all__ = ["Resolved", "locate", "nearest_below"]
+__all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
+
+# Endings that half of all packages share say nothing about which one was meant.
+_COMMON_ENDINGS = (
+    "_bringup",
+    "_control",
+    "_description",
+    "_gazebo",
+    "_msgs",
+    "_navigation",
+    "_simulation",
+    "_support",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +84,23 @@ def nearest_below(base: Path, relative: str) -> tuple[str, ...]:
         rest = parts[:index]
         return tuple("/".join([*rest, name]) for name in near)
     return ()
+
+
+def nearest_packages(name: str, existing: Iterable[str]) -> tuple[str, ...]:
+    """Return package names like a missing one; a common ending alone is no likeness."""
+    names = list(existing)
+    near = [
+        item for item in nearest_names(name, names) if nearest_names(_stem(name), [_stem(item)])
+    ]
+    siblings = sorted(item for item in names if _stem(item) == _stem(name))
+    return tuple(dict.fromkeys([*near, *siblings]))[:3]
+
+
+def _stem(name: str) -> str:
+    for ending in _COMMON_ENDINGS:
+        if name.endswith(ending) and name != ending:
+            return name.removesuffix(ending)
+    return name
 
 
 def _ignoring_case(base: Path, relative: str) -> Path | None:

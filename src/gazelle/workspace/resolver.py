@@ -12,7 +12,7 @@ from urllib.parse import unquote
 
 from gazelle.diagnostics import nearest_names
 from gazelle.workspace.models import folders_around, fuel_model, is_model_folder
-from gazelle.workspace.resolved import Resolved, locate, nearest_below
+from gazelle.workspace.resolved import Resolved, locate, nearest_below, nearest_packages
 
 if TYPE_CHECKING:
     from gazelle.workspace.workspace import Workspace
@@ -96,7 +96,7 @@ def _in_package(workspace: Workspace, name: str, inside: str) -> Resolved:
         return Resolved(
             None,
             workspace.package_places,
-            nearest_names(name, workspace.packages),
+            nearest_packages(name, workspace.packages),
             f"there is no package '{name}'",
         )
     path, note = locate(package.path, inside)

@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names
+from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import NotFoundError
 from gazelle.workspace import resolver
 from gazelle.workspace.crawler import FoundPackage
 from gazelle.workspace.manifest import Manifest, ManifestError, read_manifest
 from gazelle.workspace.models import fuel_models, is_model_folder, models_in, newest_version
 from gazelle.workspace.package import Package, package_from
-from gazelle.workspace.resolved import Resolved
+from gazelle.workspace.resolved import Resolved, nearest_packages
 from gazelle.workspace.search_path import (
     BUILTIN,
     PackageSource,
@@ -81,7 +81,7 @@ class Workspace:
                 "package",
                 name,
                 searched=self.package_places,
-                nearest=nearest_names(name, self._packages),
+                nearest=nearest_packages(name, self._packages),
                 hint=_NOT_HERE,
             )
         return found
