@@ -126,5 +126,6 @@ def _in_short(error: GazelleError) -> str:
     """Return an error for the caller; findings in full go to the simulator's own terminal."""
     if not isinstance(error, UserFileError):
         return str(error)
-    errors = [item for item in error.diagnostics if item.severity is Severity.ERROR]
-    return "; ".join(f"{item.span}: {item.message} [{item.code}]" for item in errors)
+    # A warning can be the reason: the one model of a text may be an include that is not found.
+    found = [item for item in error.diagnostics if item.severity >= Severity.WARNING]
+    return "; ".join(f"{item.span}: {item.message} [{item.code}]" for item in found)
