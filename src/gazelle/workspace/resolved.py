@@ -89,10 +89,13 @@ def nearest_below(base: Path, relative: str) -> tuple[str, ...]:
 def nearest_packages(name: str, existing: Iterable[str]) -> tuple[str, ...]:
     """Return package names like a missing one; a common ending alone is no likeness."""
     names = list(existing)
+    stem = _stem(name)
     near = [
-        item for item in nearest_names(name, names) if nearest_names(_stem(name), [_stem(item)])
+        item
+        for item in nearest_names(name, names)
+        if stem == name or nearest_names(stem, [_stem(item)])
     ]
-    siblings = sorted(item for item in names if _stem(item) == _stem(name))
+    siblings = sorted(item for item in names if _stem(item) == stem)
     return tuple(dict.fromkeys([*near, *siblings]))[:3]
 
 
