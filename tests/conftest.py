@@ -234,15 +234,23 @@ Run = Callable[..., Launched]
 
 @pytest.fixture
 def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
-    """Runs ``gazelle WORDS…`` on a port of the test's own; everything ends with the test."""
+    """Runs ``gazelle WORDS…`` on a port of the test's own; everything ends with the test.
+
+    `module` is run in place of ``gazelle``, as ``python -m`` does.
+    """
     running: list[Launched] = []
 
     def run(
-        *words: str, cwd: Path = tmp_path, port: int = free_port, stdin: Any = None, **environ: str
+        *words: str,
+        cwd: Path = tmp_path,
+        port: int = free_port,
+        stdin: Any = None,
+        module: str = "gazelle.cli",
+        **environ: str,
     ) -> Launched:
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
         own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(tmp_path / "ros_home"), **environ}
-        command = [sys.executable, "-m", "gazelle.cli", *words]
+        command = [sys.executable, "-m", module, *words]
         running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
         return running[-1]
 

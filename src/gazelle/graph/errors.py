@@ -10,6 +10,7 @@ __all__ = [
     "NoGraphError",
     "PortTakenError",
     "ServiceCallError",
+    "ServiceRefusedError",
     "ServiceTimeoutError",
     "ServiceUnavailableError",
     "TimeJumpError",
@@ -39,6 +40,10 @@ class ServiceTimeoutError(GraphError):
 
 class ServiceCallError(GraphError):
     """The service's handler failed; the text is what it said."""
+
+
+class ServiceRefusedError(GraphError):
+    """Raised by a handler: its text reaches the caller as it is and is not logged."""
 
 
 class TimeJumpError(GraphError):

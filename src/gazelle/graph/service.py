@@ -13,6 +13,7 @@ from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import wire
 from gazelle.graph.errors import (
     ServiceCallError,
+    ServiceRefusedError,
     ServiceTimeoutError,
     ServiceUnavailableError,
     coded,
@@ -75,6 +76,8 @@ class ServiceServer:
     def _answer(self, query: Any) -> None:
         try:
             answer, error = self._response_to(query), ""
+        except ServiceRefusedError as refused:
+            answer, error = b"", str(refused)
         except Exception as raised:  # noqa: BLE001 - a user's handler may raise anything
             answer, error = b"", f"error processing request: {raised}"
             if not isinstance(raised, GazelleError):

@@ -84,7 +84,7 @@ def is_shutdown() -> bool:
 
 def is_shutdown_requested() -> bool:
     """Return whether the node is shut down or about to be."""
-    return STATE.stopping.is_set()
+    return STATE.requested.is_set()
 
 
 def signal_shutdown(reason: str) -> None:

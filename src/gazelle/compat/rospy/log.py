@@ -27,7 +27,11 @@ def _log(level: Level, message: Any, args: tuple[Any, ...], kwargs: dict[str, An
         sys.stderr.write(f"[{level.name}] {text}\n")
         return
     STATE.node.log(
-        level, text, logger=f"{STATE.node.name}.{logger}" if logger else "", padded=False
+        level,
+        text,
+        logger=f"{STATE.node.name}.{logger}" if logger else "",
+        padded=False,
+        depth=3,
     )
 
 

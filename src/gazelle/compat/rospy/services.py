@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import sys
 import traceback
 from collections.abc import Callable
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInterruptException, ServiceException
+from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.rospy.topics import message_of
 from gazelle.errors import GazelleError
-from gazelle.graph import ServiceUnavailableError
+from gazelle.graph import ServiceRefusedError, ServiceUnavailableError
 from gazelle.interfaces import Ros1Message, Ros1Service
 
 __all__ = ["Service", "ServiceProxy", "wait_for_service"]
@@ -60,15 +61,14 @@ class Service:
     def _answer(self, request: Any) -> Any:
         try:
             return self._response(self.handler(request))
-        except ServiceException:
-            raise
+        except ServiceException as error:
+            raise ServiceRefusedError(f"service cannot process request: {error}") from error
         except Exception as error:
             if self.error_handler is not None:
                 self.error_handler(error, type(error), error, error.__traceback__)
             else:
-                sys.stderr.write(f"Error processing request: {error}\n")
-                traceback.print_exc()
-            raise ServiceException(f"error processing request: {error}") from error
+                logerr(f"Error processing request: {error}\n{traceback.format_exc()}")
+            raise ServiceRefusedError(f"error processing request: {error}") from error
 
     def _response(self, answer: Any) -> Any:
         """Make a response the way rospy does: of a dict, a list, or the value of the one field."""
@@ -136,9 +136,9 @@ class ServiceProxy:
         except ServiceUnavailableError as error:
             raise ServiceException(f"service [{self.resolved_name}] unavailable") from error
         except GazelleError as error:
-            raise ServiceException(
-                f"service [{self.resolved_name}] responded with an error: {error}"
-            ) from error
+            if STATE.stopping.is_set():
+                raise ROSInterruptException("node shutdown interrupted service call") from error
+            raise ServiceException(str(error)) from error
 
     def wait_for_service(self, timeout: float | None = None) -> None:
         """Wait until the service is there; see `wait_for_service`."""
@@ -151,9 +151,7 @@ class ServiceProxy:
             self._client = None
 
     def _request(self, args: tuple[Any, ...], kwds: dict[str, Any]) -> Ros1Message:
-        if len(args) == 1 and not kwds and isinstance(args[0], self.request_class):
-            return args[0]
-        return self.request_class(*args, **kwds)
+        return message_of(self.request_class, args, kwds)
 
     def _connected(self) -> Any:
         if self._client is None:

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -14,6 +15,7 @@ from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInter
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
+from gazelle.nodes.log_file import keep_log
 
 __all__ = ["STATE", "NodeState"]
 
@@ -29,7 +31,9 @@ class NodeState:
         self.graph: Graph | None = None
         self.node: Node | None = None
         self.line: CommandLine = parse_command_line(sys.argv[1:])
+        self.requested = threading.Event()
         self.stopping = threading.Event()
+        self._finished = threading.Event()
         self.reason = ""
         self._hooks: list[Callable[[], Any]] = []
         self._preshutdown: list[Callable[[str], Any]] = []
@@ -49,7 +53,7 @@ class NodeState:
                 except GazelleError as error:
                     raise ROSException(str(error)) from error
                 # After the graph's own hook, so that it runs before: user hooks still publish.
-                atexit.register(self.shut_down, "atexit")
+                atexit.register(self._finish)
             return self.graph
 
     def require(self, what: str = "rospy") -> Node:
@@ -90,6 +94,7 @@ class NodeState:
                 )
             except GazelleError as error:
                 raise ROSException(str(error)) from error
+        keep_log(self.node, self.line.special.get("__log", ""))
         self.node.log_level = _LEVELS.get(log_level or 2, Level.INFO)
         for key, value in self.line.params.items():
             self.node.parameters.set(f"~{key}", value)
@@ -99,32 +104,47 @@ class NodeState:
         self._wait_for_clock()
 
     def shut_down(self, reason: str) -> None:
-        """Stop the node: hooks run once, sleeps end, the graph is left."""
+        """Stop the node: hooks run once, sleeps end, the graph is left.
+
+        As in rospy the user's hooks come first, while everything still works, then
+        ``is_shutdown()`` turns true.
+        """
         with self._lock:
-            if self.stopping.is_set():
+            if self.requested.is_set():
                 return
             self.reason = reason
-            hooks, early = list(self._hooks), list(self._preshutdown)
-            # rospy runs its own hooks first, then is_shutdown() turns true, then the user's.
-            for listener in early:
-                listener(reason)
-            self.stopping.set()
-        for hook in hooks:
+            self.requested.set()
+        try:
+            self._stop(reason)
+        finally:
+            self._finished.set()
+
+    def _stop(self, reason: str) -> None:
+        for hook in tuple(self._hooks):
             self._call(hook)
+        self.stopping.set()
+        for listener in tuple(self._preshutdown):
+            listener(reason)
         if self.node is not None and not self.node.closed:
+            # The graph itself is left at the end of Python: this may be one of its own threads.
             self.node.shutdown(reason)
+
+    def _finish(self) -> None:
+        """Shut down, or let a shutdown in another thread come to its end, before Python ends."""
+        self.shut_down("atexit")
+        self._finished.wait(_LAST_CHANCE_S)
         if self.graph is not None:
             self.graph.close()
 
     def add_hook(self, hook: Callable[[], Any]) -> None:
-        """Run something at shutdown; at once when that has begun."""
+        """Run something at shutdown; at once when that is over."""
         if self.stopping.is_set():
             self._call(hook)
         else:
             self._hooks.append(hook)
 
     def add_early_hook(self, listener: Callable[[str], Any]) -> None:
-        """Run something before `is_shutdown` turns true."""
+        """Run something as soon as `is_shutdown` is true, before the graph is left."""
         self._preshutdown.append(listener)
 
     def resolved(self, name: str) -> str:
@@ -154,8 +174,8 @@ class NodeState:
     def _call(self, hook: Callable[[], Any]) -> None:
         try:
             hook()
-        except Exception as error:  # noqa: BLE001 - a user's hook may raise anything
-            sys.stderr.write(f"shutdown hook: {type(error).__name__}: {error}\n")
+        except Exception:  # noqa: BLE001 - a user's hook may raise anything
+            traceback.print_exc()
 
     def _take_signals(self) -> None:
         if threading.current_thread() is not threading.main_thread():

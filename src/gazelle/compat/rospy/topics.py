@@ -112,6 +112,7 @@ class Publisher(Topic):
         """Send a message, or one made of the arguments.
 
         Raises:
+            TypeError: the arguments make no message of the topic's type.
             ROSException: the topic was unregistered or the node is shut down.
             ROSSerializationException: a field's value does not fit its type.
         """
@@ -119,7 +120,7 @@ class Publisher(Topic):
             raise ROSException("publish() to an unregistered() handle")
         if STATE.stopping.is_set() and (STATE.node is None or STATE.node.closed):
             raise ROSException("publish() to a closed topic")
-        message = self._message(args, kwds)
+        message = message_of(self.data_class, args, kwds)
         try:
             self._impl.publish(message)
         except GazelleError as error:
@@ -135,18 +136,6 @@ class Publisher(Topic):
             self._impl.unregister()
             self._impl = None
 
-    def _message(self, args: tuple[Any, ...], kwds: dict[str, Any]) -> Ros1Message:
-        if len(args) == 1 and not kwds and isinstance(args[0], self.data_class):
-            return args[0]
-        if len(args) == 1 and not kwds and isinstance(args[0], Ros1Message):
-            raise ROSSerializationException(
-                f"expected [{self.type}] but got [{args[0]._type}] on topic {self.name}"
-            )
-        try:
-            return self.data_class(*args, **kwds)
-        except (TypeError, AttributeError) as error:
-            raise ROSSerializationException(str(error)) from error
-
     def _tell_listener(self) -> None:
         if self._listener is None or self._impl is None:
             return
@@ -157,6 +146,26 @@ class Publisher(Topic):
         while self._count > count:
             self._count -= 1
             self._listener.peer_unsubscribe(self.name, self._count)
+
+
+def message_of(
+    message_class: type[Ros1Message], args: tuple[Any, ...], kwds: dict[str, Any]
+) -> Ros1Message:
+    """Return the message that `publish` and service calls make of their arguments.
+
+    Raises:
+        TypeError: they are a message of another type, or do not fit the fields.
+        AttributeError: a keyword is no field.
+    """
+    if args and kwds:
+        raise TypeError("publish() can be called with arguments or keywords, but not both.")
+    if len(args) == 1 and isinstance(args[0], Ros1Message):
+        given = args[0]
+        if isinstance(given, message_class) or given._md5sum == message_class._md5sum:
+            return given
+        if message_class._slot_types[:1] != [given._type] or len(message_class.__slots__) != 1:
+            raise TypeError(f"expected [{message_class._type}] but got [{given._type}]")
+    return message_class(*args, **kwds)
 
 
 class Subscriber(Topic):
@@ -220,6 +229,10 @@ class Subscriber(Topic):
     def _on_message(self, message: Any) -> None:
         if self.callback is None or STATE.stopping.is_set():
             return
+        if not isinstance(message, self.data_class):
+            # numpy_msg's classes: the graph knows only the class that they are made from.
+            fields = [getattr(message, name) for name in type(message).__slots__]
+            message = self.data_class(*fields)
         try:
             if self.callback_args is not None:
                 self.callback(message, self.callback_args)

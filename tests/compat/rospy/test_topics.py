@@ -1,0 +1,173 @@
+"""rospy.Publisher, Subscriber, wait_for_message, AnyMsg and numpy_msg."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.graph import Node
+from gazelle.interfaces import message_type
+
+Run = Callable[..., Any]
+
+_PUBLISH = """
+import rospy
+from std_msgs.msg import ColorRGBA, Header, Int32, String
+rospy.init_node("talker")
+
+def raises(kind, function, *args, **kwds):
+    try:
+        function(*args, **kwds)
+    except kind as error:
+        return str(error)
+    raise AssertionError("nothing raised")
+
+pub = rospy.Publisher("chatter", String, queue_size=10)
+got = []
+rospy.Subscriber("chatter", String, lambda m, extra: got.append((m.data, extra)), "more")
+colours = []
+rospy.Subscriber("colour", ColorRGBA, colours.append)
+colour = rospy.Publisher("colour", ColorRGBA, queue_size=1)
+assert (pub.name, pub.type, pub.get_num_connections()) == ("/chatter", "std_msgs/String", 1)
+assert pub.md5sum == "992ce8a1687cec8c8bd883ec73ca41d1"
+
+pub.publish("plain")
+pub.publish(String("made"))
+pub.publish(data="keyword")
+colour.publish(1, 0.5, 0, 1)
+colour.publish(r=1, a=0.25)
+while len(got) < 3 or len(colours) < 2:
+    rospy.rostime.wallsleep(0.005)
+assert got == [("plain", "more"), ("made", "more"), ("keyword", "more")]
+assert (colours[0].g, colours[1].r, colours[1].a) == (0.5, 1.0, 0.25)
+
+assert "expected [std_msgs/String] but got [std_msgs/Int32]" in raises(TypeError, pub.publish, Int32(1))
+assert "but not both" in raises(TypeError, pub.publish, "a", data="b")
+raises(AttributeError, pub.publish, dta="typo")
+raises(rospy.ROSSerializationException, pub.publish, 5)
+raises(ValueError, rospy.Publisher, "", String)
+pub.unregister()
+assert "unregistered() handle" in raises(rospy.ROSException, pub.publish, "late")
+text = raises(rospy.ROSException, rospy.wait_for_message, "/silence", String, timeout=0.05)
+assert text == "timeout exceeded while waiting for message on topic /silence"
+"""
+
+
+def test_messages_are_made_of_whatever_publish_is_given(passes: Run) -> None:
+    passes(_PUBLISH)
+
+
+_LATCHED = """
+import rospy
+from std_msgs.msg import String
+from sensor_msgs.msg import LaserScan
+from nav_msgs.msg import Odometry
+rospy.init_node("listener")
+assert rospy.wait_for_message("/map_name", String, timeout=5).data == "office"
+odom = rospy.wait_for_message("/odom", Odometry, timeout=rospy.Duration(5))
+assert (odom.header.frame_id, odom.header.stamp.secs, odom.header.stamp.nsecs) == ("odom", 3, 500)
+assert odom.header.seq >= 0 and odom.header.stamp == rospy.Time(3, 500)
+odom.pose.pose.position.x = 7.0
+
+from rospy.numpy_msg import numpy_msg
+import numpy
+scan = rospy.wait_for_message("/scan", numpy_msg(LaserScan), timeout=5)
+assert isinstance(scan.ranges, numpy.ndarray) and scan.ranges.dtype == numpy.float32
+assert numpy.allclose(scan.ranges, [0.5, 1.5])
+
+raw = rospy.wait_for_message("/map_name", rospy.AnyMsg, timeout=5)
+assert raw._connection_header["type"] == "std_msgs/String"
+assert String().deserialize(raw._buff).data == "office"
+plain = rospy.wait_for_message("/scan", LaserScan, timeout=5)
+assert list(plain.ranges) == [0.5, 1.5]
+assert ["/scan", "sensor_msgs/LaserScan"] in rospy.get_published_topics()
+"""
+
+
+def test_latched_messages_of_others_arrive_in_ros_1_form(passes: Run, node: Node) -> None:
+    latched = {"latch": True}
+    name = message_type("std_msgs/msg/String")
+    node.create_publisher("/map_name", name, **latched).publish(name(data="office"))
+    odometry = message_type("nav_msgs/msg/Odometry")()
+    odometry.header.frame_id = "odom"
+    odometry.header.stamp.sec, odometry.header.stamp.nanosec = 3, 500
+    node.create_publisher("/odom", type(odometry), **latched).publish(odometry)
+    scan = message_type("sensor_msgs/msg/LaserScan")(ranges=[0.5, 1.5])
+    node.create_publisher("/scan", type(scan), **latched).publish(scan)
+    passes(_LATCHED)
+
+
+_LISTENER = """
+import rospy
+from std_msgs.msg import String
+
+class Peers(rospy.SubscribeListener):
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
+        peer_publish(String("welcome"))
+    def peer_unsubscribe(self, topic_name, num_peers):
+        print("left", topic_name, num_peers, flush=True)
+        rospy.signal_shutdown("seen enough")
+
+rospy.init_node("greeter")
+rospy.Publisher("greeting", String, subscriber_listener=Peers(), queue_size=1, latch=True)
+print("ready", flush=True)
+rospy.spin()
+"""
+
+
+def test_publisher_tells_its_listener_who_comes_and_goes(program: Run, node: Node) -> None:
+    greeter = program(_LISTENER)
+    greeter.wait_for_line("^ready$")
+    heard: list[str] = []
+    subscription = node.create_subscription(
+        "/greeting", "std_msgs/msg/String", lambda message: heard.append(message.data)
+    )
+    greeter.eventually(lambda: heard == ["welcome"])
+    subscription.unregister()
+    greeter.wait_for_line("left /greeting 0")
+    assert greeter.wait() == 0
+
+
+_CALLBACK = """
+import rospy, threading
+from std_msgs.msg import Int32
+rospy.init_node("fragile")
+done = threading.Event()
+def callback(message):
+    if message.data == 1:
+        raise RuntimeError("first one breaks")
+    done.set()
+sub = rospy.Subscriber("numbers", Int32, callback)
+pub = rospy.Publisher("numbers", Int32, queue_size=2)
+pub.publish(1)
+pub.publish(2)
+assert done.wait(5)
+sub.unregister()
+assert pub.get_num_connections() == 0
+"""
+
+
+def test_callback_that_raises_is_shown_and_the_next_message_comes(passes: Run) -> None:
+    done = passes(_CALLBACK)
+    assert "bad callback: <function callback" in done.text
+    assert "RuntimeError: first one breaks" in done.text
+
+
+_NUMPY = """
+import numpy, rospy, threading
+from rospy.numpy_msg import numpy_msg
+from std_msgs.msg import Float32MultiArray
+rospy.init_node("arrays")
+got, done = [], threading.Event()
+rospy.Subscriber("floats", numpy_msg(Float32MultiArray), lambda m: (got.append(m), done.set()))
+pub = rospy.Publisher("floats", numpy_msg(Float32MultiArray), queue_size=1)
+message = numpy_msg(Float32MultiArray)()
+message.data = numpy.array([1.0, 2.5], dtype=numpy.float32)
+pub.publish(message)
+assert done.wait(5)
+assert isinstance(got[0].data, numpy.ndarray) and got[0].data.tolist() == [1.0, 2.5]
+"""
+
+
+def test_numpy_messages_go_both_ways(passes: Run) -> None:
+    passes(_NUMPY)
