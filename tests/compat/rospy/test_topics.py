@@ -41,7 +41,8 @@ while len(got) < 3 or len(colours) < 2:
 assert got == [("plain", "more"), ("made", "more"), ("keyword", "more")]
 assert (colours[0].g, colours[1].r, colours[1].a) == (0.5, 1.0, 0.25)
 
-assert "expected [std_msgs/String] but got [std_msgs/Int32]" in raises(TypeError, pub.publish, Int32(1))
+text = raises(TypeError, pub.publish, Int32(1))
+assert "expected [std_msgs/String] but got [std_msgs/Int32]" in text
 assert "but not both" in raises(TypeError, pub.publish, "a", data="b")
 raises(AttributeError, pub.publish, dta="typo")
 raises(rospy.ROSSerializationException, pub.publish, 5)

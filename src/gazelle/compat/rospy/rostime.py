@@ -204,8 +204,10 @@ class Timer(threading.Thread):
         self._period = period
         self._callback = callback
         self._oneshot = oneshot
-        self._reset = reset
         self._shutdown = threading.Event()
+        # Time counts from here, not from when the thread gets to run.
+        self._rate = Rate(1e9 / period.to_nsec(), reset=reset)
+        self._expected = get_rostime() + period
         self.start()
 
     def shutdown(self) -> None:
@@ -214,8 +216,7 @@ class Timer(threading.Thread):
 
     def run(self) -> None:
         """Loop until shut down."""
-        rate = Rate(1e9 / self._period.to_nsec(), reset=self._reset)
-        expected = get_rostime() + self._period
+        rate, expected = self._rate, self._expected
         last_expected: Time | None = None
         last_real: Time | None = None
         last_duration: float | None = None

@@ -123,6 +123,9 @@ class NodeState:
         for hook in tuple(self._hooks):
             self._call(hook)
         self.stopping.set()
+        if self.graph is not None:
+            # Sleeps on a clock that stands still wake only by this.
+            self.graph.clock.close()
         for listener in tuple(self._preshutdown):
             listener(reason)
         if self.node is not None and not self.node.closed:

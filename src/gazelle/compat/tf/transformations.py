@@ -177,9 +177,11 @@ def quaternion_slerp(
 ) -> Matrix:  # fmt: skip
     """Return the quaternion a fraction of the way from one to another."""
     first, second = unit_vector(quat0), unit_vector(quat1)
+    if fraction in (0, 1):
+        return second if fraction else first
     dot = float(np.dot(first, second))
     if shortestpath and dot < 0:
-        dot, first = -dot, -first
+        dot, second = -dot, -second
     angle = math.acos(max(-1.0, min(1.0, dot))) + spin * math.pi
     if abs(angle) < _SMALL:
         return first
