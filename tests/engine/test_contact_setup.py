@@ -136,7 +136,7 @@ def test_surfaces_combine_as_in_gazebo():
 
 def test_soft_contact_is_the_implicit_step_of_ode():
     """One step of MuJoCo's row from depth x and speed v equals ODE's with ERP and CFM."""
-    pair, mass, step = combine(Surface(kp=2e4, kd=30.0), Surface()), 2.0, 0.001
+    pair, mass, step = combine(Surface(kp=2e4, kd=30.0, max_vel_m_s=100.0), Surface()), 2.0, 0.001
     spring = contact_spring(pair, 1 / mass, step)
     depth, speed, free = 0.003, -0.2, -9.8
     d = spring.solimp[0]

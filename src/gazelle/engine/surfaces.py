@@ -47,11 +47,17 @@ HARD_DAMPING_RATIO = 1.5
 
 BOUNCE_STEPS = 24.0
 
-OVERLAP_M = 0.01
-"""The overlap that is parted with ``max_vel``; smaller ones are parted more slowly."""
+OVERLAP_M = 0.001
+"""The overlap that is parted with ``max_vel``; others are parted in proportion."""
 
-MOST_IMPEDANCE = 0.99
-"""Impedance of a slowly parting contact at most: harder springs sink 0.1 mm and more instead."""
+FASTEST_PARTING_M_S = 10.0
+"""From this limit on it is none: the spring and damper act alone."""
+
+DEFAULT_MAX_VEL_M_S = 0.01
+"""SDF's limit, which acts where a stiffness is given without one."""
+
+MOST_IMPEDANCE = 0.9999
+"""Impedance of a slowly parting contact at most (MuJoCo's own bound)."""
 
 FRICTION_RATE = 0.05
 """Sliding speed decays at this rate in units of 1/h: over 20 steps. A higher one lifts sliding
@@ -147,8 +153,8 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
     """
     if pair.restitution > 0:
         return _bouncing(pair.restitution, step_s)
-    gentle = pair.max_vel_m_s / (step_s * OVERLAP_M)
-    if gentle < pair.kp * inverse_mass:
+    if pair.max_vel_m_s < FASTEST_PARTING_M_S:
+        gentle = pair.max_vel_m_s / (step_s * OVERLAP_M)
         return _pushed_apart(gentle, pair.kp * inverse_mass, step_s)
     if step_s * step_s * pair.kp * inverse_mass > RESOLVED:
         return hard_spring(step_s)
@@ -184,6 +190,7 @@ def _pushed_apart(gentle: float, stiffness: float, step_s: float) -> ContactSpri
         stiffness: kp over mass, 1/s².
         step_s: length of a step.
     """
+    gentle = min(gentle, stiffness)
     impedance = min(1.0 / (1.0 + gentle / stiffness), MOST_IMPEDANCE)
     return ContactSpring(
         (-gentle * impedance, -impedance / step_s),
@@ -259,7 +266,9 @@ def surface_key(surface: Surface) -> tuple[object, ...]:
 def _max_vel(surface: Surface) -> float:
     """Return the speed limit of pushing apart; a limit of 0 or less is none (ODE)."""
     limit = surface.max_vel_m_s
-    return limit if limit is not None and limit > 0 else math.inf
+    if limit is None:
+        return math.inf if surface.kp is None else DEFAULT_MAX_VEL_M_S
+    return limit if limit > 0 else math.inf
 
 
 def _friction(surface: Surface) -> tuple[float, float]:
