@@ -18,6 +18,7 @@ _TOPICS = {
     "/tf": "tf2_msgs/msg/TFMessage",
     "/tf_static": "tf2_msgs/msg/TFMessage",
     "/joint_states": "sensor_msgs/msg/JointState",
+    "/cmd_vel": "geometry_msgs/msg/Twist",
     "/camera/rgb/image_raw": "sensor_msgs/msg/Image",
     "/camera/depth_registered/image_raw": "sensor_msgs/msg/Image",
     "/depth_camera/rgb/camera_info": "sensor_msgs/msg/CameraInfo",

@@ -54,5 +54,5 @@ def test_teleop_drives_forward_and_back_and_ctrl_c_stops_the_robot(
     assert teleop.wait() == 0
     robot.eventually(lambda: commands[-1] == 0.0 and abs(speeds[-1]) < 0.005)
     assert termios.tcgetattr(seen) == before
-    assert "Python 2 source, translated on the fly" in teleop.text
+    assert "translated on the fly; the file stays as it is [launch.python2]" in teleop.text
     assert "currently:\tspeed 1\tturn 1" in teleop.text

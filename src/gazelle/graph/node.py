@@ -133,6 +133,7 @@ class Node:
         raw: bool = False,
         with_info: bool = False,
         inline: bool = False,
+        announced: str = "",
     ) -> Subscription:
         """Receive a topic.
 
@@ -145,9 +146,11 @@ class Node:
             with_info: call back with a `MessageInfo` too.
             inline: call back in the thread that publishes (same process) or receives; the
                 callback must be short and must not wait for the graph.
+            announced: the type that a subscription of any type shows to others.
         """
         message_class = wire.resolve_type(message_type)
-        type_name = ANY_TYPE if message_class is None else wire.type_name_of(message_class)
+        any_type = announced or ANY_TYPE
+        type_name = any_type if message_class is None else wire.type_name_of(message_class)
         qos = Qos(depth=queue_size)
         entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, qos=qos)
         return self._keep(

@@ -10,7 +10,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import wire
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.errors import coded
-from gazelle.graph.keys import ANY_TYPE, Attachment, Entity, token, topic_selector, type_in_key
+from gazelle.graph.keys import Attachment, Entity, token, topic_selector, type_in_key
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
@@ -72,6 +72,7 @@ class Subscription:
         self._graph = graph
         self._callback = callback
         self._raw = raw
+        self._takes_any = message_class is None
         self._with_info = with_info
         self._on_error = on_error
         self._count_seq = wire.is_ros1_view(message_class)
@@ -176,7 +177,7 @@ class Subscription:
 
     def _accepts(self, type_name: str) -> bool:
         own = self.entity.type_name
-        if own in (ANY_TYPE, type_name):
+        if self._takes_any or own == type_name:
             return True
         text = (
             f"{self.entity.node} wants topic {self.topic} to have type {own}, but it is published "

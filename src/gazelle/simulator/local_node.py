@@ -142,6 +142,7 @@ class LocalNode:
         *,
         queue_size: int = 0,
         inline: bool = True,
+        announced: str = "",
     ) -> LocalSubscription:
         """Receive a topic, always inline; what was latched on it comes at once."""
         name = _absolute(topic)

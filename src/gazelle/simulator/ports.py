@@ -85,6 +85,7 @@ class NodePort(Protocol):
         *,
         queue_size: int = ...,
         inline: bool = ...,
+        announced: str = ...,
     ) -> SubscriptionPort:
         """Receive a topic."""
         ...

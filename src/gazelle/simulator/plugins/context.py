@@ -75,18 +75,25 @@ class Resources:
         return made
 
     def subscription(
-        self, topic: str, type_name: str | None, callback: Callable[[Any], None]
+        self,
+        topic: str,
+        type_name: str | None,
+        callback: Callable[[Any], None],
+        *,
+        announced: str = "",
     ) -> None:
         """Listen; `callback` runs between two steps, in the thread that owns the world.
 
-        `type_name` None takes messages of any type.
+        `type_name` None takes messages of any type; `announced` is the one that others see then.
         """
 
         def queue(message: Any) -> None:
             self._host.commands.post(lambda: callback(message))
 
         wanted = None if type_name is None else message_class(type_name)
-        made = self._host.node.create_subscription(topic, wanted, queue, inline=True)
+        made = self._host.node.create_subscription(
+            topic, wanted, queue, inline=True, announced=announced
+        )
         self._closers.append(made.unregister)
 
     def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:

@@ -96,7 +96,9 @@ class _Drive:
         )
         command_topic = context.topic(parameters, parameters.text("commandTopic"))
         # Twist and TwistStamped are both taken.
-        resources.subscription(command_topic, None, self._take_command)
+        resources.subscription(
+            command_topic, None, self._take_command, announced="geometry_msgs/msg/Twist"
+        )
         self._odom_publisher = None
         if parameters.flag("publishTf"):
             topic = context.topic(parameters, parameters.text("odometryTopic"))

@@ -93,7 +93,9 @@ class _GzDrive:
         self._frames = (named("frame_id"), named("child_frame_id"))
         command_topic = join_names("/", named("topic"))
         # Twist and TwistStamped are both taken.
-        resources.subscription(command_topic, None, self._take_command)
+        resources.subscription(
+            command_topic, None, self._take_command, announced="geometry_msgs/msg/Twist"
+        )
         odom_topic, tf_topic = join_names("/", named("odom_topic")), named("tf_topic")
         self._odom_publisher = resources.publisher(odom_topic, "nav_msgs/Odometry")
         self._tf_publisher = resources.publisher(join_names("/", tf_topic), "tf2_msgs/TFMessage")
