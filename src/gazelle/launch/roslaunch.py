@@ -17,7 +17,7 @@ import yaml
 from gazelle.description.text_place import TEXT_FILES_VARIABLE, TEXT_NAME, place_of_text
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GraphError, LaunchError
-from gazelle.graph import Graph
+from gazelle.graph import Graph, NoGraphError
 from gazelle.interfaces import service_type
 from gazelle.launch.config import LaunchConfig, NodeSpec
 from gazelle.launch.console import Console, summary
@@ -32,6 +32,7 @@ __all__ = ["LaunchOptions", "find_executables", "launch"]
 _ROSOUT = NodeSpec("rosout", "rosout", "rosout")
 _UNPAUSE = "/gazebo/unpause_physics"
 _UNPAUSE_S = 60.0
+_LOOK_AGAIN_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +96,7 @@ def launch(
     nodes, missing = find_executables(config, workspace, diagnostics, options)
     render(diagnostics)
     environ = _environ(options)
-    with _graph(options) as graph:
+    with _graph(options, console) as graph:
         _set_params(config, graph, run_id)
         if options.show_summary:
             console.plain(summary(config, {**config.params, **_core_params()}))
@@ -134,8 +135,14 @@ class _Run:
         self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, held: bool
     ) -> int:
         """Start everything and stay until the launch is over."""
-        rosout = find_executable(
-            "rosout", "rosout", workspace=self._workspace, diagnostics=Diagnostics()
+        # Another launch on this graph has it already.
+        has_rosout = _ROSOUT.full_name in self._graph.node_names()
+        rosout = (
+            None
+            if has_rosout
+            else find_executable(
+                "rosout", "rosout", workspace=self._workspace, diagnostics=Diagnostics()
+            )
         )
         if rosout is not None and supervisor.start(_ROSOUT, rosout, core=True):
             self._console.plain("started core service [/rosout]")
@@ -198,11 +205,30 @@ def _with_options(spec: NodeSpec, executable: Executable, options: LaunchOptions
     return replace(spec, output=output, required=required)
 
 
-def _graph(options: LaunchOptions) -> Graph:
+def _graph(options: LaunchOptions, console: Console) -> Graph:
     try:
-        return Graph.open(port=options.port, role="client" if options.wait else "hub")
+        if options.wait:
+            return _graph_of_others(options.port, console)
+        return Graph.open(port=options.port, role="hub")
     except Exception as error:
         raise LaunchError(f"cannot open the graph: {error}") from error
+
+
+def _graph_of_others(port: int | None, console: Console) -> Graph:
+    """Join the graph as soon as somebody carries one."""
+    pause, told = threading.Event(), False
+    while True:
+        try:
+            graph = Graph.open(port=port, role="client")
+        except NoGraphError:
+            if not told:
+                console.plain("roscore/master is not yet running, will wait for it to start")
+            told = True
+            pause.wait(_LOOK_AGAIN_S)
+            continue
+        if told:
+            console.plain("master has started, initiating launch")
+        return graph
 
 
 def _set_params(config: LaunchConfig, graph: Graph, run_id: str) -> None:
