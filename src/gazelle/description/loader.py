@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.context import ReadContext
-from gazelle.description.grouping import grouped
 from gazelle.description.model import Model, World
 from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
 from gazelle.description.text_place import TEXT_NAME, place_of_text
@@ -16,6 +15,7 @@ from gazelle.description.urdf import read_urdf
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics.grouping import grouped
 from gazelle.workspace import Resolved, Workspace
 
 __all__ = ["TEXT_NAME", "load_models", "load_world"]

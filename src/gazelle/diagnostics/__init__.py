@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity
+from gazelle.diagnostics.grouping import grouped
 from gazelle.diagnostics.nearest import did_you_mean, nearest_names
 from gazelle.diagnostics.render import render, render_text
 from gazelle.diagnostics.span import SourceSpan
@@ -13,6 +14,7 @@ __all__ = [
     "Severity",
     "SourceSpan",
     "did_you_mean",
+    "grouped",
     "nearest_names",
     "render",
     "render_text",

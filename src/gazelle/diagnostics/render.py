@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity
+from gazelle.diagnostics.grouping import grouped
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -27,6 +28,8 @@ def render(
 ) -> None:
     """Print findings with their source lines, in colour where the stream is a terminal.
 
+    Findings that say the same of many places are printed once, see `grouped`.
+
     Args:
         diagnostics: what to print, in this order.
         stream: where to; standard error when None.
@@ -35,7 +38,7 @@ def render(
     from rich.console import Console
 
     console = Console(file=stream or sys.stderr, soft_wrap=True, highlight=False)
-    for item in diagnostics:
+    for item in grouped(diagnostics):
         console.print(_rich_text(item, sources or {}))
 
 

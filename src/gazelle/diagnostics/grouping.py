@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import PurePath
 
-from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.diagnostics.diagnostic import Diagnostic, Severity
 
 __all__ = ["grouped"]
 
