@@ -57,7 +57,8 @@ def _launch(target: list[str], topic: str) -> dict[str, float]:
             if not first.wait(60):
                 sys.exit(f"no message on {topic} within 60 s")
             seconds = time.monotonic() - start
-            listing = _command("-m", "gazelle.cli", "rostopic", "list", env=environ)
+            words = ("-m", "gazelle.cli", "rostopic", "list")
+            listing = min((_command(*words, env=environ) for _ in range(3)), key=_seconds)
         finally:
             launch.send_signal(signal.SIGINT)
             launch.wait(30)
@@ -68,6 +69,10 @@ def _command(*words: str, env: dict[str, str] | None = None) -> dict[str, float]
     start = time.monotonic()
     subprocess.run([sys.executable, *words], env=env, check=True, stdout=subprocess.DEVNULL)
     return {"seconds": time.monotonic() - start}
+
+
+def _seconds(measured: dict[str, float]) -> float:
+    return measured["seconds"]
 
 
 def _free_port() -> int:

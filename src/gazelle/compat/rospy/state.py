@@ -38,6 +38,8 @@ class NodeState:
         self._hooks: list[Callable[[], Any]] = []
         self._preshutdown: list[Callable[[str], Any]] = []
         self._lock = threading.RLock()
+        # Apart from the other one, which `init` holds when a signal comes in its middle.
+        self._ending = threading.Lock()
         self._previous_sigint: Any = None
 
     def open_graph(self) -> Graph:
@@ -83,6 +85,8 @@ class NodeState:
                 self._check_again(name)
                 return
             self.line = parse_command_line(sys.argv[1:] if argv is None else argv)
+            if not disable_signals:
+                self._take_signals()
             graph = self.open_graph()
             try:
                 self.node = graph.create_node(
@@ -99,8 +103,9 @@ class NodeState:
         for key, value in self.line.params.items():
             self.node.parameters.set(f"~{key}", value)
         self.node.on_shutdown(self._on_node_shutdown)
-        if not disable_signals:
-            self._take_signals()
+        if self.stopping.is_set():
+            self.node.shutdown(self.reason)
+            return
         self._wait_for_clock()
 
     def shut_down(self, reason: str) -> None:
@@ -109,7 +114,7 @@ class NodeState:
         As in rospy the user's hooks come first, while everything still works, then
         ``is_shutdown()`` turns true.
         """
-        with self._lock:
+        with self._ending:
             if self.requested.is_set():
                 return
             self.reason = reason
