@@ -126,6 +126,8 @@ def _in_short(error: GazelleError) -> str:
     """Return an error for the caller; findings in full go to the simulator's own terminal."""
     if not isinstance(error, UserFileError):
         return str(error)
-    # A warning can be the reason: the one model of a text may be an include that is not found.
-    found = [item for item in error.diagnostics if item.severity >= Severity.WARNING]
+    found = [item for item in error.diagnostics if item.severity is Severity.ERROR]
+    if all(item.code == "load.nothing" for item in found):
+        # The reason is a warning: the one model of a text may be an include that is not found.
+        found = [item for item in error.diagnostics if item.severity >= Severity.WARNING]
     return "; ".join(f"{item.span}: {item.message} [{item.code}]" for item in found)
