@@ -121,6 +121,16 @@ _NODES = (
         light=True,
         help="publishes one fixed transform, latched",
     ),
+    *(
+        BuiltinNode(
+            "topic_tools", name, f"gazelle.nodes.topic_tools:run_{name}", light=True, help=about
+        )
+        for name, about in (
+            ("relay", "publishes every message of a topic again"),
+            ("throttle", "publishes so many messages a second of a topic"),
+            ("drop", "leaves out some messages of a topic"),
+        )
+    ),
     BuiltinNode(
         "gazebo_ros",
         "gzclient",
