@@ -104,16 +104,21 @@ def test_shutdown_wakes_a_sleep_on_a_clock_that_stands_still(program: Run, set_c
 
 
 _TIMER = """
+import sys
 import rospy
 rospy.init_node("timed")
+def say(*words):
+    # One write: two threads speak, and print writes every word on its own.
+    sys.stdout.write(" ".join(map(str, words)) + "\\n")
+    sys.stdout.flush()
 def tick(event):
     last = event.last_real and event.last_real.to_sec()
-    print("event", event.current_real.to_sec(), event.current_expected.to_sec(), last, flush=True)
+    say("event", event.current_real.to_sec(), event.current_expected.to_sec(), last)
     if event.current_real.to_sec() > 5.25:
         rospy.signal_shutdown("enough")
 rospy.Timer(rospy.Duration(0.1), tick)
-rospy.Timer(rospy.Duration(0.15), lambda event: print("once", flush=True), oneshot=True)
-print("ready", flush=True)
+rospy.Timer(rospy.Duration(0.15), lambda event: say("once"), oneshot=True)
+say("ready")
 rospy.spin()
 """
 
