@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import signal
@@ -19,6 +20,7 @@ import pytest
 
 _SHARED = Path(__file__).parents[2] / "shared"
 _PATIENCE_S = 20.0
+_PORT_NUMBERS = itertools.count(os.getpid() % 500)
 
 
 @pytest.fixture(scope="session")
@@ -223,10 +225,18 @@ class Launched:
 
 @pytest.fixture
 def free_port() -> int:
-    """A port nobody listens on."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """A port nobody listens on, and that no other test gets.
+
+    It lies below the range that the system hands out by itself: a port asked for with number 0
+    may go to some peer's own listener before the test's hub takes it.
+    """
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    for number in _PORT_NUMBERS:
+        port = 12_000 + worker % 8 * 2_000 + number % 2_000
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("itertools.count ends")
 
 
 Run = Callable[..., Launched]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
@@ -54,15 +53,12 @@ class _Watched(io.StringIO):
 
 
 @pytest.fixture
-def port(monkeypatch: pytest.MonkeyPatch) -> int:
+def port(monkeypatch: pytest.MonkeyPatch, free_port: int) -> int:
     """A free port, which the environment names."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        found = int(probe.getsockname()[1])
-    monkeypatch.setenv("GAZELLE_PORT", str(found))
+    monkeypatch.setenv("GAZELLE_PORT", str(free_port))
     for name in ("ROS_NAMESPACE", "ROS_DOMAIN_ID", "ROS_MASTER_URI"):
         monkeypatch.delenv(name, raising=False)
-    return found
+    return free_port
 
 
 @pytest.fixture

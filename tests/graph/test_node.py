@@ -6,8 +6,13 @@ from typing import Any
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, IllegalNameError
-from gazelle.interfaces import message_type, ros1_message_type, service_type
+from gazelle.graph import Graph, IllegalNameError, Level, ServiceCallError, offer_loggers
+from gazelle.interfaces import (
+    message_type,
+    ros1_message_type,
+    ros1_service_type,
+    service_type,
+)
 
 String = message_type("std_msgs/msg/String")
 Empty = service_type("std_srvs/srv/Empty")
@@ -87,3 +92,20 @@ def test_log_goes_to_console_and_rosout(
     assert message.file.endswith("test_node.py")
     assert message.function == "test_log_goes_to_console_and_rosout"
     assert capsys.readouterr().err.endswith("]: careful\n")
+
+
+def test_loggers_are_read_and_set_by_services(graph: Graph, other: Graph, eventually: Wait) -> None:
+    node = graph.create_node("talker")
+    offer_loggers(node)
+    caller = other.create_node("caller")
+    get: Any = ros1_service_type("roscpp/GetLoggers")
+    put: Any = ros1_service_type("roscpp/SetLoggerLevel")
+    ask = caller.create_client("/talker/get_loggers", get)
+    tell = caller.create_client("/talker/set_logger_level", put)
+    assert ask.wait_for_service(10) and tell.wait_for_service(10)
+    (logger,) = ask.call(get._request_class()).loggers
+    assert (logger.name, logger.level) == ("ros", "info")
+    tell.call(put._request_class("ros", "debug"))
+    assert node.log_level is Level.DEBUG
+    with pytest.raises(ServiceCallError, match="'loud' is no level; there are debug, info, warn"):
+        tell.call(put._request_class("ros", "loud"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -145,10 +144,7 @@ def yaw_of() -> Callable[[Pose], float]:
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph(free_port: int) -> Iterator[Graph]:
     """A graph of its own on a free port."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = int(probe.getsockname()[1])
-    with Graph.open(port=port, environ={}) as opened:
+    with Graph.open(port=free_port, environ={}) as opened:
         yield opened

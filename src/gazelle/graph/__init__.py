@@ -17,6 +17,7 @@ from gazelle.graph.errors import (
 from gazelle.graph.graph import Graph
 from gazelle.graph.introspection import Endpoint, NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import ANY_TYPE, Entity, Kind, Qos
+from gazelle.graph.loggers import offer_loggers
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterStore
 from gazelle.graph.publisher import Publisher
@@ -53,5 +54,6 @@ __all__ = [
     "TimeJumpError",
     "TopicInfo",
     "format_record",
+    "offer_loggers",
     "print_record",
 ]

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-from gazelle.graph import Graph, Node, TimeJumpError
+from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
 
@@ -19,6 +19,7 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
         arguments.name, namespace=arguments.namespace, remappings=arguments.remappings
     )
     keep_log(node, arguments.log_file, arguments.output)
+    offer_loggers(node)
     for name, value in arguments.params.items():
         node.parameters.set(node.resolve_name(f"~{name}"), value)
     return node

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle._version import __version__
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, did_you_mean, render
 from gazelle.errors import GazelleError, NotFoundError
+from gazelle.graph import offer_loggers
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
@@ -69,6 +70,7 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
         namespace=arguments.namespace,
         remappings=dict(arguments.remappings),
     )
+    offer_loggers(node)
     try:
         return _serve_world(options, node, diagnostics, stop)
     except GazelleError as error:

@@ -13,7 +13,7 @@ from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
 from gazelle.errors import GazelleError
-from gazelle.graph import Graph, Level, Node
+from gazelle.graph import Graph, Level, Node, offer_loggers
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
 from gazelle.nodes.log_file import keep_log
 
@@ -100,6 +100,7 @@ class NodeState:
                 raise ROSException(str(error)) from error
         keep_log(self.node, self.line.special.get("__log", ""))
         self.node.log_level = _LEVELS.get(log_level or 2, Level.INFO)
+        offer_loggers(self.node, "rosout")
         for key, value in self.line.params.items():
             self.node.parameters.set(f"~{key}", value)
         self.node.on_shutdown(self._on_node_shutdown)
