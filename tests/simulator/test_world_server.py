@@ -163,6 +163,28 @@ def test_a_paused_server_takes_commands_and_starts_on_demand(running: Any) -> No
     assert sim.time_ns == stopped
 
 
+def test_a_paused_server_stops_though_a_command_comes_at_the_same_moment(
+    load: Load, cart_urdf: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    server = load(cart_urdf()).server
+    server.paused = True
+    apply, stopped = server.commands.apply, []
+
+    def stop_just_before() -> None:
+        # What a signal does between the loop's question and its taking of commands.
+        if not stopped:
+            stopped.append(True)
+            server.stop()
+            server.commands._queue.append(lambda: None)
+        apply()
+
+    monkeypatch.setattr(server.commands, "apply", stop_just_before)
+    thread = threading.Thread(target=server.run, daemon=True)
+    thread.start()
+    thread.join(10.0)
+    assert not thread.is_alive()
+
+
 def test_a_command_from_a_topic_reaches_a_running_server(running: Any) -> None:
     sim = running(mode=Mode.FAST)
     sim.publish("/cmd_vel", twist_message((0.5, 0.0, 0.0), (0.0, 0.0, 0.0)))

@@ -245,6 +245,9 @@ class WorldServer:
 
     def _turn(self, last: int | None) -> None:
         self.commands.apply()
+        if self._stop.is_set():
+            # Taking commands forgets a wake-up that came just before.
+            return
         if self.paused:
             self.commands.wait(None)
             self.commands.clear_wake()
