@@ -84,6 +84,8 @@ class MotorBank:
         """Write flywheel speeds and clutch torques for the next steps."""
         if not self._slots:
             return
+        # Every look at one of MuJoCo's arrays makes a new view of it.
+        speeds, limits = data.qvel, model.tendon_frictionloss
         for joint, slot in self._slots.items():
             command = self.commands.get(joint)
             if command is None:
@@ -95,11 +97,11 @@ class MotorBank:
                 gap = command.target - float(data.qpos[slot.qpos])
                 speed = 0.0 if abs(gap) < _CLOSE_ENOUGH else gap / (max(steps, 2) * step_s)
                 speed = min(max(speed, -command.max_velocity), command.max_velocity)
-            if data.qvel[slot.rotor] != speed:
-                data.qvel[slot.rotor] = speed
+            if speeds[slot.rotor] != speed:
+                speeds[slot.rotor] = speed
             limit = min(command.max_effort, UNLIMITED_EFFORT)
-            if model.tendon_frictionloss[slot.tendon] != limit:
-                model.tendon_frictionloss[slot.tendon] = limit
+            if limits[slot.tendon] != limit:
+                limits[slot.tendon] = limit
                 _wake(data, slot)
         self._changed = False
 

@@ -56,6 +56,8 @@ class WrenchTable:
 
     def expire(self, step: int) -> None:
         """Drop wrenches that have ended."""
+        if not self.items:
+            return
         kept = [item for item in self.items if item.until is None or item.until > step]
         self.changed = self.changed or len(kept) != len(self.items)
         self.items = kept
