@@ -218,9 +218,12 @@ def test_binary_file_parameter_is_bytes(tmp_path: Path) -> None:
 
 
 def test_unreadable_text_file_is_reported_with_its_path(tmp_path: Path) -> None:
-    _, diagnostics = _load('<launch><param name="p" textfile="/nope.urdf"/></launch>', tmp_path)
+    (tmp_path / "robot.urdf").write_text("<robot/>")
+    body = '<param name="p" textfile="$(dirname)/robt.urdf"/>'
+    _, diagnostics = _load(f"<launch>{body}</launch>", tmp_path)
     (found,) = diagnostics.by_code("xml.unreadable")
-    assert "/nope.urdf" in found.message
+    assert found.message == f"textfile '{tmp_path}/robt.urdf': No such file or directory"
+    assert found.fix == "did you mean 'robot.urdf'?"
 
 
 def test_command_output_is_the_value_and_xacro_needs_no_program(tmp_path: Path) -> None:

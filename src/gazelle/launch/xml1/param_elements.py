@@ -10,7 +10,7 @@ from typing import Any
 import yaml
 
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import SourceSpan
+from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.graph.names import resolve
 from gazelle.launch.config import ParamDump
 from gazelle.launch.environment import node_environment
@@ -154,14 +154,23 @@ def _read_text(path: Path, attribute: str, tag: Tag) -> str:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise TagError("xml.unreadable", f"{attribute} '{path}': {reason}", tag.span) from error
+        message = f"{attribute} '{path}': {reason}"
+        raise TagError("xml.unreadable", message, tag.span, _nearest_file(path)) from error
 
 
 def _read_bytes(path: Path, tag: Tag) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise TagError("xml.unreadable", f"binfile '{path}': {error.strerror}", tag.span) from error
+        message = f"binfile '{path}': {error.strerror}"
+        raise TagError("xml.unreadable", message, tag.span, _nearest_file(path)) from error
+
+
+def _nearest_file(path: Path) -> str:
+    """Return what of the same folder may have been meant, empty when nothing is near."""
+    if path.exists() or not path.parent.is_dir():
+        return ""
+    return did_you_mean(path.name, (item.name for item in path.parent.iterdir()))
 
 
 def _substitute_lines(text: str, tag: Tag, scope: Scope, reading: Reading) -> str:
