@@ -1,0 +1,85 @@
+"""The values that hardware and controllers share: one array of states, one of commands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Array", "Indices", "InterfaceBank"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+class InterfaceBank:
+    """State and command interfaces by name, ``joint/interface`` as ros2_control writes them.
+
+    Hardware registers its interfaces, `freeze` allocates the arrays; from then on hardware and
+    controllers exchange numbers in place, with indices they looked up once.
+
+    Attributes:
+        states: what hardware measured (S,), in the unit of each interface; NaN before the first
+            reading.
+        commands: what controllers want (C,); NaN for nothing yet.
+        state_index: place of each state interface.
+        command_index: place of each command interface.
+    """
+
+    def __init__(self) -> None:
+        self.states: Array = np.empty(0)
+        self.commands: Array = np.empty(0)
+        self.state_index: dict[str, int] = {}
+        self.command_index: dict[str, int] = {}
+        self._initial_states: list[float] = []
+        self._initial_commands: list[float] = []
+        self._frozen = False
+
+    def add_state(self, name: str, initial: float = math.nan) -> int:
+        """Register a state interface and return its place.
+
+        Raises:
+            ValueError: the bank is frozen or has it already.
+        """
+        return self._add(self.state_index, self._initial_states, name, initial)
+
+    def add_command(self, name: str, initial: float = math.nan) -> int:
+        """Register a command interface and return its place.
+
+        Raises:
+            ValueError: the bank is frozen or has it already.
+        """
+        return self._add(self.command_index, self._initial_commands, name, initial)
+
+    def freeze(self) -> None:
+        """Allocate the arrays; nothing can be registered afterwards."""
+        self.states = np.array(self._initial_states, dtype=np.float64)
+        self.commands = np.array(self._initial_commands, dtype=np.float64)
+        self._frozen = True
+
+    def state_places(self, names: Iterable[str]) -> Indices:
+        """Return the places of state interfaces.
+
+        Raises:
+            KeyError: there is no such interface.
+        """
+        return np.array([self.state_index[name] for name in names], dtype=np.intp)
+
+    def command_places(self, names: Iterable[str]) -> Indices:
+        """Return the places of command interfaces.
+
+        Raises:
+            KeyError: there is no such interface.
+        """
+        return np.array([self.command_index[name] for name in names], dtype=np.intp)
+
+    def _add(self, index: dict[str, int], initial: list[float], name: str, value: float) -> int:
+        if self._frozen:
+            raise ValueError(f"interface '{name}' comes after the bank was frozen")
+        if name in index:
+            raise ValueError(f"interface '{name}' is there twice")
+        index[name] = len(initial)
+        initial.append(value)
+        return index[name]

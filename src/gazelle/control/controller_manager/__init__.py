@@ -1,0 +1,1 @@
+"""Loads, configures, starts and stops controllers."""

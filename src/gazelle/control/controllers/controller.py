@@ -1,0 +1,139 @@
+"""What every controller is: made from a context, then started, updated and stopped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from gazelle.control.bank import Indices
+from gazelle.control.errors import ControllerError
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.ports import Ports
+from gazelle.control.robot import JointResource, Robot
+from gazelle.control.table import ControllerTable
+from gazelle.diagnostics import did_you_mean
+
+__all__ = ["Controller", "ControllerContext"]
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerContext:
+    """What a controller is made from.
+
+    Attributes:
+        name: its name, relative to the manager's namespace.
+        type: the type as the user wrote it.
+        robot: interfaces and joints.
+        parameters: its own.
+        ports: the outside world.
+        update_rate_hz: how often `update` will be called.
+    """
+
+    name: str
+    type: str
+    robot: Robot
+    parameters: ControllerParameters
+    ports: Ports
+    update_rate_hz: float
+
+    @property
+    def generation(self) -> int:
+        """1 for ros_control, 2 for ros2_control."""
+        return self.robot.generation
+
+    def joint(self, name: str) -> JointResource:
+        """Return a joint of the hardware.
+
+        Raises:
+            ControllerError: the hardware has no such joint; the message has the nearest names.
+        """
+        found = self.robot.joints.get(name)
+        if found is not None:
+            return found
+        raise ControllerError(self._no_joint(name))
+
+    def command_places(self, names: Sequence[str]) -> Indices:
+        """Return the places of command interfaces such as ``joint_1/effort``.
+
+        Raises:
+            ControllerError: one is not there; the message says what is.
+        """
+        known = self.robot.bank.command_index
+        self._check(names, known, "command")
+        return self.robot.bank.command_places(names)
+
+    def state_places(self, names: Sequence[str]) -> Indices:
+        """Return the places of state interfaces.
+
+        Raises:
+            ControllerError: one is not there; the message says what is.
+        """
+        known = self.robot.bank.state_index
+        self._check(names, known, "state")
+        return self.robot.bank.state_places(names)
+
+    def _check(self, names: Sequence[str], known: dict[str, int], kind: str) -> None:
+        for name in names:
+            if name in known:
+                continue
+            owner, _, interface = name.rpartition("/")
+            if owner not in self.robot.joints and owner not in self.robot.sensors:
+                raise ControllerError(self._no_joint(owner))
+            there = [item.rpartition("/")[2] for item in known if item.startswith(f"{owner}/")]
+            text = f"controller '{self.name}' needs {kind} interface '{name}'; '{owner}' has "
+            text += f"{', '.join(there)}" if there else f"no {kind} interface"
+            if self.generation == 1 and kind == "command":
+                text += f" (Could not find resource '{owner}' in "
+                text += f"'hardware_interface::{interface.capitalize()}JointInterface')"
+            raise ControllerError(text)
+
+    def _no_joint(self, name: str) -> str:
+        names = [*self.robot.joints, *self.robot.sensors]
+        hint = did_you_mean(name, names) or f"there are: {', '.join(names) or 'none'}"
+        text = f"controller '{self.name}': the hardware has no joint or sensor '{name}'; {hint}"
+        if self.generation == 1:
+            text += f" (Could not find resource '{name}')"
+        return text
+
+
+class Controller:
+    """Base of the controllers.
+
+    Making one is what ros_control calls ``init`` and ros2_control ``on_configure``: parameters
+    are read, topics offered, interfaces looked up; `ControllerError` says why that fails.
+
+    Attributes:
+        TABLE: what the documentation says.
+        commands: command interfaces it claims while active.
+        states: state interfaces it reads.
+    """
+
+    TABLE: ClassVar[ControllerTable]
+
+    def __init__(self, context: ControllerContext) -> None:
+        """Keep the context; subclasses go on from here."""
+        self.context = context
+        self.robot = context.robot
+        self.commands: tuple[str, ...] = ()
+        self.states: tuple[str, ...] = ()
+
+    def start(self, time_ns: int) -> None:
+        """Begin to command; called before the first `update`."""
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Compute commands from states."""
+
+    def stop(self, time_ns: int) -> None:
+        """End; leave the commands as the original does."""
+
+    def changed(self, values: dict[str, Any]) -> str:
+        """Take over live parameters (names with dots).
+
+        Returns:
+            why they are refused, empty when they are taken.
+        """
+        return ""
+
+    def close(self) -> None:
+        """Release what `Ports` does not release by itself."""

@@ -1,0 +1,44 @@
+"""Which class a controller's type name means."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+
+from gazelle.control.controllers.controller import Controller
+from gazelle.control.table import ControllerTable
+
+__all__ = ["all_tables", "controller_class", "known_types"]
+
+# Modules of `gazelle.control.controllers` and the classes in them, in the documentation's order.
+_FAMILIES: tuple[tuple[str, str], ...] = ()
+
+
+@cache
+def _by_type() -> dict[str, type[Controller]]:
+    found: dict[str, type[Controller]] = {}
+    for module_name, class_name in _FAMILIES:
+        module = import_module(f"gazelle.control.controllers.{module_name}")
+        controller: type[Controller] = getattr(module, class_name)
+        for name in controller.TABLE.types:
+            found[name] = controller
+    return found
+
+
+def controller_class(type_name: str) -> type[Controller] | None:
+    """Return the class of a type, None when there is none.
+
+    ``::`` is understood for ``/``, as some ROS 2 files write it.
+    """
+    return _by_type().get(type_name.replace("::", "/"))
+
+
+def known_types() -> tuple[str, ...]:
+    """Return all type names."""
+    return tuple(sorted(_by_type()))
+
+
+def all_tables() -> tuple[ControllerTable, ...]:
+    """Return every table, in the order of the documentation."""
+    tables = {cls.TABLE.family: cls.TABLE for cls in _by_type().values()}
+    return tuple(tables.values())

@@ -1,0 +1,1 @@
+"""What controllers drive: simulated joints, actuators behind transmissions, sensors, mocks."""
