@@ -86,7 +86,7 @@ class ControllerParameters:
         """Return a text; `default` instead of the table's when given."""
         value = self._value(key)
         if value is _MISSING:
-            return self._default(key, default, "")
+            return str(self._default(key, default, ""))
         if isinstance(value, list | dict):
             return str(self._bad(key, value, "a text", self._default(key, default, "")))
         return str(value)
