@@ -12,6 +12,7 @@ from typing import Any
 
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
+from gazelle.graph.parameter_tree import ParameterTree
 
 __all__ = ["LocalNode", "LocalParameters", "LocalPublisher", "LocalService", "LocalSubscription"]
 
@@ -77,28 +78,31 @@ class LocalService:
 
 
 class LocalParameters:
-    """A flat parameter store with ROS names."""
+    """A parameter store with ROS 1 names: a namespace is a dictionary."""
 
     def __init__(self) -> None:
-        self._values: dict[str, Any] = {}
+        self._tree = ParameterTree()
 
     def get(self, name: str, default: Any = _REQUIRED) -> Any:
-        """Return a parameter, `default` when it is not there.
+        """Return a parameter or a namespace, `default` when it is not there.
 
         Raises:
             KeyError: it is not there and no default was given.
         """
-        if default is _REQUIRED:
-            return self._values[name]
-        return self._values.get(name, default)
+        try:
+            return self._tree.get(_absolute(name))
+        except KeyError:
+            if default is _REQUIRED:
+                raise
+            return default
 
     def set(self, name: str, value: Any) -> None:
-        """Set a parameter."""
-        self._values[name] = value
+        """Set a parameter, or with a dictionary a namespace."""
+        self._tree.set(_absolute(name), value)
 
     def has(self, name: str) -> bool:
-        """Tell whether a parameter is there."""
-        return name in self._values
+        """Tell whether a parameter or namespace is there."""
+        return self._tree.has(_absolute(name))
 
 
 class LocalNode:

@@ -16,11 +16,35 @@ ENTRIES = (
         "Could not load parameter",
     ),
     Entry(
+        "control.double-parameter",
+        "warning",
+        "A parameter file has a key twice",
+        "YAML keeps the last one and says nothing.",
+        "remove one of them",
+    ),
+    Entry(
         "control.idle-parameter",
         "info",
         "A controller's parameter has no effect",
         "The key is known and changes nothing here; the message says why.",
         "remove it",
+    ),
+    Entry(
+        "control.no-ros-parameters",
+        "warning",
+        "A parameter file of ROS 2 lacks ros__parameters",
+        "Such files are written node by node, the parameters below ros__parameters. Gazelle reads"
+        " the file as ROS 1 wrote them; real ROS 2 would refuse it.",
+        "add the level: name: / ros__parameters: / parameters",
+        "Cannot have a value before ros__parameters",
+    ),
+    Entry(
+        "control.parameter-file",
+        "error",
+        "A parameter file cannot be read",
+        "It is missing, not UTF-8, not YAML, or has a value no parameter can have.",
+        "mend the file at the place given",
+        "failed to parse yaml params file",
     ),
     Entry(
         "control.number-as-text",

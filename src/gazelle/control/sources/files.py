@@ -1,0 +1,108 @@
+"""Parameters of ros2_control: the files that the plug-in and the spawners name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from gazelle.control.parameters import flattened, nested
+from gazelle.control.sources.yaml_file import NodeSection, read_parameter_file
+from gazelle.diagnostics import Diagnostics, SourceSpan
+
+__all__ = ["FileSource"]
+
+
+class FileSource:
+    """Reads parameters of nodes below a namespace; later files and `set` override earlier ones.
+
+    Args:
+        files: parameter files.
+        namespace: of the controller manager, absolute.
+        diagnostics: receives what is wrong in the files.
+        manager: the controller manager's node name.
+        overrides: parameters by node name (without namespace), nested or with dots.
+    """
+
+    def __init__(
+        self,
+        files: Iterable[Path],
+        namespace: str,
+        diagnostics: Diagnostics,
+        *,
+        manager: str = "controller_manager",
+        overrides: Mapping[str, Mapping[str, Any]] | None = None,
+    ) -> None:
+        self.namespace = "/" + namespace.strip("/") if namespace.strip("/") else ""
+        self._diagnostics = diagnostics
+        self._manager = manager
+        self._sections: list[NodeSection] = []
+        self._overrides = {name: nested(tree) for name, tree in (overrides or {}).items()}
+        for path in files:
+            self.add_file(path)
+
+    def add_file(self, path: Path) -> None:
+        """Read one more file."""
+        self._sections += read_parameter_file(path, self._diagnostics)
+
+    def controllers(self) -> tuple[str, ...]:
+        """Return the names with a type, in the manager's own parameters or their own."""
+        own = [name for name, tree in self.manager_tree().items() if _has_type(tree)]
+        nodes = [section.node.rpartition("/")[2] for section in self._sections]
+        names = dict.fromkeys([*own, *nodes, *self._overrides])
+        return tuple(name for name in names if self.controller_type(name) is not None)
+
+    def controller_type(self, controller: str) -> str | None:
+        """Return ``<controller>.type`` of the manager, or ``type`` of the controller's node."""
+        tree = self.manager_tree().get(controller)
+        found = tree.get("type") if isinstance(tree, Mapping) else None
+        if found is None and controller != self._manager and "*" not in controller:
+            found = self.tree(controller).get("type")
+        return None if found is None else str(found)
+
+    def tree(self, controller: str) -> Mapping[str, Any]:
+        """Return what all matching sections say, merged in the order of the files."""
+        merged: dict[str, Any] = {}
+        for section in self._matching(controller):
+            _merge(merged, nested(section.values))
+        _merge(merged, self._overrides.get(controller, {}))
+        return merged
+
+    def manager_tree(self) -> Mapping[str, Any]:
+        """Return the parameters of the controller manager's node."""
+        return self.tree(self._manager)
+
+    def set(self, controller: str, key: str, value: Any) -> None:
+        """Override one parameter."""
+        node = controller or self._manager
+        _merge(self._overrides.setdefault(node, {}), nested({key: value}))
+
+    def full_name(self, controller: str, key: str) -> str:
+        """Return the name within the controller's node."""
+        return key
+
+    def place(self, controller: str, key: str) -> SourceSpan | None:
+        """Return where the value that counts stands."""
+        if key in {name for name, _ in flattened(self._overrides.get(controller, {}))}:
+            return None
+        for section in reversed(self._matching(controller)):
+            if key in section.places:
+                return section.places[key]
+        return None
+
+    def _matching(self, node: str) -> list[NodeSection]:
+        full = f"{self.namespace}/{node}"
+        return [section for section in self._sections if section.matches(full)]
+
+
+def _has_type(tree: Any) -> bool:
+    return isinstance(tree, Mapping) and isinstance(tree.get("type"), str)
+
+
+def _merge(target: dict[str, Any], source: Mapping[str, Any]) -> None:
+    for key, value in source.items():
+        known = target.get(key)
+        if isinstance(known, dict) and isinstance(value, Mapping):
+            _merge(known, value)
+        else:
+            target[key] = nested(value) if isinstance(value, Mapping) else value
