@@ -1,0 +1,29 @@
+"""Actions: goals that take time, with feedback, results and cancelling; ROS 1's and ROS 2's."""
+
+from __future__ import annotations
+
+from gazelle.graph.actions.goal import LocalGoal, ServerGoal
+from gazelle.graph.actions.server import ActionServer
+from gazelle.graph.actions.states import (
+    ActionlibStatus,
+    GoalEvent,
+    GoalStateError,
+    Ros2Status,
+    Status,
+)
+from gazelle.graph.actions.types import ActionTypes, action_name, action_types, as_message
+
+__all__ = [
+    "ActionServer",
+    "ActionTypes",
+    "ActionlibStatus",
+    "GoalEvent",
+    "GoalStateError",
+    "LocalGoal",
+    "Ros2Status",
+    "ServerGoal",
+    "Status",
+    "action_name",
+    "action_types",
+    "as_message",
+]
