@@ -12,7 +12,9 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 __all__ = ["ControllerParameters", "flattened", "nested"]
 
 # Keys every controller may have that the controller manager itself reads.
-_MANAGED = frozenset({"type", "use_sim_time", "params_file", "fallback_controllers"})
+_MANAGED = frozenset(
+    {"type", "use_sim_time", "params_file", "fallback_controllers", "update_rate", "is_async"}
+)
 _MISSING = object()
 
 
