@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.engine.engine import Engine, EngineState
+from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.links import LinkHandle
 from gazelle.engine.records import Acceleration, Contact, Snapshot, Velocity, Wrench
@@ -12,6 +13,7 @@ __all__ = [
     "Contact",
     "Engine",
     "EngineState",
+    "JointGroup",
     "JointHandle",
     "LinkHandle",
     "Snapshot",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,18 +14,35 @@ from gazelle.engine.bodies import SpecBuilder, VelocityDecay
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.idle_words import report_idle_words
 from gazelle.engine.library import mujoco
+from gazelle.engine.locks import add_lock
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.names import root_joint, rotor_joint, scoped
+from gazelle.engine.welds import add_weld
 from gazelle.errors import EngineError
 
-__all__ = ["Compiled", "compile_world"]
+__all__ = ["Compiled", "Extras", "compile_world"]
 
 SLEEP_TOLERANCE_M_S = 2e-5
 """Below this speed for 10 steps a body rests (1 mm in 50 s)."""
 
 FRICTION_RATIO = 1000.0
 """Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """What commands have asked for on top of the world.
+
+    Attributes:
+        motors: full names of the joints that get a motor.
+        locks: full names of the joints that get a lock.
+        welds: pairs of full names of links that can be held together.
+    """
+
+    motors: tuple[str, ...] = ()
+    locks: tuple[str, ...] = ()
+    welds: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,13 +72,13 @@ class Compiled:
 
 
 def compile_world(
-    world: World, motors: Sequence[str] = (), *, step_s: float, diagnostics: Diagnostics
+    world: World, extras: Extras = Extras(), *, step_s: float, diagnostics: Diagnostics
 ) -> Compiled:
     """Compile a world.
 
     Args:
         world: everything there is.
-        motors: full names of the joints that get a motor.
+        extras: motors, locks and welds.
         step_s: length of a step.
         diagnostics: takes what is mapped, clipped or ignored.
 
@@ -82,9 +98,13 @@ def compile_world(
     _add_world_joints(builder)
     pairs = set_up_contacts(builder)
     report_idle_words(world, diagnostics)
-    for motor in motors:
+    for motor in extras.motors:
         add_motor(spec, motor, step_s)
-    compiled = _finish(builder, _compile(spec), pairs, tuple(motors))
+    for name in extras.locks:
+        add_lock(spec, name, step_s)
+    for pair in extras.welds:
+        add_weld(spec, pair, step_s)
+    compiled = _finish(builder, _compile(spec), pairs, extras.motors)
     compiled.retime(step_s)
     return compiled
 

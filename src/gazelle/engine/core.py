@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,10 +11,12 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
-from gazelle.engine.compiler import Compiled, compile_world
+from gazelle.engine.compiler import Compiled, Extras, compile_world
+from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.library import mujoco
 from gazelle.engine.links import LinkHandle
+from gazelle.engine.locks import LockBank
 from gazelle.engine.motor_bank import MotorBank
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.moving import move_root, set_root_velocity
@@ -21,6 +24,7 @@ from gazelle.engine.names import joint_part, scoped
 from gazelle.engine.reading import joint_reaction, waking_copy
 from gazelle.engine.records import Contact, Wrench
 from gazelle.engine.state import carry_over, initial_data, joint_names_of
+from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import TimedWrench, WrenchTable
 from gazelle.errors import EngineError, NotFoundError
 from gazelle.geometry import Pose
@@ -54,8 +58,9 @@ class EngineCore:
         self.time_ns = 0
         self._world = world
         self._step_ns = max(1, round(world.physics.max_step_size_s * _NS))
-        self._motors = MotorBank()
-        self._efforts: dict[str, float] = {}
+        self.motors = MotorBank()
+        self.locks = LockBank()
+        self._welds = WeldBank()
         self._wrenches = WrenchTable()
         self._must_compile = False
         self._fresh = 0
@@ -117,6 +122,15 @@ class EngineCore:
         """
         return JointHandle(self, name, axis)
 
+    def joint_group(self, names: Sequence[str]) -> JointGroup:
+        """Return several joints, ``model::joint``, read and driven with arrays.
+
+        Raises:
+            NotFoundError: there is no such joint, with the nearest names.
+            EngineError: a joint has no single coordinate to drive.
+        """
+        return JointGroup(self, names)
+
     def description_of_link(self, name: str) -> Link:
         """Return the description of ``model::link``."""
         model_name, _, link_name = name.partition("::")
@@ -137,10 +151,16 @@ class EngineCore:
 
     # --- for handles ---------------------------------------------------------------------
 
+    def ensure_compiled(self) -> None:
+        """Build what commands have asked for since the last step."""
+        if self._must_compile:
+            self._must_compile = False
+            self._rebuild(self._world)
+
     def fresh_data(self) -> Any:
         """Return MuJoCo's data with the poses of now (a step leaves those of its start)."""
         if self._must_compile:
-            self._ensure_compiled()
+            self.ensure_compiled()
         if self._fresh < 1:
             mujoco.mj_kinematics(self.model, self._data)
             self._fresh = 1
@@ -180,7 +200,7 @@ class EngineCore:
         Raises:
             NotFoundError: there is none.
         """
-        self._ensure_compiled()
+        self.ensure_compiled()
         index = int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, name))
         if index <= 0 or name not in self._compiled.link_names:
             raise NotFoundError("link", name, nearest=nearest_names(name, self.link_names))
@@ -188,7 +208,7 @@ class EngineCore:
 
     def joint_address(self, name: str, axis: int) -> tuple[str, int, int]:
         """Return MuJoCo's name, position address and dof of a joint's axis; −1 for none."""
-        self._ensure_compiled()
+        self.ensure_compiled()
         self.description_of_joint(name)
         element = joint_part(name, "axis2") if axis else name
         index = int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, element))
@@ -201,19 +221,30 @@ class EngineCore:
         """Whether a body rests and is not computed."""
         return int(self._data.body_awake[body]) == int(mujoco.mjtSleepState.mjS_ASLEEP)
 
-    def set_joint_effort(self, element: str, dof: int, effort: float) -> None:
-        """Apply an effort to a degree of freedom until it is changed."""
-        self._efforts[element] = effort
-        self._data.qfrc_applied[dof] = effort
-
     def command_motor(self, element: str, command: MotorCommand | None) -> None:
         """Command or release the motor of a joint; it is built before the next step."""
-        if self._motors.command(element, command):
+        if self.motors.command(element, command):
             self._must_compile = True
 
+    def install_locks(self, elements: Sequence[str]) -> None:
+        """Build the locks of joints, all at once; those that are there stay."""
+        if self.locks.install(elements):
+            self._must_compile = True
+        self.ensure_compiled()
+
+    def release_lock(self, element: str) -> None:
+        """Let a joint move that a lock holds."""
+        if element in self.locks.installed:
+            self.ensure_compiled()
+            self.locks.release(self.locks.places([element]))
+
     def motor_effort(self, element: str) -> float:
-        """Return what a joint's motor delivered in the last step."""
-        return self._motors.effort(element, self.data_of_everyone())
+        """Return what a joint's motor and lock delivered in the last step."""
+        data = self.data_of_everyone()
+        effort = self.motors.effort(element, data)
+        if element in self.locks.installed:
+            effort += float(self.locks.efforts(data)[self.locks.installed.index(element)])
+        return effort
 
     def reaction_wrench(self, name: str) -> Wrench:
         """Return what a joint transmits; see `JointHandle.reaction_wrench`."""
@@ -294,7 +325,9 @@ class EngineCore:
     def _compile(self, world: World) -> Compiled:
         return compile_world(
             world,
-            self._motors.installed,
+            Extras(
+                tuple(self.motors.installed), tuple(self.locks.installed), tuple(self._welds.pairs)
+            ),
             step_s=self._step_ns / _NS,
             diagnostics=self.diagnostics,
         )
@@ -304,11 +337,6 @@ class EngineCore:
         self._world = world
         self._adopt(compiled, (self._compiled, self._data))
 
-    def _ensure_compiled(self) -> None:
-        if self._must_compile:
-            self._must_compile = False
-            self._rebuild(self._world)
-
     def _adopt(self, compiled: Compiled, old: tuple[Compiled, Any] | None) -> None:
         data = initial_data(compiled, self._world)
         if old is not None:
@@ -317,10 +345,9 @@ class EngineCore:
         self._hold(data)
         self._must_compile = False
         self.revision += 1
-        for element, effort in self._efforts.items():
-            index = int(mujoco.mj_name2id(compiled.model, mujoco.mjtObj.mjOBJ_JOINT, element))
-            data.qfrc_applied[compiled.model.jnt_dofadr[index]] = effort
-        self._motors.bind(compiled)
+        self.motors.bind(compiled)
+        self.locks.bind(compiled.model, data, self._step_ns / _NS)
+        self._welds.bind(compiled.model, data)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
 

@@ -15,11 +15,13 @@ from gazelle.engine.compiler import Compiled
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
 from gazelle.engine.library import drained_warnings, mujoco
+from gazelle.engine.locks import LockBank
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.names import scoped
 from gazelle.engine.records import Contact, Snapshot
 from gazelle.engine.state import hash_state, set_initial_positions
 from gazelle.engine.touching import read_contacts
+from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import WrenchTable
 from gazelle.errors import EngineError, SimulationDivergedError
 from gazelle.geometry import Pose
@@ -42,8 +44,9 @@ class EngineState:
     time_ns: int
     iteration: int
     step_ns: int
-    efforts: dict[str, float]
     motors: MotorBank
+    locks: LockBank
+    welds: WeldBank
     wrenches: WrenchTable
 
 
@@ -62,19 +65,23 @@ class Engine(EngineCore):
         Raises:
             SimulationDivergedError: the state is no longer finite; names link and place.
         """
-        self._ensure_compiled()
+        self.ensure_compiled()
         model, data = self._compiled.model, self._data
         qpos, qvel, warm_start = self._views
         before = (qpos.copy(), qvel.copy(), warm_start.copy())
         first, left, step_s = self.iteration, count, self._step_ns / _NS
         while left > 0:
             steps = self._wrenches.steps_until_change(self.iteration, left)
-            if self._motors.has_positions:
+            if self.motors.has_positions:
                 steps = min(steps, POSITION_STEPS)
             if self._wrenches.changed:
                 self._write_wrenches()
-            self._motors.drive(model, data, step_s, steps)
-            mujoco.mj_step(model, data, steps)
+            self.motors.drive(model, data, step_s, steps)
+            if self.locks.steps_left:
+                steps = min(steps, self.locks.steps_left)
+                self.locks.advance(mujoco.mj_step, steps)
+            else:
+                mujoco.mj_step(model, data, steps)
             self.iteration += steps
             left -= steps
             self._wrenches.expire(self.iteration)
@@ -87,21 +94,22 @@ class Engine(EngineCore):
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
         """Go back to the start: time to 0, poses and joints as they were loaded or spawned.
 
-        Efforts, wrenches and motor commands end. Spawned models stay.
+        Efforts, wrenches, motors, locks and attachments end. Spawned models stay.
         """
-        self._ensure_compiled()
+        self.ensure_compiled()
         if time:
             self.time_ns = 0
             self.iteration = 0
         self._wrenches.clear()
-        self._motors.commands.clear()
-        self._efforts.clear()
+        self.motors.commands.clear()
+        self.locks.release()
+        self._welds.release()
         if poses:
             mujoco.mj_resetData(self.model, self._data)
             set_initial_positions(self._compiled, self._world, self._data)
         self._data.qfrc_applied[:] = 0.0
         self._data.xfrc_applied[:] = 0.0
-        self._motors.bind(self._compiled)
+        self.motors.bind(self._compiled)
         self.state_changed()
 
     # --- models --------------------------------------------------------------------------
@@ -132,13 +140,33 @@ class Engine(EngineCore):
             NotFoundError: there is no such model.
         """
         self._model_named(name)
-        self._motors.forget(f"{name}::")
+        for bank in (self.motors, self.locks, self._welds):
+            bank.forget(f"{name}::")
         kept = tuple(model for model in self._world.models if model.name != name)
         gone = frozenset(item for item in self.link_names if item.startswith(f"{name}::"))
         self._wrenches.clear(gone)
-        for joint in [joint for joint in self._efforts if joint.startswith(f"{name}::")]:
-            del self._efforts[joint]
         self._rebuild(replace(self._world, models=kept))
+
+    def attach(self, link_a: str, link_b: str) -> None:
+        """Hold two links together where they are now, until `detach`; as a weld would.
+
+        Raises:
+            NotFoundError: there is no such link.
+            EngineError: it is the same link twice.
+        """
+        if link_a == link_b:
+            raise EngineError(f"link '{link_a}' cannot be attached to itself")
+        first, second = self.link(link_a).T_world_link(), self.link(link_b).T_world_link()
+        if self._welds.attach((link_a, link_b), first.inverse() @ second):
+            self._must_compile = True
+        self.state_changed()
+
+    def detach(self, link_a: str, link_b: str) -> None:
+        """Let two links go that `attach` holds together; else nothing happens."""
+        self.ensure_compiled()
+        self._welds.detach((link_a, link_b))
+        self._welds.detach((link_b, link_a))
+        self.state_changed()
 
     def model_velocity(self, name: str) -> tuple[Array, Array]:
         """Return linear and angular velocity of the model's frame, world frame."""
@@ -163,7 +191,7 @@ class Engine(EngineCore):
 
     def contacts(self) -> tuple[Contact, ...]:
         """Return everything that touches, of the last step; sleeping bodies touch too."""
-        self._ensure_compiled()
+        self.ensure_compiled()
         if self._contacts is None:
             self._contacts = read_contacts(self._compiled, self.data_of_everyone())
         return self._contacts
@@ -181,7 +209,7 @@ class Engine(EngineCore):
 
     def state_hash(self) -> str:
         """Return a hash of time, positions, velocities and everything that acts (SHA-256)."""
-        self._ensure_compiled()
+        self.ensure_compiled()
         return hash_state(self._compiled, self._data, self.iteration)
 
     # --- settings ------------------------------------------------------------------------
@@ -206,21 +234,23 @@ class Engine(EngineCore):
 
     def save_state(self) -> EngineState:
         """Return a copy of everything; `restore_state` goes back to it, to the bit."""
-        self._ensure_compiled()
+        self.ensure_compiled()
         return EngineState(
             self._world, self._compiled, copy.copy(self.model), copy.copy(self._data),
-            self.time_ns, self.iteration, self._step_ns, dict(self._efforts),
-            copy.deepcopy(self._motors), copy.deepcopy(self._wrenches),
+            self.time_ns, self.iteration, self._step_ns, copy.deepcopy(self.motors),
+            self.locks.copy(), self._welds.copy(), copy.deepcopy(self._wrenches),
         )  # fmt: skip
 
     def restore_state(self, state: EngineState) -> None:
         """Go back to a saved state, with the models there were."""
         self._world, self._step_ns = state.world, state.step_ns
         self.time_ns, self.iteration = state.time_ns, state.iteration
-        self._efforts = dict(state.efforts)
-        self._motors, self._wrenches = copy.deepcopy(state.motors), copy.deepcopy(state.wrenches)
+        self.motors, self._wrenches = copy.deepcopy(state.motors), copy.deepcopy(state.wrenches)
+        self.locks, self._welds = state.locks.copy(), state.welds.copy()
         self._compiled = replace(state.compiled, model=copy.copy(state.model))
         self._hold(copy.copy(state.data))
+        self.locks.hold(self.model, self._data)
+        self._welds.hold(self.model, self._data)
         self._must_compile = False
         self.revision += 1
         self.state_changed()

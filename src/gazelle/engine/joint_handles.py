@@ -109,7 +109,8 @@ class JointHandle:
         Raises:
             EngineError: the joint has no coordinate, or the value is not finite.
         """
-        self._engine.set_joint_effort(self._element, self._driven(), self._clamped(effort))
+        dof = self._driven()
+        self._engine.data.qfrc_applied[dof] = self._clamped(effort)
 
     def set_velocity_target(self, velocity: float, max_effort: float = math.inf) -> None:
         """Drive towards a velocity with at most an effort, as ODE's ``vel`` and ``fmax``.
@@ -120,8 +121,9 @@ class JointHandle:
                 0, which stops efforts but not motors (as in Gazebo). 0 releases.
         """
         self._driven()
-        limit = self._motor_limit(max_effort)
+        limit = self.motor_limit(max_effort)
         command = MotorCommand("velocity", _finite(velocity, self.name), limit)
+        self._engine.release_lock(self._element)
         self._engine.command_motor(self._element, command)
 
     def set_position_target(
@@ -133,15 +135,23 @@ class JointHandle:
     ) -> None:
         """Drive to a position and hold it there, stiffly, with at most an effort."""
         self._driven()
-        limit = self._motor_limit(max_effort)
+        limit = self.motor_limit(max_effort)
         command = MotorCommand("position", _finite(position, self.name), limit, abs(max_velocity))
+        self._engine.release_lock(self._element)
         self._engine.command_motor(self._element, command)
 
+    def lock_position(self, position: float) -> None:
+        """Hold a position whatever acts on the joint; see `JointGroup.lock_position`."""
+        self._engine.joint_group((self.name,)).lock_position(
+            np.array([_finite(position, self.name)])
+        )
+
     def release(self) -> None:
-        """Stop motor and effort: the joint moves freely."""
+        """Stop motor, lock and effort: the joint moves freely."""
         dof = self._driven()
         self._engine.command_motor(self._element, None)
-        self._engine.set_joint_effort(self._element, dof, 0.0)
+        self._engine.release_lock(self._element)
+        self._engine.data.qfrc_applied[dof] = 0.0
 
     def set_state(self, position: float | None = None, velocity: float | None = None) -> None:
         """Put the joint to a position and velocity at once, whatever holds it."""
@@ -159,7 +169,23 @@ class JointHandle:
         """
         return self._engine.reaction_wrench(self.name)
 
-    def _motor_limit(self, max_effort: float) -> float:
+    @property
+    def element(self) -> str:
+        """Name of the coordinate in the compiled world."""
+        self._driven()
+        return self._element
+
+    def addresses(self) -> tuple[int, int]:
+        """Return where its position and velocity are in MuJoCo's arrays.
+
+        Raises:
+            EngineError: the joint has no single coordinate.
+        """
+        dof = self._driven()
+        return self._qpos, dof
+
+    def motor_limit(self, max_effort: float) -> float:
+        """Return the effort a motor gets: what is asked for, at most the joint's own limit."""
         own = self.effort_limit
         return min(abs(max_effort), own) if own > 0 else abs(max_effort)
 

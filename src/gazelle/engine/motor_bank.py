@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.library import mujoco
@@ -79,6 +81,11 @@ class MotorBank:
                 int(model.tendon(tendon(joint)).id),
             )
         self._changed = True
+
+    def tendons(self, joints: Sequence[str]) -> NDArray[np.intp] | None:
+        """Return the clutch of each joint, −1 for none; None when none has one."""
+        found = [self._slots[joint].tendon if joint in self._slots else -1 for joint in joints]
+        return np.array(found, dtype=np.intp) if max(found, default=-1) >= 0 else None
 
     def drive(self, model: Any, data: Any, step_s: float, steps: int) -> None:
         """Write flywheel speeds and clutch torques for the next steps."""

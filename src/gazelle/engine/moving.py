@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.engine.library import mujoco
 from gazelle.geometry import Pose
 
-__all__ = ["move_root", "set_root_velocity"]
+__all__ = ["move_root", "set_root_velocity", "wake_tree"]
 
 Array = NDArray[np.float64]
 
@@ -47,6 +47,15 @@ def set_root_velocity(
     data.qvel[dof : dof + 3] += linear + np.cross(angular, data.xpos[root] - point_m)
     data.qvel[dof + 3 : dof + 6] += rotation.T @ angular
     return True
+
+
+def wake_tree(model: Any, data: Any, body: int) -> None:
+    """Wake a body's tree: MuJoCo looks for speeds whose bytes are not 0, minus zero is one."""
+    tree = int(model.body_treeid[body])
+    if tree >= 0:
+        dof = int(model.tree_dofadr[tree])
+        if data.qvel[dof] == 0:
+            data.qvel[dof] = -0.0
 
 
 def _root_joint(model: Any, body: int) -> int | None:

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-__all__ = ["joint_part", "part_of", "root_joint", "rotor_body", "rotor_joint", "scoped", "tendon"]
+__all__ = [
+    "joint_part",
+    "lock",
+    "part_of",
+    "root_joint",
+    "rotor_body",
+    "rotor_joint",
+    "scoped",
+    "tendon",
+    "weld",
+]
 
 _MARK = "//"
 
@@ -35,6 +45,16 @@ def rotor_joint(joint: str) -> str:
 def tendon(joint: str) -> str:
     """Return the name of the clutch between a motor's flywheel and its joint."""
     return f"{joint}{_MARK}clutch"
+
+
+def lock(joint: str) -> str:
+    """Return the name of the constraint that holds a joint at a position."""
+    return f"{joint}{_MARK}lock"
+
+
+def weld(first: str, second: str) -> str:
+    """Return the name of the constraint that holds two links together."""
+    return f"{first}{_MARK}weld{_MARK}{second}"
 
 
 def part_of(name: str, index: int) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.engine.library import mujoco
 from gazelle.engine.records import Wrench
 
-__all__ = ["joint_reaction", "waking_copy"]
+__all__ = ["constraint_forces", "joint_reaction", "waking_copy"]
 
 
 def waking_copy(model: Any, data: Any) -> Any:
@@ -39,3 +39,17 @@ def joint_reaction(model: Any, data: Any, body: int, point_m: NDArray[np.float64
     torque, force = data.cfrc_int[body, :3], data.cfrc_int[body, 3:]
     origin = data.subtree_com[model.body_rootid[body]]
     return Wrench(force.copy(), torque + np.cross(origin - point_m, force))
+
+
+def constraint_forces(data: Any, kind: int, count: int) -> NDArray[np.float64]:
+    """Return the force of the last step by the number of an equality or tendon.
+
+    Args:
+        data: MuJoCo's data.
+        kind: ``mjtConstraint``; elements of one row each.
+        count: how many elements there are.
+    """
+    forces = np.zeros(count)
+    rows = data.efc_type == kind
+    forces[data.efc_id[rows]] = data.efc_force[rows]
+    return forces

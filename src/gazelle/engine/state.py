@@ -62,7 +62,7 @@ def _set_mimic(model: Any, data: Any, model_name: str, joint: str, mimic: Mimic)
 
 
 def carry_over(old: Compiled, old_data: Any, new: Compiled, new_data: Any) -> None:
-    """Copy position, velocity and solver memory of every joint both models have."""
+    """Copy position, velocity, effort and solver memory of every joint both models have."""
     old_ids = {old.model.joint(i).name: i for i in range(old.model.njnt)}
     for i in range(new.model.njnt):
         j = old_ids.get(new.model.joint(i).name)
@@ -74,7 +74,7 @@ def carry_over(old: Compiled, old_data: Any, new: Compiled, new_data: Any) -> No
         new_data.qpos[to : to + width] = old_data.qpos[source : source + width]
         width = _DOF_WIDTH[kind]
         to, source = int(new.model.jnt_dofadr[i]), int(old.model.jnt_dofadr[j])
-        for name in ("qvel", "qacc_warmstart", "qacc"):
+        for name in ("qvel", "qacc_warmstart", "qacc", "qfrc_applied"):
             getattr(new_data, name)[to : to + width] = getattr(old_data, name)[
                 source : source + width
             ]
@@ -92,6 +92,8 @@ def hash_state(compiled: Compiled, data: Any, iteration: int) -> str:
         data.xfrc_applied,
         data.qacc_warmstart,
         compiled.model.tendon_frictionloss,
+        compiled.model.eq_data,
+        data.eq_active,
     )
     for array in arrays:
         digest.update((np.ascontiguousarray(array) + 0.0).tobytes())

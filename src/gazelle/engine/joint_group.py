@@ -1,0 +1,223 @@
+"""Several joints at once: state and commands as arrays, for controllers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engine.library import mujoco
+from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
+from gazelle.engine.reading import constraint_forces
+from gazelle.errors import EngineError
+
+if TYPE_CHECKING:
+    from gazelle.engine.core import EngineCore
+
+__all__ = ["JointGroup"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+class JointGroup:
+    """Joints of a running world in a fixed order; stays valid while the joints exist.
+
+    All arrays are (N,), in rad, rad/s, N·m for turning joints and m, m/s, N for sliding ones.
+    What a command sets lasts until the next one, so nothing need be sent again.
+
+    Attributes:
+        names: ``model::joint`` of each.
+    """
+
+    def __init__(self, engine: EngineCore, names: Sequence[str]) -> None:
+        self.names = tuple(names)
+        self._engine = engine
+        self._handles = tuple(engine.joint(name) for name in names)
+        self._everyone = np.arange(len(names))
+        self._revision = -1
+        self._locks: Indices | None = None
+        self._velocities: Array | None = None
+        self._resting_effort: Array | None = None
+        self._read_limits()
+        self._index()
+
+    def __repr__(self) -> str:
+        return f"JointGroup({list(self.names)!r})"
+
+    # --- state ---------------------------------------------------------------------------
+
+    def read(self, position: Array, velocity: Array) -> None:
+        """Fill two arrays with positions and velocities of now."""
+        self._index()
+        self._positions.take(self._qpos, out=position, mode="clip")
+        self._speeds.take(self._dofs, out=velocity, mode="clip")
+
+    def effort(self, out: Array) -> None:
+        """Fill an array with what acts on each joint: applied effort, motor and lock.
+
+        Motors and locks count with what they delivered in the last step.
+        """
+        self._index()
+        self._applied.take(self._dofs, out=out, mode="clip")
+        if self._tendons is None and self._locks is None:
+            return
+        asleep = self._is_asleep()
+        if asleep and self._resting_effort is not None:
+            out[:] = self._resting_effort
+            return
+        data = self._engine.data_of_everyone()
+        if self._locks is not None:
+            out += self._engine.locks.efforts(data)[self._locks]
+        if self._tendons is not None:
+            kind = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON)
+            forces = constraint_forces(data, kind, self._engine.model.ntendon)
+            out += np.where(self._tendons >= 0, forces[self._tendons], 0.0)
+        self._resting_effort = out.copy() if asleep else None
+
+    # --- commands ------------------------------------------------------------------------
+
+    def set_effort(self, values: Array) -> None:
+        """Apply efforts, each at most its joint's limit; NaN leaves a joint as it is.
+
+        Raises:
+            EngineError: a value is infinite and the joint has no limit.
+        """
+        self._index()
+        self._resting_effort = None
+        clamped = self._clamped
+        np.minimum(values, self._effort_limits, out=clamped)
+        np.maximum(clamped, self._negative_limits, out=clamped)
+        if math.isfinite(clamped.dot(clamped)):
+            self._applied[self._dofs] = clamped
+            return
+        chosen = ~np.isnan(clamped)
+        self._check_finite(clamped[chosen], chosen)
+        self._applied[self._dofs[chosen]] = clamped[chosen]
+
+    def lock_position(self, values: Array, *, steps: int = 1) -> None:
+        """Hold joints at positions whatever acts on them, as Gazebo's ``SetPosition``.
+
+        There is no effort limit; position limits hold. A joint goes to its value evenly over the
+        given number of steps, at the end of which it is there; controllers that run every n-th
+        step pass n, so that joints move smoothly. What would be faster than 20 rad/s or m/s is
+        put there at once, as Gazebo does. NaN leaves a joint as it is.
+
+        Raises:
+            EngineError: a value is infinite, or `steps` is not positive.
+        """
+        if steps < 1:
+            raise EngineError(f"a position needs at least one step to be reached, not {steps}")
+        places = self._lock_places()
+        targets = np.maximum(np.minimum(values, self._upper), self._lower)
+        if math.isfinite(targets.dot(targets)):
+            self._lock(self._everyone, places, targets, steps)
+            return
+        chosen = np.flatnonzero(~np.isnan(targets))
+        self._check_finite(targets[chosen], chosen)
+        self._lock(chosen, places[chosen], targets[chosen], steps)
+
+    def set_velocity(self, values: Array, max_effort: Array) -> None:
+        """Drive towards velocities with at most these efforts, as ODE's ``vel`` and ``fmax``.
+
+        An infinite effort is Gazebo's kinematic ``SetVelocity``; finite ones respect the joint's
+        own limit as `JointHandle.set_velocity_target` does. NaN leaves a joint as it is.
+
+        Raises:
+            EngineError: a velocity is infinite.
+        """
+        wanted = np.stack((values, np.broadcast_to(max_effort, values.shape)))
+        if self._velocities is not None and np.array_equal(wanted, self._velocities):
+            return
+        chosen = np.flatnonzero(~np.isnan(wanted).any(axis=0))
+        self._check_finite(wanted[0, chosen], chosen)
+        self._unlock(chosen)
+        for place in chosen:
+            velocity, effort = wanted[:, place].tolist()
+            handle = self._handles[place]
+            limit = UNLIMITED_EFFORT if math.isinf(effort) else handle.motor_limit(effort)
+            command = MotorCommand("velocity", velocity, limit)
+            self._engine.command_motor(handle.element, command)
+        self._velocities = wanted if len(chosen) == len(self.names) else None
+
+    def release(self, places: Sequence[int] | None = None) -> None:
+        """Let joints move freely: motor and lock off, effort 0; all of them by default."""
+        self._index()
+        chosen = self._everyone if places is None else np.asarray(places, dtype=np.intp)
+        self._unlock(chosen)
+        self._release_motors(chosen)
+        self._applied[self._dofs[chosen]] = 0.0
+
+    # --- inside --------------------------------------------------------------------------
+
+    def _lock(self, chosen: Indices, places: Indices, targets: Array, steps: int) -> None:
+        self._release_motors(chosen)
+        engine = self._engine
+        qpos = self._qpos[chosen]
+        jumps = engine.locks.command(places, targets, self._positions[qpos], steps)
+        if jumps is not None:
+            self._positions[qpos[jumps]] = targets[jumps]
+            self._speeds[self._dofs[chosen][jumps]] = -0.0
+            engine.state_changed()
+
+    def _unlock(self, chosen: Indices) -> None:
+        if self._locks is not None:
+            self._engine.locks.release(self._locks[chosen])
+
+    def _release_motors(self, chosen: Indices) -> None:
+        self._velocities = None
+        commands = self._engine.motors.commands
+        if commands:
+            for place in chosen:
+                element = self._handles[place].element
+                if element in commands:
+                    self._engine.command_motor(element, None)
+
+    def _lock_places(self) -> Indices:
+        self._index()
+        if self._locks is None:
+            self._engine.install_locks([handle.element for handle in self._handles])
+            self._index()
+        if self._locks is None:
+            raise EngineError(f"the locks of {list(self.names)} are missing")
+        return self._locks
+
+    def _is_asleep(self) -> bool:
+        asleep = int(mujoco.mjtSleepState.mjS_ASLEEP)
+        return bool((self._engine.data.body_awake[self._bodies] == asleep).all())
+
+    def _check_finite(self, values: Array, chosen: Any) -> None:
+        if not np.isfinite(values).all():
+            names = np.asarray(self.names)[chosen][~np.isfinite(values)]
+            raise EngineError(f"joint '{names[0]}' was given an infinite value")
+
+    def _read_limits(self) -> None:
+        limits = np.array([handle.effort_limit for handle in self._handles], dtype=np.float64)
+        self._effort_limits, self._negative_limits = limits, -limits
+        lower = [handle.lower for handle in self._handles]
+        upper = [handle.upper for handle in self._handles]
+        self._lower, self._upper = np.array(lower, dtype=float), np.array(upper, dtype=float)
+        unordered = self._lower > self._upper
+        self._lower[unordered], self._upper[unordered] = -np.inf, np.inf
+        self._clamped = np.empty(len(self.names))
+
+    def _index(self) -> None:
+        """Find the joints in the compiled world, once a revision."""
+        engine = self._engine
+        if self._revision == engine.revision:
+            return
+        engine.ensure_compiled()
+        qpos, dofs = zip(*[handle.addresses() for handle in self._handles], strict=True)
+        self._qpos, self._dofs = np.array(qpos, dtype=np.intp), np.array(dofs, dtype=np.intp)
+        self._bodies = engine.model.dof_bodyid[self._dofs]
+        data = engine.data
+        self._positions, self._speeds, self._applied = data.qpos, data.qvel, data.qfrc_applied
+        elements = [handle.element for handle in self._handles]
+        installed = set(engine.locks.installed)
+        self._locks = engine.locks.places(elements) if installed.issuperset(elements) else None
+        self._tendons = engine.motors.tendons(elements)
+        self._resting_effort = None
+        self._revision = engine.revision
