@@ -18,6 +18,7 @@ from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose
 from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.frames import FrameWorker
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.pace import Mode, Pace
@@ -51,6 +52,7 @@ class WorldServer:
         node: where topics and services live; a `LocalNode` without a graph.
         scheduler: what is due when.
         commands: the way in for other threads.
+        controls: controller managers and actions, by name.
         sensors: computes readings.
         frames: renders beside the loop, unless in lock-step.
         workspace: finds packages and models for what is spawned.
@@ -95,6 +97,7 @@ class WorldServer:
         self.paused = paused
         self.scheduler = Scheduler(self.engine.step_ns)
         self.commands = CommandQueue()
+        self.controls = ControlRegistry()
         self.sensors = SensorSet(self.engine, seed)
         self.frames = FrameWorker()
         self.pace = Pace(self._wanted_factor())

@@ -170,17 +170,19 @@ def test_live_parameters_reach_the_controller_and_others_are_refused(make_bench)
     assert "'joint' cannot be changed" in ports.on_set({"joint": "right"})
 
 
-def test_reset_restarts_what_runs_and_resets_the_hardware(make_bench):
-    bench = make_bench(1, {"a": LEFT, "b": RIGHT})
+def test_reset_restarts_what_runs_with_the_new_time(make_bench):
+    now = [5 * MS]
+    bench = make_bench(1, {"a": LEFT, "b": RIGHT}, clock=lambda: now[0])
     manager = bench.manager
     manager.load("a")
     manager.load("b")
     manager.switch(start=["a"])
-    manager.update(MS, MS)
+    manager.update(5 * MS, MS)
+    now[0] = 0
     manager.reset()
     assert bench.controller("a").calls[-2:] == [("stop", 0), ("start", 0)]
     assert bench.controller("b").calls == []
-    assert ("reset",) in bench.hardware.log
+    assert bench.hardware.log[-1] == ("read", 0)
 
 
 def test_close_stops_and_closes_everything_once(make_bench):

@@ -227,17 +227,18 @@ class ControllerManager:
         robot.write(time_ns, period_ns)
 
     def reset(self) -> None:
-        """Start over after the world went back to its start; active controllers are restarted."""
-        self._time_ns = 0
-        active = self._running
+        """Restart the active controllers: the world went back to its start, or an emergency ended.
+
+        The hardware components have been reset before, where that is due.
+        """
         now = self.now_ns
+        active = self._running
         for record in active:
             self._call(record, "stop", now)
-        for component in self.robot.components:
-            component.reset()
         self.robot.read(now, 0)
         for record in active:
-            self._call(record, "start", now)
+            if record.is_active and self._call(record, "start", now):
+                record.last_update_ns = now
 
     def close(self) -> None:
         """Stop and forget everything; closing twice does nothing."""

@@ -18,6 +18,7 @@ from gazelle.simulator.scheduler import ORDER_CONTROL, Scheduler, Task
 if TYPE_CHECKING:
     from gazelle.engine import Engine
     from gazelle.simulator.commands import CommandQueue
+    from gazelle.simulator.control_registry import ControlRegistry
     from gazelle.simulator.frames import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
 
@@ -31,6 +32,7 @@ class Host(Protocol):
     node: NodePort
     scheduler: Scheduler
     commands: CommandQueue
+    controls: ControlRegistry
     diagnostics: Diagnostics
     sensors: SensorSet
     frames: FrameWorker
