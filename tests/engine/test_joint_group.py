@@ -191,7 +191,6 @@ def test_locks_and_motors_replace_each_other(build):
     group.set_velocity(np.full(3, -0.5), np.full(3, np.inf))
     engine.step(100)
     assert state(group)[1] == pytest.approx(np.full(3, -0.5), abs=1e-3)
-    assert engine.model.dof_damping[:3] == pytest.approx(np.full(3, 0.3))
 
 
 def test_velocity_respects_effort_and_infinity_means_none(build):

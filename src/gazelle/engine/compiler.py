@@ -13,6 +13,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.engine.bodies import SpecBuilder, VelocityDecay
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.idle_words import report_idle_words
+from gazelle.engine.joints import implicit_damping
 from gazelle.engine.library import mujoco
 from gazelle.engine.locks import add_lock
 from gazelle.engine.loops import add_loop, add_world_joint
@@ -129,7 +130,7 @@ def _new_spec(world: World, step_s: float) -> Any:
     option = spec.option
     option.timestep = step_s
     option.gravity = list(world.gravity_m_s2)
-    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.integrator = mujoco.mjtIntegrator.mjINT_EULER
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = FRICTION_RATIO
     option.tolerance = 1e-12
@@ -137,6 +138,8 @@ def _new_spec(world: World, step_s: float) -> Any:
     option.magnetic = list(world.magnetic_field_t)
     option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    # Damping is made implicit by armatures, see joints.implicit_damping.
+    option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
     return spec
 
 
@@ -172,7 +175,7 @@ def _finish(
     for motor in motors:
         inertia = 1.0 / max(float(model.dof_invweight0[model.joint(motor).dofadr[0]]), 1e-12)
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
-    if motors:
+    if motors or builder.decays:
         mujoco.mj_setConst(model, mujoco.MjData(model))
     # MuJoCo weighs turning speeds with the size of the geometry that turns; a joint that carries
     # none would count as resting at any speed.
@@ -190,6 +193,8 @@ def _apply_decay(model: Any, decay: VelocityDecay, step_s: float) -> None:
     model.dof_damping[dof : dof + 3] = _damping_ratio(decay.linear) / step_s * model.body_mass[body]
     inertia = float(model.body_inertia[body].mean())
     model.dof_damping[dof + 3 : dof + 6] = _damping_ratio(decay.angular) / step_s * inertia
+    six = slice(dof, dof + 6)
+    model.dof_armature[six] = implicit_damping(model.dof_damping[six], step_s)
 
 
 def _damping_ratio(share: float) -> float:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.engine.library import mujoco
@@ -20,6 +21,7 @@ __all__ = [
     "add_root_joint",
     "couple",
     "equality_solver",
+    "implicit_damping",
     "is_single_axis",
 ]
 
@@ -28,7 +30,19 @@ INFINITE_LIMIT = 1e10
 
 Vector3 = tuple[float, float, float]
 
+Value = TypeVar("Value", float, NDArray[np.float64])
+
 _SINGLE = {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.SCREW}
+
+
+def implicit_damping(damping: Value, step_s: float) -> Value:
+    """Return the armature that makes damping act on the speed at the end of a step.
+
+    (M + h D) a = τ − D v is the implicit step. MuJoCo's own implicit integrators divide by h D
+    only after the constraints are solved, so that motors and mimics of light, damped joints would
+    lag; as an armature the constraints see it.
+    """
+    return step_s * damping
 
 
 def is_single_axis(joint: Joint) -> bool:
@@ -130,7 +144,9 @@ class _Adder:
             pos=list(self._pose.position_m),
             axis=list(self._pose.rotate(axis.xyz)),
         )
-        joint.damping = [max(axis.damping, 0.0), 0.0, 0.0]
+        damping = max(axis.damping, 0.0)
+        joint.damping = [damping, 0.0, 0.0]
+        joint.armature = implicit_damping(damping, self._step_s)
         joint.frictionloss = max(axis.friction, 0.0)
         joint.stiffness = [max(axis.spring_stiffness, 0.0), 0.0, 0.0]
         joint.springref = axis.spring_reference

@@ -63,7 +63,6 @@ class LockBank:
         self._goal: Array = np.zeros(0)
         self._increment: Array = np.zeros(0)
         self._left: Indices = np.zeros(0, dtype=np.intp)
-        self._damping: Array = np.zeros(0)
         self._equalities: Indices = np.zeros(0, dtype=np.intp)
         self._dofs: Indices = np.zeros(0, dtype=np.intp)
         self._fastest = 0.0
@@ -104,7 +103,6 @@ class LockBank:
         found = [model.equality(lock(name)).id for name in self.installed]
         self._equalities = np.array(found, dtype=np.intp)
         self._dofs = model.jnt_dofadr[joints].astype(np.intp)
-        self._damping = model.dof_damping[self._dofs].copy()
         self._fastest = _FASTEST * step_s
         self.hold(model, data)
         self._column[:] = self._reference
@@ -182,14 +180,9 @@ class LockBank:
         self._find_next_end()
 
     def efforts(self, data: Any) -> Array:
-        """Return what each lock delivered in the last step, by place.
-
-        The damping of a held joint is switched off, since the implicit step would soften the lock
-        by it; the effort against it is part of what a real drive would deliver.
-        """
+        """Return what each lock delivered in the last step, by place."""
         kind = int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         forces = constraint_forces(data, kind, self._model.neq)[self._equalities]
-        forces += self._damping * self._speeds[self._dofs]
         result: Array = np.where(self.active, forces, 0.0)
         return result
 
@@ -218,7 +211,6 @@ class LockBank:
     def _write_active(self) -> None:
         if self._data is not None and len(self._equalities):
             self._data.eq_active[self._equalities] = self.active
-            self._model.dof_damping[self._dofs] = np.where(self.active, 0.0, self._damping)
 
     def _wake(self, places: Indices) -> None:
         """Wake sleeping trees: MuJoCo looks for bytes that are not 0, minus zero is one."""
