@@ -26,6 +26,7 @@ class InterfaceBank:
         commands: what controllers want (C,); NaN for nothing yet.
         state_index: place of each state interface.
         command_index: place of each command interface.
+        looked_up: places of states that somebody reads; hardware may leave the costly others out.
     """
 
     def __init__(self) -> None:
@@ -33,6 +34,7 @@ class InterfaceBank:
         self.commands: Array = np.empty(0)
         self.state_index: dict[str, int] = {}
         self.command_index: dict[str, int] = {}
+        self.looked_up: set[int] = set()
         self._initial_states: list[float] = []
         self._initial_commands: list[float] = []
         self._frozen = False
@@ -60,12 +62,14 @@ class InterfaceBank:
         self._frozen = True
 
     def state_places(self, names: Iterable[str]) -> Indices:
-        """Return the places of state interfaces.
+        """Return the places of state interfaces; hardware keeps them filled from now on.
 
         Raises:
             KeyError: there is no such interface.
         """
-        return np.array([self.state_index[name] for name in names], dtype=np.intp)
+        places = [self.state_index[name] for name in names]
+        self.looked_up.update(places)
+        return np.array(places, dtype=np.intp)
 
     def command_places(self, names: Iterable[str]) -> Indices:
         """Return the places of command interfaces.

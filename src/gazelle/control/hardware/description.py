@@ -1,0 +1,53 @@
+"""The part of a robot description that ros_control reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import Joint, Model, TransmissionTag
+from gazelle.description.urdf.joints import read_joint
+from gazelle.description.urdf.transmissions import read_transmission
+from gazelle.description.xml import parse_xml
+from gazelle.diagnostics import Diagnostics
+
+__all__ = ["ControlDescription", "description_of", "read_description"]
+
+
+@dataclass(frozen=True, slots=True)
+class ControlDescription:
+    """Joints with their limits, and transmissions.
+
+    Attributes:
+        joints: by name.
+        transmissions: in the order of the file.
+    """
+
+    joints: Mapping[str, Joint]
+    transmissions: tuple[TransmissionTag, ...]
+
+
+def description_of(model: Model) -> ControlDescription:
+    """Return what a model in the world says itself."""
+    return ControlDescription({joint.name: joint for joint in model.joints}, model.transmissions)
+
+
+def read_description(text: str) -> ControlDescription | None:
+    """Read the text of a ``robot_description``; None when it is not a URDF.
+
+    What is wrong in it was said when the robot was spawned.
+    """
+    diagnostics = Diagnostics()
+    robot = parse_xml(text, "<robot_description>", diagnostics)
+    if robot is None or robot.name != "robot":
+        return None
+    context = ReadContext(None, diagnostics, "<robot_description>")
+    joints: dict[str, Joint] = {}
+    for tag in robot.find_all("joint"):
+        name = tag.attributes.get("name", "").strip()
+        found = read_joint(tag, name, context)
+        if found is not None:
+            joints.setdefault(name, found.joint)
+    tags = (read_transmission(tag, joints, context) for tag in robot.find_all("transmission"))
+    return ControlDescription(joints, tuple(tag for tag in tags if tag is not None))

@@ -1,0 +1,66 @@
+"""The robot of ROS 1: engine and transmissions behind ros_control's interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from gazelle.control.bank import InterfaceBank
+from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
+from gazelle.control.hardware.description import ControlDescription, description_of
+from gazelle.control.hardware.holding import joints_to_hold
+from gazelle.control.hardware.host import HardwareHost, ParameterStore
+from gazelle.control.hardware.ros1_joints import read_ros1_joints
+from gazelle.control.robot import Robot
+from gazelle.control.sources.source import ParameterSource
+from gazelle.description.model import Model
+
+if TYPE_CHECKING:
+    from gazelle.control.pid import PidGains
+
+__all__ = ["build_ros1_robot"]
+
+
+def build_ros1_robot(
+    host: HardwareHost,
+    model: Model,
+    source: ParameterSource,
+    parameters: ParameterStore,
+    *,
+    namespace: str = "",
+    description: ControlDescription | None = None,
+    gains: Mapping[str, PidGains] | None = None,
+    plugin: str = "gazebo_ros_control/DefaultRobotHWSim",
+) -> Robot:
+    """Return the robot of a model in the world; joints to be held are held from now on.
+
+    Args:
+        host: the physics, and where to report.
+        model: as it is in the world.
+        source: configured controllers: the joints they name are held.
+        parameters: the parameter store.
+        namespace: of the robot, absolute; empty or ``/`` for none.
+        description: joints and transmissions; the model's own when None.
+        gains: PIDs of position and velocity joints, by name.
+        plugin: class of the hardware that the file names.
+    """
+    prefix = "/" + namespace.strip("/") if namespace.strip("/") else ""
+    described = description or description_of(model)
+    joints = read_ros1_joints(host, model, described, parameters, prefix)
+    bank = InterfaceBank()
+    hardware = DefaultRobotHWSim(
+        host.engine,
+        bank,
+        model.name,
+        joints,
+        gains=gains,
+        held=joints_to_hold(joints, source),
+        plugin=plugin,
+    )
+    bank.freeze()
+    hardware.start()
+    if not joints:
+        text = f"no joint of model '{model.name}' can be controlled: it has no <transmission> that"
+        text += " drives one of its joints (No valid transmissions found.)"
+        host.diagnostics.report("control.no-transmissions", text, model.span)
+    return Robot(1, model, bank, (hardware,), {item.name: item for item in hardware.joints})

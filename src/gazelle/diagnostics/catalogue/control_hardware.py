@@ -1,0 +1,129 @@
+"""Codes of the hardware that controllers drive: transmissions, interfaces, limits."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+_TRANSMISSIONS = (
+    Entry(
+        "control.no-transmissions",
+        "warning",
+        "A robot with ros_control has no joint to control",
+        "The controller manager runs, but no controller that drives a joint can be loaded.",
+        "add a <transmission> for every joint that controllers drive",
+        "No valid transmissions found.",
+    ),
+    Entry(
+        "control.transmission-idle",
+        "info",
+        "Reductions of transmissions do not act in simulation",
+        "Gazebo's DefaultRobotHWSim drives the joints themselves, and so does Gazelle: efforts, "
+        "positions and velocities are those of the joint, never of the motor.",
+        "nothing; the reductions matter on the real robot",
+    ),
+    Entry(
+        "control.transmission-joints",
+        "info",
+        "A transmission moves more than one joint",
+        "Every joint is driven directly. Gazebo leaves out such transmissions, differentials and "
+        "four-bar linkages too.",
+        "for Gazebo, write one SimpleTransmission for each joint",
+        "has more than one joint. Currently the default robot hardware simulation interface only "
+        "supports one.",
+    ),
+    Entry(
+        "control.transmission-parts",
+        "warning",
+        "A transmission has too few or too many joints or actuators",
+        "Joints are driven directly all the same; a real robot would refuse it.",
+        "simple transmissions join one actuator and one joint, differentials and four-bar "
+        "linkages two and two",
+    ),
+    Entry(
+        "control.transmission-reduction",
+        "warning",
+        "A mechanical reduction is 0",
+        "Joints are driven directly all the same; a real robot would refuse it.",
+        "write the reduction, or 1",
+        "Transmission reduction ratios cannot be zero.",
+    ),
+    Entry(
+        "control.transmission-roles",
+        "warning",
+        "A transmission of two joints does not say which is which",
+        "The order of the file counts; a real robot would refuse it.",
+        "add <role>joint1</role>, joint2, actuator1 and actuator2",
+        "does not specify a valid <role> element",
+    ),
+    Entry(
+        "control.transmission-twice",
+        "warning",
+        "Two transmissions drive the same joint",
+        "The first one counts.",
+        "remove one of them",
+    ),
+    Entry(
+        "control.transmission-type",
+        "info",
+        "The type of a transmission is not known",
+        "Its joints are driven directly, as those of every transmission are in simulation.",
+        "use transmission_interface/SimpleTransmission, DifferentialTransmission or "
+        "FourBarLinkageTransmission",
+    ),
+)
+
+_JOINTS = (
+    Entry(
+        "control.hardware-joint",
+        "error",
+        "The hardware names a joint that the simulated model does not have or cannot move",
+        "The joint is left out; controllers that need it cannot be loaded.",
+        "correct the joint's name",
+        "which is not in the gazebo model.",
+    ),
+    Entry(
+        "control.hardware-interface-extra",
+        "info",
+        "A joint has several hardware interfaces",
+        "The first one is used, as in Gazebo.",
+        "keep the interface that the controllers need",
+        "specifies multiple hardware interfaces.",
+    ),
+    Entry(
+        "control.hardware-interface-missing",
+        "warning",
+        "A hardware interface is missing or stands in the wrong place",
+        "Without one the joint is driven by efforts, as on the PR2; one in <actuator> is used.",
+        "write <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface> "
+        "in the <joint> of the transmission",
+        "does not specify any hardware interface.",
+    ),
+    Entry(
+        "control.hardware-interface-prefix",
+        "info",
+        "A hardware interface lacks its package",
+        "It is understood.",
+        "write hardware_interface/ in front of it",
+        "Deprecated syntax, please prepend 'hardware_interface/'",
+    ),
+    Entry(
+        "control.hardware-interface-unknown",
+        "error",
+        "A hardware interface is not known",
+        "The joint can be read, but not commanded. Real ROS would not start any controller.",
+        "use hardware_interface/EffortJointInterface, PositionJointInterface or "
+        "VelocityJointInterface",
+        "No matching hardware interface found for",
+    ),
+    Entry(
+        "control.zero-limit",
+        "warning",
+        "A limit of 0 keeps a joint from moving",
+        "In ROS a limit of 0 is a limit, not the absence of one. The joint obeys it.",
+        'write the real limit, or a large one such as effort="1000"',
+    ),
+)
+
+ENTRIES = (*_TRANSMISSIONS, *_JOINTS)
