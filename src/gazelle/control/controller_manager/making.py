@@ -116,7 +116,9 @@ class ControllerMaker:
             text = f"Exception thrown while initializing controller '{record.name}' of type "
             text += f"'{record.type}': {type(error).__name__}: {error}"
             raise ControllerError(text) from error
-        parameters.report_unknown()
+        # What a user's own class reads, it alone knows.
+        if found is controller_class(record.type):
+            parameters.report_unknown()
         values = dict(flattened(parameters.tree))
         ports.offer_parameters(values, _setter(controller, parameters))
         return controller
@@ -135,7 +137,10 @@ class ControllerMaker:
 
     def _searched(self, type_name: str) -> str:
         word = type_name.replace("::", "/").rpartition("/")[2]
-        return f", and no Python file of the workspace has a class '{word}'"
+        return (
+            f", and no Python file of the workspace has a class '{word}' (compiled controllers do "
+            "not run here; one of your own is a Python class with init, starting, update, stopping)"
+        )
 
 
 def _setter(

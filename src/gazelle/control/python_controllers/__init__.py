@@ -1,0 +1,15 @@
+"""Controllers of your own: Python classes found by the ``type`` name in the YAML."""
+
+from __future__ import annotations
+
+from gazelle.control.python_controllers.adapter import PythonController
+from gazelle.control.python_controllers.finder import find_python_controller
+from gazelle.control.python_controllers.views import UserJoint, UserNode, UserRobot
+
+__all__ = [
+    "PythonController",
+    "UserJoint",
+    "UserNode",
+    "UserRobot",
+    "find_python_controller",
+]

@@ -1,0 +1,123 @@
+"""Makes a user's class a controller."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, ClassVar
+
+from gazelle.control.controllers.controller import Controller, ControllerContext
+from gazelle.control.errors import ControllerError
+from gazelle.control.python_controllers.places import located
+from gazelle.control.python_controllers.times import ControlPeriod, ControlTime
+from gazelle.control.python_controllers.views import UserNode, UserRobot
+from gazelle.control.table import ControllerTable
+
+__all__ = ["PythonController", "adapted"]
+
+_ARGUMENTS = {
+    "init": "robot and node",
+    "starting": "time",
+    "update": "time and period",
+    "stopping": "time",
+}
+
+
+class PythonController(Controller):
+    """Runs an object of a user's class.
+
+    The class has ``init(robot, node)``, ``starting(time)``, ``update(time, period)`` and
+    ``stopping(time)``; all but ``update`` may be left out, and PR2's forms without arguments are
+    understood. ``init`` may return False to refuse. A class attribute ``command_interfaces``
+    names interfaces to claim, such as ``("wheel/velocity",)``; otherwise the joints that ``init``
+    takes are claimed by effort, or by the first interface they have.
+
+    Attributes:
+        USER_CLASS: the user's class.
+        FOLDER: its package, for places in errors.
+        user: the object.
+    """
+
+    TABLE: ClassVar[ControllerTable] = ControllerTable(
+        family="python",
+        summary="A Python class of the user's own.",
+        types=(),
+        interfaces="what init() takes",
+    )
+    USER_CLASS: ClassVar[type]
+    FOLDER: ClassVar[Path]
+
+    def __init__(self, context: ControllerContext) -> None:
+        super().__init__(context)
+        self._now_ns = 0
+        wishes = tuple(getattr(self.USER_CLASS, "command_interfaces", ()))
+        robot = UserRobot(context, wishes, lambda: self._now_ns)
+        node = UserNode(context, lambda: self._now_ns)
+        self.user: Any = self._guarded("__init__", self.USER_CLASS)
+        if not callable(getattr(self.user, "update", None)):
+            name = self.USER_CLASS.__name__
+            raise ControllerError(f"controller class '{name}' has no update(time, period)")
+        init = self._method("init", 2)
+        if self._guarded("init", lambda: init(robot, node)) is False:
+            text = f"Initializing controller '{context.name}' failed: init() of class "
+            raise ControllerError(f"{text}'{self.USER_CLASS.__name__}' returned False")
+        self.commands, self.states = robot.close_claims()
+        self._starting = self._method("starting", 1)
+        self._update = self._method("update", 2)
+        self._stopping = self._method("stopping", 1)
+
+    def start(self, time_ns: int) -> None:
+        """Call ``starting``."""
+        self._now_ns = time_ns
+        self._guarded("starting", lambda: self._starting(ControlTime.of(time_ns)))
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Call ``update``."""
+        self._now_ns = time_ns
+        try:
+            self._update(ControlTime.of(time_ns), ControlPeriod.of(period_ns))
+        except Exception as error:
+            raise ControllerError(located(error, self.FOLDER)) from error
+
+    def stop(self, time_ns: int) -> None:
+        """Call ``stopping``."""
+        self._now_ns = time_ns
+        self._guarded("stopping", lambda: self._stopping(ControlTime.of(time_ns)))
+
+    def _guarded(self, name: str, action: Callable[[], Any]) -> Any:
+        try:
+            return action()
+        except Exception as error:
+            text = f"{name}() of controller class '{self.USER_CLASS.__name__}' failed: "
+            raise ControllerError(text + located(error, self.FOLDER)) from error
+
+    def _method(self, name: str, count: int) -> Callable[..., Any]:
+        """Return a method that takes as many arguments as it is given; PR2's take none."""
+        method = getattr(self.user, name, None)
+        if method is None:
+            return lambda *arguments: None
+        try:
+            inspect.signature(method).bind(*range(count))
+        except TypeError:
+            taken = len(inspect.signature(method).parameters)
+            if taken == 0:
+                return lambda *arguments: method()
+            raise ControllerError(
+                f"{name}() of controller class '{self.USER_CLASS.__name__}' takes {taken} "
+                f"arguments, but is called with {_ARGUMENTS[name]}"
+            ) from None
+        found: Callable[..., Any] = method
+        return found
+
+
+def adapted(user_class: type, type_name: str, folder: Path) -> type[Controller]:
+    """Return the controller class of a user's class.
+
+    Raises:
+        ControllerError: it is not a class.
+    """
+    if not inspect.isclass(user_class):
+        raise ControllerError(f"controller type '{type_name}': {user_class!r} is not a class")
+    attributes = {"USER_CLASS": user_class, "FOLDER": folder}
+    return type(user_class.__name__, (PythonController,), attributes)

@@ -1,0 +1,128 @@
+"""Finds the Python class that a controller's type name means, in the packages of a workspace."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import os
+import sys
+from collections.abc import Iterator
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, NamedTuple
+
+from gazelle.control.errors import ControllerError
+from gazelle.control.python_controllers.adapter import adapted
+from gazelle.control.python_controllers.places import located
+
+if TYPE_CHECKING:
+    from gazelle.control.controllers.controller import Controller
+    from gazelle.workspace import Package, Workspace
+
+__all__ = ["find_python_controller"]
+
+_SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
+_METHODS = frozenset({"init", "starting", "update", "stopping"})
+_LARGEST_BYTES = 1_000_000
+
+
+class _Found(NamedTuple):
+    package: Package
+    path: Path
+    line: int
+
+
+def find_python_controller(type_name: str, workspace: Workspace) -> type[Controller] | None:
+    """Return a controller class made from a user's class, None when no file has one.
+
+    ``my_pkg/MyController`` and ``my_pkg::MyController`` are looked for in ``my_pkg`` first, then,
+    as a bare name is, in every package. Only the file with the class is imported.
+
+    Raises:
+        ControllerError: several files have such a class, or its file cannot be imported.
+    """
+    prefix, _, name = type_name.replace("::", "/").rpartition("/")
+    if not name.isidentifier():
+        return None
+    package = workspace.packages.get(prefix.partition("/")[0])
+    places = [] if package is None else list(_places(package, name))
+    if not places:
+        packages = [one for one in workspace.packages.values() if not one.is_builtin]
+        places = [place for one in packages for place in _places(one, name)]
+    if not places:
+        return None
+    if len(places) > 1:
+        listed = ", ".join(f"{place.path}:{place.line}" for place in places)
+        raise ControllerError(
+            f"controller type '{type_name}': several files have a class '{name}': {listed}; "
+            f"write the type as package/{name}, and keep one class of that name in the package"
+        )
+    return _class_in(places[0], name, type_name)
+
+
+def _places(package: Package, name: str) -> Iterator[_Found]:
+    for path in _python_files(package.path):
+        line = _line_of_class(path, name)
+        if line:
+            yield _Found(package, path, line)
+
+
+def _python_files(folder: Path) -> Iterator[Path]:
+    for root, folders, files in os.walk(folder):
+        folders[:] = sorted(one for one in folders if one not in _SKIPPED and one[0] != ".")
+        yield from (Path(root) / file for file in sorted(files) if file.endswith(".py"))
+
+
+def _line_of_class(path: Path, name: str) -> int:
+    """Return the line of a controller class of this name at the top of a file, 0 for none."""
+    try:
+        if path.stat().st_size > _LARGEST_BYTES:
+            return 0
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        # What cannot be read cannot be the class that somebody wrote for this.
+        return 0
+    if f"class {name}" not in text:
+        return 0
+    try:
+        tree = ast.parse(text, str(path))
+    except SyntaxError as error:
+        raise ControllerError(
+            f"{path}:{error.lineno or 1}: the file may have controller class '{name}', but is not "
+            f"Python 3: {error.msg}"
+        ) from error
+    classes = (one for one in tree.body if isinstance(one, ast.ClassDef) and one.name == name)
+    return next((one.lineno for one in classes if _is_controller(one)), 0)
+
+
+def _is_controller(found: ast.ClassDef) -> bool:
+    methods = {one.name for one in found.body if isinstance(one, ast.FunctionDef)}
+    return bool(found.bases) or bool(methods & _METHODS)
+
+
+def _class_in(place: _Found, name: str, type_name: str) -> type[Controller]:
+    module = _module(str(place.path), place.path.stat().st_mtime_ns, str(place.package.path))
+    return adapted(getattr(module, name), type_name, place.package.path)
+
+
+@lru_cache(maxsize=64)
+def _module(path: str, mtime_ns: int, package: str) -> ModuleType:
+    """Import a file; again when it has changed."""
+    for folder in (str(Path(path).parent), str(Path(package) / "src")):
+        if folder not in sys.path and Path(folder).is_dir():
+            # So that it finds its own modules beside it.
+            sys.path.append(folder)
+    name = f"gazelle_user_controllers.{Path(package).name}.{Path(path).stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        sys.modules.pop(name, None)
+        text = f"cannot import the controller's file: {located(error, Path(package))}"
+        raise ControllerError(text) from error
+    return module
