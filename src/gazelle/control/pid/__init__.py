@@ -1,0 +1,20 @@
+"""``control_toolbox::Pid``: gains, the law, a bank of them, reading them and changing them live."""
+
+from __future__ import annotations
+
+from gazelle.control.pid.bank import PidBank
+from gazelle.control.pid.gains import AntiWindup, PidGains
+from gazelle.control.pid.live import offer_live_gains
+from gazelle.control.pid.pid import Pid
+from gazelle.control.pid.reading import read_gains
+from gazelle.control.pid.state import PidStatePort
+
+__all__ = [
+    "AntiWindup",
+    "Pid",
+    "PidBank",
+    "PidGains",
+    "PidStatePort",
+    "offer_live_gains",
+    "read_gains",
+]

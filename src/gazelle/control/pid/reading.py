@@ -1,0 +1,117 @@
+"""Reads the gains of a PID from a controller's parameters."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.pid.gains import AntiWindup, PidGains
+from gazelle.control.table import Parameter
+
+__all__ = ["gain_rows", "read_gains"]
+
+
+def read_gains(
+    parameters: ControllerParameters, key: str = "pid", joint: str = "", *, generation: int = 1
+) -> PidGains | None:
+    """Return the gains below a key, None when there is no ``p`` at all.
+
+    ``i`` and ``d`` default to 0. ``i_clamp`` gives both bounds of the integral, ``i_clamp_max`` and
+    ``i_clamp_min`` one each; signs do not matter. Without any, ROS 1 and ROS 2 up to Iron bound
+    the integral to 0, so ``i`` has no effect; newer ROS 2 leaves it unbounded, which generation 2
+    does here. Both are said once.
+
+    Args:
+        parameters: the controller's.
+        key: group of the gains.
+        joint: word below the group, as in ``gains.joint_1.p``.
+        generation: 1 or 2, for the bound of the integral when none is given.
+    """
+    prefix = ".".join(word for word in (key, joint) if word)
+    if not parameters.has(f"{prefix}.p"):
+        return None
+
+    def number(name: str, default: float) -> float:
+        return parameters.number(f"{prefix}.{name}", default)
+
+    strategy = _strategy(parameters, prefix)
+    given = [
+        parameters.has(f"{prefix}.{word}") for word in ("i_clamp", "i_clamp_max", "i_clamp_min")
+    ]
+    clamp = abs(number("i_clamp", math.inf if generation == 2 else 0.0))
+    gains = PidGains(
+        p=number("p", 0.0),
+        i=number("i", 0.0),
+        d=number("d", 0.0),
+        i_max=abs(number("i_clamp_max", clamp)),
+        i_min=-abs(number("i_clamp_min", clamp)),
+        # The newer 'legacy' bounds the integral in any case.
+        antiwindup=strategy is not None or parameters.flag(f"{prefix}.antiwindup"),
+        u_max=number("u_clamp_max", math.inf),
+        u_min=number("u_clamp_min", -math.inf),
+        strategy=strategy or AntiWindup.LEGACY,
+        tracking_time_constant=number("tracking_time_constant", 0.0),
+        error_deadband=number("error_deadband", 1e-16),
+    )
+    if gains.i != 0.0 and not any(given):
+        _report_no_clamp(parameters, f"{prefix}.i", gains)
+    if gains.problem:
+        parameters.report("control.bad-gains", gains.problem, key=prefix)
+        return PidGains(gains.p, gains.i, gains.d)
+    return gains
+
+
+def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Parameter, ...]:
+    """Return the rows of a controller's table for gains below a key."""
+    live = generations == (2,)
+
+    def row(name: str, kind: str, default: object, meaning: str, newer: bool = False) -> Parameter:
+        known = (2,) if newer else generations
+        return Parameter(
+            f"{prefix}.{name}", kind, default, meaning, live=live or newer, generations=known
+        )
+
+    no_clamp = "0 in ROS 1: without it i has no effect; unbounded in ROS 2"
+    rows = (
+        row("p", "number", 0.0, "gain of the error"),
+        row("i", "number", 0.0, "gain of the error's integral"),
+        row("d", "number", 0.0, "gain of the error's rate"),
+        row("i_clamp", "number", None, f"bound of the integral's part, both ways; {no_clamp}"),
+        row("i_clamp_max", "number", None, "upper bound of the integral's part; i_clamp"),
+        row("i_clamp_min", "number", None, "lower bound of the integral's part; -i_clamp"),
+        row("antiwindup", "flag", False, "bound the integral itself, not only its part"),
+    )
+    if 2 not in generations:
+        return rows
+    strategies = "legacy, none, back_calculation or conditional_integration"
+    return (
+        *rows,
+        row("u_clamp_max", "number", math.inf, "upper bound of the command", True),
+        row("u_clamp_min", "number", -math.inf, "lower bound of the command", True),
+        row("antiwindup_strategy", "text", "", strategies, True),
+        row("tracking_time_constant", "number", 0.0, "of back_calculation, s; 0: derived", True),
+        row("error_deadband", "number", 1e-16, "errors this small are not integrated", True),
+    )
+
+
+def _strategy(parameters: ControllerParameters, prefix: str) -> AntiWindup | None:
+    key = f"{prefix}.antiwindup_strategy"
+    name = parameters.text(key, "")
+    if not name:
+        return None
+    try:
+        return AntiWindup(name)
+    except ValueError:
+        words = ", ".join(sorted(strategy.value for strategy in AntiWindup))
+        text = f"parameter '{parameters.full_name(key)}' is '{name}', not one of {words}; "
+        parameters.report("control.bad-value", text + "'none' is used", key=key)
+        return AntiWindup.NONE
+
+
+def _report_no_clamp(parameters: ControllerParameters, key: str, gains: PidGains) -> None:
+    text = f"'{parameters.full_name(key)}' is {gains.i:g} and there is no i_clamp: "
+    if gains.i_max == 0.0:
+        text += "its default 0 bounds the integral to nothing, so i has no effect (as in ROS 1)"
+    else:
+        text += "the integral is unbounded (as in ROS 2 Jazzy; up to Iron i had no effect)"
+    parameters.report("control.integral-without-clamp", text, key=key)
