@@ -155,13 +155,13 @@ class JointGroup:
 
     def _lock(self, chosen: Indices, places: Indices, targets: Array, steps: int) -> None:
         self._release_motors(chosen)
-        engine = self._engine
-        qpos = self._qpos[chosen]
-        jumps = engine.locks.command(places, targets, self._positions[qpos], steps)
+        jumps = self._engine.locks.command(
+            places, targets, lambda: self._positions[self._qpos[chosen]], steps
+        )
         if jumps is not None:
-            self._positions[qpos[jumps]] = targets[jumps]
+            self._positions[self._qpos[chosen][jumps]] = targets[jumps]
             self._speeds[self._dofs[chosen][jumps]] = -0.0
-            engine.state_changed()
+            self._engine.state_changed()
 
     def _unlock(self, chosen: Indices) -> None:
         if self._locks is not None:

@@ -126,33 +126,36 @@ class LockBank:
     # --- commands ------------------------------------------------------------------------
 
     def command(
-        self, places: Indices, targets: Array, positions: Array, steps: int
+        self, places: Indices, targets: Array, positions: Callable[[], Array], steps: int
     ) -> NDArray[np.bool_] | None:
         """Hold joints at targets, reached evenly over some steps.
 
         Args:
             places: of the locks.
             targets: rad or m.
-            positions: where the joints are.
+            positions: tells where the joints are.
             steps: 1 for the end of the next step.
 
         Returns:
             Which joints must be put to their targets at once, None for none.
         """
         if not self.active.take(places).all():
-            self._engage(places, positions)
+            self._engage(places, positions())
         start = self._reference.take(places)
         gap = targets - start
-        far = np.abs(gap) > self._fastest * steps
-        jumps = far if far.any() else None
+        farthest = self._fastest * steps
+        square = float(gap.dot(gap))
+        jumps = np.abs(gap) > farthest if square > farthest * farthest else None
         if steps > 1 or self.steps_left:
-            self._ramp(places, targets, np.where(far, targets, start), steps)
+            self._ramp(
+                places, targets, start if jumps is None else np.where(jumps, targets, start), steps
+            )
         else:
             self._reference[places] = targets
             self._column[places] = targets
-        if gap.any():
+        if square:
             self._wake(places)
-        return jumps
+        return jumps if jumps is not None and jumps.any() else None
 
     def release(self, places: Indices | None = None) -> None:
         """Let joints move freely; all of them by default."""
