@@ -95,6 +95,7 @@ class _Reader:
         self._parameters = parameters
         self._namespace = namespace
         self._reduced: list[str] = []
+        self._bare: list[str] = []
 
     def joints(self) -> Iterator[Ros1Joint]:
         seen: dict[str, str] = {}
@@ -110,7 +111,7 @@ class _Reader:
                     continue
                 seen[member.name] = tag.name
                 yield self._joint(tag, member)
-        self._report_reductions()
+        self._report_idle()
 
     def _joint(self, tag: TransmissionTag, member: TransmissionJoint) -> Ros1Joint:
         interface = self._interface(tag, member)
@@ -120,7 +121,6 @@ class _Reader:
         limits = limits_of(joint)
         if isinstance(tree, dict):
             limits = limits_from_parameters(limits, tree)
-        self._check_zero(tag, member.name, interface, limits)
         return Ros1Joint(member.name, interface, joint.type, limits)
 
     def _interface(self, tag: TransmissionTag, member: TransmissionJoint) -> str:
@@ -141,9 +141,7 @@ class _Reader:
         word = name.replace("::", "/").removeprefix(_PREFIX)
         if word in HARDWARE_INTERFACES:
             if word == name:
-                text = f"hardware interface '{name}' of joint '{joint}' lacks '{_PREFIX}'"
-                text += " (Deprecated syntax, please prepend 'hardware_interface/')"
-                self._report("control.hardware-interface-prefix", text, tag)
+                self._bare.append(joint)
             return HARDWARE_INTERFACES[word]
         text = f"hardware interface '{name}' of joint '{joint}' is not one that Gazebo's"
         text += f" DefaultRobotHWSim has ({', '.join(HARDWARE_INTERFACES)}); the joint can be read,"
@@ -174,7 +172,12 @@ class _Reader:
         if any(reduction not in (0.0, 1.0) for reduction in reductions):
             self._reduced.append(tag.name)
 
-    def _report_reductions(self) -> None:
+    def _report_idle(self) -> None:
+        if self._bare:
+            text = f"hardware interfaces of {', '.join(self._bare)} lack '{_PREFIX}'"
+            text += " (Deprecated syntax, please prepend 'hardware_interface/')"
+            code = "control.hardware-interface-prefix"
+            self._host.diagnostics.report(code, text, self._model.span)
         if self._reduced:
             text = "mechanical reductions have no effect on simulated joints, as in Gazebo:"
             text += f" controllers drive the joints themselves ({', '.join(self._reduced)})"
@@ -197,19 +200,6 @@ class _Reader:
             text += f"is {joint.type.value} and cannot be driven; it is left out"
         self._report("control.hardware-joint", text, tag, fix=hint)
         return False
-
-    def _check_zero(
-        self, tag: TransmissionTag, name: str, interface: str, limits: JointLimits
-    ) -> None:
-        zeros = []
-        if limits.max_effort == 0.0 and interface in {"effort", "velocity"}:
-            zeros.append("effort")
-        if limits.max_velocity == 0.0:
-            zeros.append("velocity")
-        for kind in zeros if interface else ():
-            text = f"joint '{name}' has {kind}=\"0\" in its <limit>: a limit of 0, not 'no limit';"
-            text += f" its {interface} commands cannot move it, as in Gazebo"
-            self._report("control.zero-limit", text, tag)
 
     def _report(self, code: str, text: str, tag: TransmissionTag, *, fix: str = "") -> None:
         self._host.diagnostics.report(code, text, tag.span, fix=fix)

@@ -117,13 +117,32 @@ _JOINTS = (
         "VelocityJointInterface",
         "No matching hardware interface found for",
     ),
+)
+
+_LOADING = (
     Entry(
-        "control.zero-limit",
+        "control.period",
         "warning",
-        "A limit of 0 keeps a joint from moving",
-        "In ROS a limit of 0 is a limit, not the absence of one. The joint obeys it.",
-        'write the real limit, or a large one such as effort="1000"',
+        "The control period does not fit the physics step",
+        "Controllers run at whole steps, when at least a period has passed, as in Gazebo.",
+        "choose a period that is a multiple of the step, or change the world's step",
+        "is faster than the gazebo simulation period",
+    ),
+    Entry(
+        "control.robot-description",
+        "warning",
+        "The robot_description in the parameter store is not this robot's",
+        "The description that the model was spawned from is used. Gazebo would start nothing.",
+        "set robotParam and robotNamespace of the plug-in to this robot's description",
+    ),
+    Entry(
+        "control.robot-sim-type",
+        "info",
+        "The simulated hardware is a class of its own",
+        "It is compiled code. Gazebo's default takes its place: joints by their transmissions, "
+        "one command interface each.",
+        "nothing, when the controllers use joints only",
     ),
 )
 
-ENTRIES = (*_TRANSMISSIONS, *_JOINTS)
+ENTRIES = (*_TRANSMISSIONS, *_JOINTS, *_LOADING)

@@ -31,10 +31,10 @@ _FAMILIES = (
     ("joint_state_publisher", "GZ_TABLE", "load_gz"),
     ("gz_systems", "TABLE", "load"),
     ("gz_systems", "SERVER_TABLE", "load"),
+    ("ros_control", "TABLE", "load"),
 )
 # Compiled plug-ins people meet often, and where their behaviour comes from instead.
 _ELSEWHERE = {
-    "gazebo_ros_control": "controllers of ros_control do not run; joints move freely",
     "gazebo_ros2_control": "controllers of ros2_control do not run; joints move freely",
     "gz_ros2_control-system": "controllers of ros2_control do not run; joints move freely",
     "gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the plug-in is not needed",

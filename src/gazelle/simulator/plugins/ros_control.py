@@ -1,0 +1,138 @@
+"""``libgazebo_ros_control``: hardware and controller manager of ROS 1."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.ros_control_loop import control_period, run_control_loop
+from gazelle.simulator.plugins.ros_control_table import DEFAULT_ROBOT_SIM, TABLE
+
+if TYPE_CHECKING:
+    from gazelle.control.controller_manager import ControllerManager
+    from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
+    from gazelle.control.hardware.description import ControlDescription
+    from gazelle.control.robot import Robot
+
+__all__ = ["TABLE", "load"]
+
+
+def load(context: PluginContext) -> None:
+    """Make the robot and its controller manager; controllers are loaded later, by spawners."""
+    parameters = context.reader(TABLE)
+    manager = _make(context, parameters)
+    _listen_for_stop(context, parameters, manager)
+    parameters.report_unread()
+
+
+def _make(context: PluginContext, parameters: ParameterReader) -> ControllerManager:
+    from gazelle.control.controller_manager import ControllerManager
+    from gazelle.simulator.control_ports import make_ports, offer_manager
+
+    host, resources = context.host, context.resources
+    namespace = _namespace(context, parameters)
+    robot = _robot(context, parameters, namespace)
+    steps = _period(context, parameters)
+    engine = host.engine
+    manager = ControllerManager(
+        robot,
+        namespace=namespace,
+        make_ports=lambda name: make_ports(host, resources, namespace, name, 1),
+        source=_source(context, namespace),
+        diagnostics=host.diagnostics,
+        update_rate_hz=1e9 / float(steps * engine.step_ns),
+        workspace=host.workspace,
+        clock=lambda: engine.time_ns,
+    )
+    offer_manager(manager, host, resources)
+    run_control_loop(context, manager, steps)
+    return manager
+
+
+def _namespace(context: PluginContext, parameters: ParameterReader) -> str:
+    """Return the robot's namespace; without any word on it Gazebo takes the model's name."""
+    fallback = context.default_namespace or context.model.name
+    return join_names("/", parameters.text("robotNamespace", fallback))
+
+
+def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) -> Robot:
+    from gazelle.control.hardware.ros1_robot import build_ros1_robot
+
+    plugin = parameters.text("robotSimType")
+    if plugin != DEFAULT_ROBOT_SIM:
+        text = f"<robotSimType> '{plugin}' is compiled code that Gazelle does not have;"
+        text += f" '{DEFAULT_ROBOT_SIM}' is used: one command interface a joint, no sensors"
+        context.report("control.robot-sim-type", text)
+    return build_ros1_robot(
+        context.host,
+        context.model,
+        _source(context, namespace),
+        context.host.node.parameters,
+        namespace=namespace,
+        description=_description(context, parameters, namespace),
+        plugin=plugin,
+    )
+
+
+def _source(context: PluginContext, namespace: str) -> Any:
+    from gazelle.control.sources.store import StoreSource
+
+    return StoreSource(context.host.node.parameters, namespace)
+
+
+def _description(
+    context: PluginContext, parameters: ParameterReader, namespace: str
+) -> ControlDescription | None:
+    """Return the description in the parameter store; None when it is not this robot's."""
+    from gazelle.control.hardware.description import read_description
+
+    name = parameters.text("robotParam")
+    words = [word for word in namespace.split("/") if word]
+    places = [join_names("/", *words[:count], name) for count in range(len(words), -1, -1)]
+    store = context.host.node.parameters
+    for place in places:
+        text = store.get(place, None)
+        if isinstance(text, str) and text.strip():
+            found = read_description(text)
+            if found is not None and _fits(context, found):
+                return found
+            what = "is of another robot" if found is not None else "is not a URDF"
+            message = f"parameter '{place}' {what}; the description that model"
+            message += f" '{context.model.name}' was spawned from is used"
+            context.report("control.robot-description", message)
+            return None
+    return None
+
+
+def _fits(context: PluginContext, description: ControlDescription) -> bool:
+    """Tell whether a description shares joints with the model."""
+    names = {joint.name for joint in context.model.joints}
+    return not names or not names.isdisjoint(description.joints)
+
+
+def _period(context: PluginContext, parameters: ParameterReader) -> Fraction:
+    wanted_ns = round(parameters.number("controlPeriod") * 1e9)
+    return control_period(context, wanted_ns, "<controlPeriod>") if wanted_ns else Fraction(1)
+
+
+def _listen_for_stop(
+    context: PluginContext, parameters: ParameterReader, manager: ControllerManager
+) -> None:
+    topic = parameters.text("eStopTopic")
+    if not topic:
+        return
+    hardware: DefaultRobotHWSim = manager.robot.components[0]  # type: ignore[assignment]
+    engine = context.host.engine
+    active = False
+
+    def take(message: Any) -> None:
+        nonlocal active
+        was, active = active, bool(message.data)
+        hardware.set_stop(active)
+        hardware.write(engine.time_ns, engine.step_ns)
+        if was and not active:
+            manager.reset()
+
+    context.resources.subscription(join_names(manager.namespace, topic), "std_msgs/Bool", take)
