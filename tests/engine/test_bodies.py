@@ -69,6 +69,17 @@ def test_rotated_inertia_keeps_its_moments():
     assert len(diagnostics) == 0
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.1])
+@pytest.mark.parametrize("low", [0.02, 0.019999999999999997, 0.0199999999])
+def test_flat_bodies_whose_moments_add_up_exactly_are_built(low, turn):
+    turned = Pose.from_xyz_rpy((0, 0, 0), (turn, -turn, 2 * turn))
+    link = Link("l", inertial=Inertial(2.0, turned, (low, 0, 0, low, 0, 0.04)))
+    engine, diagnostics = engine_of(Model("m", links=(link,)))
+    moments = sorted(engine.model.body_inertia[engine.body_id("m::l")])
+    assert moments == pytest.approx([0.02, 0.02, 0.04], rel=1e-6)
+    assert len(diagnostics) == 0
+
+
 def test_velocity_decay_of_a_jointed_link_is_reported():
     links = (Link("a", inertial=SMALL), Link("b", inertial=SMALL, linear_damping=0.1))
     joint = Joint("j", JointType.CONTINUOUS, "a", "b", axis=JointAxis())

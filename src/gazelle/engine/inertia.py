@@ -19,6 +19,7 @@ MASSLESS_LEAF_INERTIA_KG_M2 = 1e-6
 """Moment of inertia that goes with it: a gram with a radius of gyration of about 3 cm."""
 
 _SMALLEST_RATIO = 1e-6
+_MARGIN = 1e-9
 
 
 class BodyInertia(NamedTuple):
@@ -57,6 +58,10 @@ def body_inertia(link: Link, name: str, diagnostics: Diagnostics) -> BodyInertia
             inertial.span or link.span,
         )
         tensor = np.eye(3) * mean
+    else:
+        # A thin disc's moments add up exactly, and MuJoCo refuses what rounding makes of that.
+        excess = float(moments[2] * (1 + _MARGIN) - moments[0] - moments[1])
+        tensor = tensor + np.eye(3) * max(excess, 0.0)
     return BodyInertia(inertial.mass_kg, inertial.T_link_com.position_m, tensor)
 
 

@@ -1,0 +1,24 @@
+"""Checks of controllers before the first step: names, limits, gains."""
+
+from __future__ import annotations
+
+from gazelle.control.checks.all_checks import check_control
+from gazelle.control.checks.configured import ConfiguredController, configured_controllers
+from gazelle.control.checks.gains import largest_stable_factor, spectral_radius
+from gazelle.control.checks.inertia import joint_inertias
+from gazelle.control.checks.moveit import MoveItController, moveit_controllers
+from gazelle.control.checks.names import Disagreement, disagreements, table_text
+
+__all__ = [
+    "ConfiguredController",
+    "Disagreement",
+    "MoveItController",
+    "check_control",
+    "configured_controllers",
+    "disagreements",
+    "joint_inertias",
+    "largest_stable_factor",
+    "moveit_controllers",
+    "spectral_radius",
+    "table_text",
+]

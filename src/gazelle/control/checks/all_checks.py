@@ -1,0 +1,117 @@
+"""All checks of a robot's controllers, reported."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from gazelle.control.checks.configured import ConfiguredController, Gains, configured_controllers
+from gazelle.control.checks.gains import largest_stable_factor
+from gazelle.control.checks.moveit import MoveItController
+from gazelle.control.checks.names import disagreements, table_text
+from gazelle.control.robot import JointResource
+from gazelle.control.sources.source import ParameterSource
+from gazelle.description.model import Joint
+from gazelle.diagnostics import Diagnostics, SourceSpan
+
+__all__ = ["check_control"]
+
+# Below this factor it is the proportion of p to d that is unstable, not their size.
+_ALL_UNSTABLE = 1e-3
+
+
+def check_control(
+    joints: Mapping[str, Joint],
+    hardware: Mapping[str, JointResource],
+    source: ParameterSource,
+    diagnostics: Diagnostics,
+    *,
+    moveit: Sequence[MoveItController] = (),
+    inertias: Mapping[str, float] | None = None,
+    step_s: float = 1e-3,
+    period_steps: int = 1,
+    span: SourceSpan | None = None,
+) -> None:
+    """Report what can be known before the first step.
+
+    Args:
+        joints: of the robot description, by name.
+        hardware: joints that controllers can have.
+        source: parameters of the controllers.
+        diagnostics: receives the findings.
+        moveit: what MoveIt sends trajectories to.
+        inertias: by joint name, see `joint_inertias`; gains are not checked without.
+        step_s: of the physics.
+        period_steps: physics steps between two updates of the controllers.
+        span: the plug-in's place, for findings that have no better one.
+    """
+    controllers = configured_controllers(source)
+    rows = disagreements(
+        {name: joint.type.value for name, joint in joints.items()}, hardware, controllers, moveit
+    )
+    if rows:
+        named = {name for row in rows for name in row.controllers}
+        places = [item.place for item in controllers if item.name in named and item.place]
+        text = "robot, hardware, controllers and MoveIt do not mean the same joints:\n"
+        place = places[0] if places else span
+        diagnostics.report("control.names-disagree", text + table_text(rows), place)
+    wanted = {name for item in controllers for name in item.joints}
+    for name in hardware:
+        if name in joints and name in wanted:
+            _check_limits(joints[name], hardware[name], diagnostics)
+    for item in controllers:
+        for gains in item.gains:
+            joint = joints.get(gains.joint)
+            if joint is not None and inertias and gains.joint in inertias:
+                inertia = inertias[gains.joint]
+                place = source.place(item.name, gains.key) or item.place or span
+                _check_gains(
+                    item, gains, joint, inertia, (step_s, period_steps), place, diagnostics
+                )
+
+
+def _check_limits(joint: Joint, resource: JointResource, diagnostics: Diagnostics) -> None:
+    axis = joint.axis
+    interfaces = resource.command_interfaces
+    if axis is None:
+        return
+    if axis.effort == 0 and "effort" in interfaces:
+        text = f"joint '{joint.name}' has the effort limit 0 and an effort interface: every "
+        text += "command is cut to 0, the joint will not be moved (as in Gazebo)"
+        fix = 'write the motor\'s limit, as <limit effort="10" …/>'
+        diagnostics.report("control.zero-limit", text, joint.span, fix=fix)
+    elif axis.velocity == 0 and interfaces and "effort" not in interfaces:
+        text = f"joint '{joint.name}' has the velocity limit 0: joint limits of ros_control hold "
+        text += "it where it is"
+        fix = 'write the motor\'s limit, as <limit velocity="2" …/>'
+        diagnostics.report("control.zero-limit", text, joint.span, fix=fix)
+
+
+def _check_gains(
+    controller: ConfiguredController,
+    gains: Gains,
+    joint: Joint,
+    inertia: float,
+    timing: tuple[float, int],
+    place: SourceSpan | None,
+    diagnostics: Diagnostics,
+) -> None:
+    step_s, period_steps = timing
+    factor = largest_stable_factor(
+        gains.p,
+        gains.d,
+        inertia,
+        step_s,
+        period_steps=period_steps,
+        of_velocity=gains.of_velocity,
+        damping=joint.axis.damping if joint.axis is not None else 0.0,
+    )
+    if factor < 1.0:
+        text = f"controller '{controller.name}': gains p {gains.p:g}, d {gains.d:g} of joint "
+        text += f"'{gains.joint}' are unstable: it has an inertia of {inertia:.3g} and efforts "
+        text += f"change every {step_s * period_steps * 1e3:g} ms; it will shake or fly away"
+        fix = f"use at most p {gains.p * factor:.3g}, d {gains.d * factor:.3g}, or a smaller step"
+        if factor < _ALL_UNSTABLE:
+            fix = (
+                f"every p needs some d at this period: try d {gains.p * step_s * period_steps:.3g}"
+            )
+        diagnostics.report("control.unstable-gains", text, place, fix=fix)
