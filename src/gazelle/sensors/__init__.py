@@ -8,49 +8,84 @@ from __future__ import annotations
 
 from gazelle.sensors.bands import default_threads
 from gazelle.sensors.camera import CameraRecord, render
+from gazelle.sensors.contact import ContactRecord, link_wrenches, watched_contacts
 from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
+from gazelle.sensors.drift_noise import DriftModel, DriftNoise
 from gazelle.sensors.embree import EmbreeError
+from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
+from gazelle.sensors.gps import (
+    GpsRecord,
+    flat_earth_position,
+    gps_noise,
+    gps_reading,
+    north_west_up,
+)
 from gazelle.sensors.imu import ImuNoise, ImuRecord, LinkMotion, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
 from gazelle.sensors.noise import NoiseSource
 from gazelle.sensors.ray_scene import RayScene
-from gazelle.sensors.sonar import sonar_range
+from gazelle.sensors.sonar import SonarRecord, sonar_range
 from gazelle.sensors.surroundings import (
+    AltimeterRecord,
     GeodeticPosition,
+    MagnetometerRecord,
+    PressureRecord,
     air_pressure_pa,
     altitude_change_m,
+    classic_origin,
     enu_vector,
     geodetic_position,
+    local_position,
     magnetic_field,
 )
+from gazelle.sensors.vector_noise import VectorNoise
 from gazelle.sensors.warming import warm_up
 
 __all__ = [
     "POINT_DTYPE",
+    "AltimeterRecord",
     "CameraRecord",
+    "ContactRecord",
+    "DriftModel",
+    "DriftNoise",
     "EmbreeError",
     "GeodeticPosition",
+    "GpsRecord",
     "ImuNoise",
     "ImuRecord",
     "Intrinsics",
+    "JointLoad",
     "LidarRecord",
     "LinkMotion",
+    "MagnetometerRecord",
     "NoiseSource",
+    "PressureRecord",
     "RayScene",
     "ScanAngles",
+    "SonarRecord",
+    "VectorNoise",
+    "WrenchRecord",
     "air_pressure_pa",
     "altitude_change_m",
     "camera_intrinsics",
+    "classic_origin",
     "default_threads",
     "depth_image",
     "distort",
     "enu_vector",
+    "flat_earth_position",
+    "force_torque_reading",
     "geodetic_position",
+    "gps_noise",
+    "gps_reading",
     "imu_reading",
     "is_distorting",
+    "link_wrenches",
+    "local_position",
     "magnetic_field",
+    "north_west_up",
     "point_cloud",
     "render",
     "scan",
@@ -58,4 +93,5 @@ __all__ = [
     "scene_kind",
     "sonar_range",
     "warm_up",
+    "watched_contacts",
 ]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,17 @@ from gazelle.description.model import SphericalCoordinates
 from gazelle.geometry import Pose
 
 __all__ = [
+    "AltimeterRecord",
     "GeodeticPosition",
+    "MagnetometerRecord",
+    "PressureRecord",
     "air_pressure_pa",
     "altitude_change_m",
+    "classic_origin",
+    "curvature_radii_m",
     "enu_vector",
     "geodetic_position",
+    "local_position",
     "magnetic_field",
 ]
 
@@ -40,6 +47,26 @@ class GeodeticPosition:
     altitude_m: float
 
 
+class MagnetometerRecord(NamedTuple):
+    """The magnetic field in the sensor's frame, (3,) tesla."""
+
+    field_t: NDArray[np.float64]
+
+
+class AltimeterRecord(NamedTuple):
+    """Height since the start, speed of climbing, and the height in the world at the start."""
+
+    vertical_position_m: float
+    vertical_velocity_m_s: float
+    vertical_reference_m: float
+
+
+class PressureRecord(NamedTuple):
+    """Air pressure, pascal."""
+
+    pressure_pa: float
+
+
 def geodetic_position(position_m: Vector3, origin: SphericalCoordinates) -> GeodeticPosition:
     """Return where a point of the world lies on Earth (WGS 84).
 
@@ -59,6 +86,47 @@ def geodetic_position(position_m: Vector3, origin: SphericalCoordinates) -> Geod
     y += sin_lon * outward + cos_lon * east
     z += sin_lat * up + cos_lat * north
     return _geodetic(x, y, z)
+
+
+def local_position(place: GeodeticPosition, origin: SphericalCoordinates) -> Vector3:
+    """Return where in the world a place on Earth lies, metres; the inverse of the above.
+
+    Args:
+        place: degrees and metres on WGS 84.
+        origin: where the world's origin lies.
+    """
+    latitude, longitude = math.radians(origin.latitude_deg), math.radians(origin.longitude_deg)
+    there = _ecef(
+        math.radians(place.latitude_deg), math.radians(place.longitude_deg), place.altitude_m
+    )
+    here = _ecef(latitude, longitude, origin.elevation_m)
+    x, y, z = (a - b for a, b in zip(there, here, strict=True))
+    sin_lat, cos_lat = math.sin(latitude), math.cos(latitude)
+    sin_lon, cos_lon = math.sin(longitude), math.cos(longitude)
+    outward = cos_lon * x + sin_lon * y
+    enu = (
+        cos_lon * y - sin_lon * x,
+        cos_lat * z - sin_lat * outward,
+        cos_lat * outward + sin_lat * z,
+    )
+    return enu_vector(enu, replace(origin, heading_deg=-origin.heading_deg))
+
+
+def classic_origin(origin: SphericalCoordinates) -> SphericalCoordinates:
+    """Return the origin as Gazebo Classic reads ``<heading_deg>``.
+
+    There x points to 180° − heading, counted from east to north: a world without a heading has
+    west along x, and files that want east write 180 (SphericalCoordinates::PositionTransform,
+    LOCAL; gz-sim took the right way with LOCAL2).
+    """
+    return replace(origin, heading_deg=180.0 - origin.heading_deg)
+
+
+def curvature_radii_m(latitude_rad: float) -> tuple[float, float]:
+    """Return the WGS 84 radii of curvature at a latitude: meridian, prime vertical."""
+    shrink = 1.0 - _WGS84_E2 * math.sin(latitude_rad) ** 2
+    prime_vertical = _WGS84_A_M / math.sqrt(shrink)
+    return prime_vertical * (1.0 - _WGS84_E2) / shrink, prime_vertical
 
 
 def enu_vector(vector: Vector3, origin: SphericalCoordinates) -> Vector3:

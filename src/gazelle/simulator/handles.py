@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, Model, Sensor
-from gazelle.errors import GazelleError
+from gazelle.description.model import Model, Sensor
 from gazelle.geometry import Pose
 
 if TYPE_CHECKING:
@@ -156,22 +155,15 @@ class SensorOfSimulation:
         """Return a fresh record of this moment.
 
         Returns:
-            `LidarRecord`, `CameraRecord` (colour, and depth for depth cameras) or `ImuRecord` of
-            `gazelle.sensors`.
+            a record of `gazelle.sensors`: `LidarRecord`, `CameraRecord` (colour, and depth for
+            depth cameras; a tuple of them for a multicamera), `ImuRecord`, `ContactRecord`,
+            `WrenchRecord`, `GpsRecord`, `MagnetometerRecord`, `AltimeterRecord`,
+            `PressureRecord` or `SonarRecord`.
 
         Raises:
             GazelleError: the sensor is of a kind that is not simulated.
         """
-        spec, sensors = self._place.sensor.spec, self._server.sensors
-        if isinstance(spec, LidarSpec):
-            return sensors.scan(self._place)
-        if isinstance(spec, CameraSpec):
-            return sensors.render(self._place, want_depth=spec.kind != "rgb")
-        if isinstance(spec, ImuSpec):
-            return sensors.imu(self._place)
-        raise GazelleError(
-            f"sensor '{self.name}' is of type '{self._place.sensor.type}', which is not simulated"
-        )
+        return self._server.sensors.read(self._place)
 
 
 def _triple(vector: Any) -> tuple[float, float, float]:

@@ -5,10 +5,19 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, Light, Model, World
+from gazelle.description.model import (
+    CameraSpec,
+    ImuSpec,
+    LidarSpec,
+    Light,
+    Model,
+    SonarSpec,
+    World,
+)
 from gazelle.geometry import Pose
+from gazelle.simulator.measurements import Measurements
 from gazelle.simulator.plugins.context import SensorPlace
 
 if TYPE_CHECKING:
@@ -20,9 +29,10 @@ if TYPE_CHECKING:
         LidarRecord,
         NoiseSource,
         RayScene,
+        SonarRecord,
     )
 
-__all__ = ["SensorSet", "View", "sensor_places"]
+__all__ = ["SensorSet", "View", "camera_members", "sensor_places"]
 
 
 @dataclass(slots=True)
@@ -61,11 +71,31 @@ class View:
 
 
 def sensor_places(model: Model) -> Iterator[SensorPlace]:
-    """Yield the sensors on a model's links, in the order of the file."""
+    """Yield the sensors on a model's links, then those in its joints, in the order of the file."""
     for link in model.links:
         link_name = f"{model.name}::{link.name}"
         for sensor in link.sensors:
             yield SensorPlace(f"{link_name}::{sensor.name}", link_name, sensor)
+    for joint in model.joints:
+        joint_name, child = f"{model.name}::{joint.name}", f"{model.name}::{joint.child}"
+        for sensor in joint.sensors:
+            yield SensorPlace(f"{joint_name}::{sensor.name}", child, sensor, joint_name)
+
+
+def camera_members(place: SensorPlace) -> tuple[SensorPlace, ...]:
+    """Return the cameras of a ``multicamera`` as places of their own; any other camera itself."""
+    spec = place.sensor.spec
+    assert isinstance(spec, CameraSpec)
+    if not spec.members:
+        return (place,)
+    return tuple(
+        replace(
+            place,
+            name=f"{place.name}::{member.name}",
+            sensor=replace(place.sensor, spec=member, name=member.name),
+        )
+        for member in spec.members
+    )
 
 
 class SensorSet:
@@ -84,6 +114,8 @@ class SensorSet:
         self._lights: tuple[Light, ...] | None = None
         self._lit: tuple[World, World] | None = None
         self._lock = threading.Lock()
+        self.measurements = Measurements(engine, seed)
+        """Contacts, forces, positions, fields: what needs no rays."""
         self.computed = 0
         """Readings computed so far; idle sensors do not count up."""
 
@@ -105,6 +137,7 @@ class SensorSet:
         """Start all noise over, as after a reset."""
         self._noises.clear()
         self._imus.clear()
+        self.measurements.restart()
 
     def scan(self, place: SensorPlace, view: View | None = None) -> LidarRecord:
         """Take a scan with a ``ray``, ``gpu_ray`` or ``lidar`` sensor."""
@@ -118,6 +151,18 @@ class SensorSet:
             self.computed += 1
             scene = self._scene(scene_kind(spec), view)
             return scan(scene, spec, pose, noise=self._noise(place, spec))
+
+    def sonar(self, place: SensorPlace, view: View | None = None) -> SonarRecord:
+        """Listen with a ``sonar`` sensor."""
+        from gazelle.sensors import SonarRecord, sonar_range
+
+        spec = place.sensor.spec
+        assert isinstance(spec, SonarSpec)
+        view = view or self.view()
+        pose = view.link_pose(place.link_name) @ place.sensor.T_link_sensor
+        with self._lock:
+            self.computed += 1
+            return SonarRecord(sonar_range(self._scene("collisions", view), spec, pose))
 
     def render(
         self,
@@ -145,6 +190,24 @@ class SensorSet:
                 want_depth=want_depth,
                 noise=self._noise(place, spec),
             )
+
+    def read(self, place: SensorPlace) -> Any:
+        """Return a fresh record of any sensor; for the thread that owns the world.
+
+        Raises:
+            GazelleError: the sensor is of a kind that gives no data.
+        """
+        spec = place.sensor.spec
+        if isinstance(spec, LidarSpec):
+            return self.scan(place)
+        if isinstance(spec, CameraSpec):
+            members = camera_members(place)
+            wants_depth = spec.kind != "rgb"
+            records = [self.render(member, want_depth=wants_depth) for member in members]
+            return tuple(records) if spec.members else records[0]
+        if isinstance(spec, SonarSpec):
+            return self.sonar(place)
+        return self.imu(place) if isinstance(spec, ImuSpec) else self.measurements.read(place)
 
     def imu(self, place: SensorPlace) -> ImuRecord:
         """Read an IMU; for the thread that owns the world."""

@@ -5,15 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from gazelle.description.model import (
-    CameraSpec,
-    ImuSpec,
-    LidarSpec,
-    Model,
-    OtherSensorSpec,
-    PluginTag,
-    World,
-)
+from gazelle.description.model import CameraSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose
@@ -27,6 +19,7 @@ from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.ports import NodePort
 from gazelle.simulator.scheduler import Scheduler
+from gazelle.simulator.sensor_checks import check_sensor
 from gazelle.simulator.sensor_set import SensorSet, sensor_places
 
 if TYPE_CHECKING:
@@ -37,8 +30,6 @@ __all__ = ["WorldServer"]
 # Without a real-time target, commands are looked for after so many steps at the latest.
 _FAST_SLICE = 50
 _NOWHERE = SourceSpan("<sensor>")
-# Sensors that give data, and those whose reader has said already that they do not.
-_SENSED = (CameraSpec, ImuSpec, LidarSpec, OtherSensorSpec)
 
 
 class WorldServer:
@@ -310,15 +301,12 @@ class WorldServer:
             load_plugin(PluginContext(self, model, plugin, resources, place, namespace))
 
         for place in sensor_places(model):
-            if not isinstance(place.sensor.spec, _SENSED):
-                text = f"sensor '{place.name}' is of type '{place.sensor.type}', which is not "
-                code = "simulator.sensor-not-simulated"
-                self.diagnostics.report(code, text + "simulated yet", place.sensor.span)
+            readable = check_sensor(place, model, self.engine.world, self.diagnostics)
             if isinstance(place.sensor.spec, CameraSpec):
                 self._warm_cameras()
             for plugin in place.sensor.plugins:
                 load(plugin, place)
-            if not place.sensor.plugins and is_gz_world(self.engine.world):
+            if readable and not place.sensor.plugins and is_gz_world(self.engine.world):
                 stand_in = PluginTag(place.sensor.name, "", Tag("plugin", _NOWHERE))
                 publish_sensor(PluginContext(self, model, stand_in, resources, place))
         for plugin in model.plugins:

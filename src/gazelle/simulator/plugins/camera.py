@@ -9,7 +9,9 @@ from gazelle.simulator.plugins.camera_table import CAMERA_TABLE
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth, cut_depth
 from gazelle.simulator.plugins.image_transport import add_transports
+from gazelle.simulator.plugins.multicamera import start_multicamera_ros2
 from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.sensor_set import camera_members
 
 __all__ = ["load"]
 
@@ -19,7 +21,9 @@ def load(context: PluginContext) -> None:
     parameters = context.reader(CAMERA_TABLE)
     place = camera_place(context)
     if place is not None:
-        if parameters.ros.present:
+        if parameters.ros.present and len(camera_members(place)) > 1:
+            start_multicamera_ros2(context, parameters, place)
+        elif parameters.ros.present:
             _start_ros2(context, parameters, place)
         else:
             _start_ros1(context, parameters, place)

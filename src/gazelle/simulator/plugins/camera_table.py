@@ -92,8 +92,10 @@ _CLOUD = (
 CAMERA_TABLE = PluginTable(
     family="camera",
     summary="Publishes the pictures of the camera it stands in; in ROS 2 of depth cameras too.",
-    filenames=("gazebo_ros_camera",),
+    filenames=("gazebo_ros_camera", "gazebo_ros_prosilica"),
     behaviour=(
+        "`gazebo_ros_prosilica` streams, as in Gazebo unless `trigger_mode` is `polled`; pictures"
+        " are not polled here.",
         "`compressed` is JPEG or PNG; `compressedDepth` encodes depth pictures; `theora` is listed"
         " as image_transport does and sends nothing.",
         "The sensor's `update_rate` governs; the plug-in's can only lower it.",
@@ -136,6 +138,7 @@ CAMERA_TABLE = PluginTable(
         Parameter("min_depth", "number", 0.4, "nearest depth that is kept (ROS 2)", "m"),
         Parameter("max_depth", "number", 5.0, "farthest depth that is kept (ROS 2)", "m"),
         Parameter("triggered", "none", "", "pictures are never triggered"),
+        Parameter("pollServiceName", "none", "", "of prosilica; pictures are not polled"),
     ),
 )
 

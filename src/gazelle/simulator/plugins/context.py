@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gazelle.simulator.control_registry import ControlRegistry
     from gazelle.simulator.frames import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
+    from gazelle.workspace import Workspace
 
 __all__ = ["Host", "PluginContext", "Resources", "SensorPlace", "join_names"]
 
@@ -36,6 +37,7 @@ class Host(Protocol):
     diagnostics: Diagnostics
     sensors: SensorSet
     frames: FrameWorker
+    workspace: Workspace | None
     seed: int
 
     @property
@@ -49,13 +51,15 @@ class SensorPlace:
     """A sensor and the link it sits on.
 
     Attributes:
-        name: ``model::link::sensor``.
-        link_name: ``model::link``.
+        name: ``model::link::sensor``, of a joint's sensor ``model::joint::sensor``.
+        link_name: ``model::link``; the joint's child for the sensor of a joint.
+        joint_name: ``model::joint``, empty for a sensor on a link.
     """
 
     name: str
     link_name: str
     sensor: Sensor
+    joint_name: str = ""
 
 
 class Resources:

@@ -9,6 +9,7 @@ from gazelle.simulator.plugins.camera_info import Calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth
+from gazelle.simulator.plugins.gz_measurements import publish_measurement
 from gazelle.simulator.plugins.imu import publish_readings
 from gazelle.simulator.plugins.laser import cloud_builder, scan_builder, start_scans
 from gazelle.simulator.plugins.registry import plain_name
@@ -27,8 +28,9 @@ def is_gz_world(world: World) -> bool:
 def publish_sensor(context: PluginContext) -> None:
     """Publish a sensor on its ``<topic>``, as ROS types under gz names.
 
-    The names are gz-sensors': scans at the topic and ``…/points``, pictures at the topic with
-    ``camera_info`` beside it, RGB-D at ``…/image``, ``…/depth_image`` and ``…/points``.
+    The types are those that ros_gz_bridge maps to, the names gz-sensors': scans at the topic and
+    ``…/points``, pictures at the topic with ``camera_info`` beside it, RGB-D at ``…/image``,
+    ``…/depth_image`` and ``…/points``.
     """
     place = context.place
     assert place is not None
@@ -45,6 +47,8 @@ def publish_sensor(context: PluginContext) -> None:
         publish_readings(context, topic, _frame(place), period, lambda: sensors.imu(place))
     elif isinstance(spec, CameraSpec):
         _publish_camera(context, place, spec)
+    else:
+        publish_measurement(context, place, lambda ending: _topic(context, place, ending))
 
 
 def _publish_camera(context: PluginContext, place: SensorPlace, spec: CameraSpec) -> None:
@@ -81,10 +85,11 @@ def _publish_camera(context: PluginContext, place: SensorPlace, spec: CameraSpec
 def _topic(context: PluginContext, place: SensorPlace, ending: str) -> str:
     if place.sensor.topic:
         return join_names("/", place.sensor.topic)
-    model, link, sensor = place.name.split("::", 1)[0], place.link_name.split("::", 1)[1], place
+    holder = place.joint_name or place.link_name
+    kind, (model, name) = "joint" if place.joint_name else "link", holder.split("::", 1)
     world = context.host.engine.world.name
-    name = f"/world/{world}/model/{model}/link/{link}/sensor/{sensor.sensor.name}/{ending}"
-    return join_names(name)
+    path = f"/world/{world}/model/{model}/{kind}/{name}/sensor/{place.sensor.name}/{ending}"
+    return join_names(path)
 
 
 def _frame(place: SensorPlace) -> str:

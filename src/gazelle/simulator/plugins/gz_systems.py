@@ -41,6 +41,12 @@ TABLE = PluginTable(
         Topic("{topic}, camera_info beside it", "Image and CameraInfo of cameras", "sensor's"),
         Topic("{topic}/image, /depth_image, /points, /camera_info", "of RGB-D cameras", "sensor's"),
         Topic("{topic}", "sensor_msgs/msg/Imu", "sensor's"),
+        Topic("{contact/topic}", "ros_gz_interfaces/msg/Contacts", "every step with a contact"),
+        Topic("{topic} (…/forcetorque)", "geometry_msgs/msg/WrenchStamped", "sensor's"),
+        Topic("{topic} (…/navsat)", "sensor_msgs/msg/NavSatFix", "sensor's"),
+        Topic("{topic} (…/magnetometer)", "sensor_msgs/msg/MagneticField", "sensor's"),
+        Topic("{topic} (…/altimeter)", "ros_gz_interfaces/msg/Altimeter", "sensor's"),
+        Topic("{topic} (…/air_pressure)", "sensor_msgs/msg/FluidPressure", "sensor's"),
     ),
 )
 

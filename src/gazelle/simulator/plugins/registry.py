@@ -32,6 +32,19 @@ _FAMILIES = (
     ("gz_systems", "TABLE", "load"),
     ("gz_systems", "SERVER_TABLE", "load"),
     ("ros_control", "TABLE", "load"),
+    ("bumper", "TABLE", "load"),
+    ("ft_sensor", "TABLE", "load"),
+    ("ft_sensor", "F3D_TABLE", "load_f3d"),
+    ("gps", "TABLE", "load"),
+    ("gps", "HECTOR_TABLE", "load_hector"),
+    ("magnetometer", "TABLE", "load"),
+    ("magnetometer", "BARO_TABLE", "load_baro"),
+    ("range", "TABLE", "load"),
+    ("range", "HECTOR_TABLE", "load_hector"),
+    ("multicamera", "TABLE", "load"),
+    ("block_laser", "TABLE", "load"),
+    ("named", "TABLE", "load"),
+    ("named", "NOTHING_TABLE", "load_nothing"),
 )
 # Compiled plug-ins people meet often, and where their behaviour comes from instead.
 _ELSEWHERE = {

@@ -1,0 +1,148 @@
+"""Contact sensors: ``libgazebo_ros_bumper`` of ROS 1 and ROS 2."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.description.model import ContactSpec
+from gazelle.simulator.messages import header, message_class, vector_message
+from gazelle.simulator.plugins.context import PluginContext, SensorPlace
+from gazelle.simulator.plugins.stream import (
+    prefixed_frame,
+    publish_at,
+    sensor_period,
+    sensor_place,
+)
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+
+if TYPE_CHECKING:
+    from gazelle.engine import Contact
+
+__all__ = ["TABLE", "gz_contacts_message", "load"]
+
+TABLE = PluginTable(
+    family="bumper",
+    summary="Publishes what touches the collisions that the contact sensor around it watches.",
+    filenames=("gazebo_ros_bumper",),
+    behaviour=(
+        "Every reading is published, with no states when nothing touches. There is one state per"
+        " pair of collisions, the watched one first.",
+        "As in Gazebo, positions and normals are in the world frame whatever `frameName` says; the"
+        " wrenches act on the watched link, in its own axes and about its centre of mass.",
+    ),
+    topics=(
+        Topic(
+            "{bumperTopicName}",
+            "gazebo_msgs/msg/ContactsState",
+            "sensor's `update_rate`",
+            "`frameName`",
+        ),
+    ),
+    parameters=(
+        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("bumperTopicName", "text", "bumper_states", "topic (ROS 1)"),
+        Parameter(
+            "frameName", "text", "world", "`header.frame_id` and nothing else", "", ("frame_name",)
+        ),
+        Parameter("alwaysOn", "none", "", "contacts are read while somebody subscribes"),
+        Parameter("updateRate", "none", "", "the sensor's rate governs"),
+    ),
+)
+
+
+def load(context: PluginContext) -> None:
+    """Start publishing the contacts of the sensor the plug-in stands in."""
+    parameters = context.reader(TABLE)
+    place = sensor_place(context, ContactSpec, "a contact sensor")
+    if place is not None:
+        ros2 = parameters.ros.present
+        name = "bumper_states" if ros2 else parameters.text("bumperTopicName")
+        frame = parameters.text("frameName")
+        frame = frame if ros2 else prefixed_frame(context, parameters, "frameName")
+        publish_at(
+            context,
+            context.topic(parameters, name),
+            "gazebo_msgs/ContactsState",
+            sensor_period(context, place),
+            lambda time_ns: _message(context, place, frame, time_ns),
+        )
+    parameters.report_unread()
+
+
+def _message(context: PluginContext, place: SensorPlace, frame: str, time_ns: int) -> Any:
+    contacts = context.host.sensors.measurements.contacts(place).contacts
+    return message_class("gazebo_msgs/ContactsState")(
+        header=header(time_ns, frame),
+        states=[
+            _state(context, contact, f"{number}/{len(contacts)}", time_ns)
+            for number, contact in enumerate(contacts)
+        ],
+    )
+
+
+def _state(context: PluginContext, contact: Contact, count: str, time_ns: int) -> Any:
+    from gazelle.sensors import link_wrenches
+
+    link = context.host.engine.link(contact.collision1.rsplit("::", 1)[0])
+    forces, torques = link_wrenches(contact, link.T_world_link(), link.com_world())
+    seconds, rest = divmod(time_ns, 1_000_000_000)
+    info = f"Debug:  i:({count})     my geom:{contact.collision1}   other geom:"
+    info += f"{contact.collision2}         time:{seconds}.{rest:09d}\n"
+    return message_class("gazebo_msgs/ContactState")(
+        info=info,
+        collision1_name=contact.collision1,
+        collision2_name=contact.collision2,
+        wrenches=[_wrench(f, t) for f, t in zip(forces, torques, strict=True)],
+        total_wrench=_wrench(forces.sum(axis=0), torques.sum(axis=0)),
+        contact_positions=[vector_message(point) for point in contact.points_m],
+        contact_normals=[vector_message(normal) for normal in contact.normals],
+        depths=contact.depths_m,
+    )
+
+
+def gz_contacts_message(context: PluginContext, place: SensorPlace, time_ns: int) -> Any:
+    """Return ``ros_gz_interfaces/Contacts`` of a gz contact sensor; None when nothing touches.
+
+    Forces are in the world frame there.
+    """
+    contacts = context.host.sensors.measurements.contacts(place).contacts
+    if not contacts:
+        return None
+    return message_class("ros_gz_interfaces/Contacts")(
+        header=header(time_ns, place.sensor.frame_id or place.name.replace("::", "/")),
+        contacts=[_gz_contact(contact, time_ns) for contact in contacts],
+    )
+
+
+def _gz_contact(contact: Contact, time_ns: int) -> Any:
+    entity, joint_wrench = (
+        message_class(f"ros_gz_interfaces/{name}") for name in ("Entity", "JointWrench")
+    )
+    text, zero = message_class("std_msgs/String"), np.zeros(3)
+    collision = entity.COLLISION
+    bodies = [name.rsplit("::", 1)[0] for name in (contact.collision1, contact.collision2)]
+    return message_class("ros_gz_interfaces/Contact")(
+        collision1=entity(name=contact.collision1, type=collision),
+        collision2=entity(name=contact.collision2, type=collision),
+        positions=[vector_message(point) for point in contact.points_m],
+        normals=[vector_message(normal) for normal in contact.normals],
+        depths=contact.depths_m,
+        wrenches=[
+            joint_wrench(
+                header=header(time_ns, ""),
+                body_1_name=text(data=bodies[0]),
+                body_2_name=text(data=bodies[1]),
+                body_1_wrench=_wrench(force, zero),
+                body_2_wrench=_wrench(-force, zero),
+            )
+            for force in contact.forces_n
+        ],
+    )
+
+
+def _wrench(force: Any, torque: Any) -> Any:
+    return message_class("geometry_msgs/Wrench")(
+        force=vector_message(force), torque=vector_message(torque)
+    )

@@ -1,0 +1,84 @@
+"""Plug-ins that are known by name: what they would do, and what there is instead."""
+
+from __future__ import annotations
+
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.registry import plain_name
+from gazelle.simulator.plugins.table import PluginTable
+
+__all__ = ["NOTHING_TABLE", "TABLE", "load", "load_nothing"]
+
+# Name, and what does not happen; each says what to use instead where there is something.
+_MISSING = {
+    "gazebo_ros_elevator": "the elevator does not move to floors on command; drive its lift joint "
+    "with a position controller",
+    "ElevatorPlugin": "the elevator does not move to floors on command; drive its lift joint with "
+    "a position controller",
+    "gz-sim-elevator-system": "the elevator does not move to floors on command; drive its lift "
+    "joint with a position controller",
+    "gazebo_ros_harness": "the model is not held by a harness; pause the world until it is to fall",
+    "HarnessPlugin": "the model is not held by a harness; pause the world until it is to fall",
+    "gazebo_ros_hand_of_god": "the link does not follow a tf frame; move the model with "
+    "/gazebo/set_model_state",
+    "gazebo_ros_video": "no pictures are shown on the visual; cameras see its material",
+    "gazebo_ros_projector": "no picture is projected; cameras see the scene without it",
+    "gazebo_ros_joint_pose_trajectory": "joints do not follow trajectory_msgs on set_joint_"
+    "trajectory; use a joint_trajectory_controller",
+    "gazebo_ros_triggered_camera": "pictures are not taken on a trigger; use gazebo_ros_camera, "
+    "which publishes at the sensor's rate",
+    "gazebo_ros_triggered_multicamera": "pictures are not taken on a trigger; use "
+    "gazebo_ros_multicamera, which publishes at the sensor's rate",
+    "ActorPlugin": "actors do not walk around obstacles",
+    "BuoyancyPlugin": "nothing floats",
+    "gz-sim-buoyancy-system": "nothing floats",
+    "LiftDragPlugin": "wings and rotors feel no air",
+    "gz-sim-lift-drag-system": "wings and rotors feel no air",
+    "WindPlugin": "links feel no wind",
+    "gz-sim-wind-effects-system": "links feel no wind",
+    "gz-sim-logical-camera-system": "logical cameras see nothing; use the models' poses",
+    "gz-sim-thermal-system": "thermal cameras see nothing",
+    "gz-sim-air-speed-system": "air speed sensors give no data",
+    "gz-sim-dvl-system": "Doppler velocity logs give no data",
+}
+_NOTHING = {
+    "gazebo_ros_template": "a template to copy, which does nothing in Gazebo either",
+    "gazebo_ros_utils": "a library for other plug-ins, none itself",
+    "gazebo_ros_camera_utils": "a library for other plug-ins, none itself",
+    "MultiCameraPlugin": "the base of gazebo_ros_multicamera, which publishes nothing itself",
+    "CameraPlugin": "the base of camera plug-ins, which publishes nothing itself",
+    "DepthCameraPlugin": "the base of depth camera plug-ins, which publishes nothing itself",
+    "RayPlugin": "the base of laser plug-ins, which publishes nothing itself",
+    "ContactPlugin": "the base of contact plug-ins, which publishes nothing itself",
+    "ImuSensorPlugin": "the base of IMU plug-ins, which publishes nothing itself",
+}
+
+TABLE = PluginTable(
+    family="known by name",
+    summary="Plug-ins that are known and not simulated; a warning says what does not happen.",
+    filenames=tuple(_MISSING),
+    behaviour=tuple(f"`{name}`: {meaning}." for name, meaning in _MISSING.items()),
+)
+
+NOTHING_TABLE = PluginTable(
+    family="without effect",
+    summary="Libraries that do nothing by themselves in Gazebo either.",
+    filenames=tuple(_NOTHING),
+    behaviour=tuple(f"`{name}`: {meaning}." for name, meaning in _NOTHING.items()),
+)
+
+
+def load(context: PluginContext) -> None:
+    """Say what does not happen."""
+    _report(context, "plugin.named-only", _MISSING)
+
+
+def load_nothing(context: PluginContext) -> None:
+    """Say that there is nothing to do."""
+    _report(context, "plugin.without-effect", _NOTHING)
+
+
+def _report(context: PluginContext, code: str, meanings: dict[str, str]) -> None:
+    plugin = context.plugin
+    wanted = {plain_name(plugin.filename), plain_name(plugin.name)}
+    meaning = next(text for name, text in meanings.items() if plain_name(name) in wanted)
+    context.report(code, f"plug-in '{plugin.name}' ({plugin.filename}): {meaning}")
