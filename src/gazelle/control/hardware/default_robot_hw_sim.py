@@ -9,10 +9,10 @@ from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.joint_states import JOINT_STATES, JointStates
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.hardware.ros1_section import Ros1Section
+from gazelle.control.pid import PidBank, PidGains
 from gazelle.control.robot import JointResource
 
 if TYPE_CHECKING:
-    from gazelle.control.pid import PidGains
     from gazelle.engine import Engine
 
 __all__ = ["DefaultRobotHWSim"]
@@ -127,8 +127,6 @@ def _sections(
         if without:
             made.append(Ros1Section(engine, bank, model, joints, without, None))
         if with_pids:
-            from gazelle.control.pid import PidBank
-
             pids = PidBank(tuple(gains[joints[place].name] for place in with_pids))
             made.append(Ros1Section(engine, bank, model, joints, with_pids, pids))
     return made

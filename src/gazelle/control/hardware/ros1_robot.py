@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
-
 from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
 from gazelle.control.hardware.description import ControlDescription, description_of
 from gazelle.control.hardware.holding import joints_to_hold
 from gazelle.control.hardware.host import HardwareHost, ParameterStore
+from gazelle.control.hardware.ros1_gains import gains_parameters, read_joint_gains
 from gazelle.control.hardware.ros1_joints import read_ros1_joints
 from gazelle.control.robot import Robot
 from gazelle.control.sources.source import ParameterSource
 from gazelle.description.model import Model
-
-if TYPE_CHECKING:
-    from gazelle.control.pid import PidGains
 
 __all__ = ["build_ros1_robot"]
 
@@ -28,8 +23,8 @@ def build_ros1_robot(
     parameters: ParameterStore,
     *,
     namespace: str = "",
+    gains_namespace: str | None = None,
     description: ControlDescription | None = None,
-    gains: Mapping[str, PidGains] | None = None,
     plugin: str = "gazebo_ros_control/DefaultRobotHWSim",
 ) -> Robot:
     """Return the robot of a model in the world; joints to be held are held from now on.
@@ -40,20 +35,22 @@ def build_ros1_robot(
         source: configured controllers: the joints they name are held.
         parameters: the parameter store.
         namespace: of the robot, absolute; empty or ``/`` for none.
+        gains_namespace: where ``gazebo_ros_control/pid_gains`` lies; the robot's when None.
         description: joints and transmissions; the model's own when None.
-        gains: PIDs of position and velocity joints, by name.
         plugin: class of the hardware that the file names.
     """
     prefix = "/" + namespace.strip("/") if namespace.strip("/") else ""
     described = description or description_of(model)
     joints = read_ros1_joints(host, model, described, parameters, prefix)
+    place = prefix if gains_namespace is None else gains_namespace.rstrip("/")
+    gains = gains_parameters(parameters, place, host.diagnostics)
     bank = InterfaceBank()
     hardware = DefaultRobotHWSim(
         host.engine,
         bank,
         model.name,
         joints,
-        gains=gains,
+        gains=read_joint_gains(gains, model, joints),
         held=joints_to_hold(joints, source),
         plugin=plugin,
     )

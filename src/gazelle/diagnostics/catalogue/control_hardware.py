@@ -121,6 +121,15 @@ _JOINTS = (
 
 _LOADING = (
     Entry(
+        "control.ideal-servo",
+        "info",
+        "Position joints without gains are ideal servos",
+        "They go where they are told whatever it takes, as in Gazebo, where the log calls it an "
+        "error.",
+        "nothing, or set <namespace>/gazebo_ros_control/pid_gains/<joint> to p, i and d",
+        "No p gain specified for pid.",
+    ),
+    Entry(
         "control.period",
         "warning",
         "The control period does not fit the physics step",

@@ -23,6 +23,7 @@ def load(context: PluginContext) -> None:
     """Make the robot and its controller manager; controllers are loaded later, by spawners."""
     parameters = context.reader(TABLE)
     manager = _make(context, parameters)
+    _offer_gains(context, manager, _gains_namespace(context, parameters, manager.namespace))
     _listen_for_stop(context, parameters, manager)
     parameters.report_unread()
 
@@ -71,9 +72,45 @@ def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) 
         _source(context, namespace),
         context.host.node.parameters,
         namespace=namespace,
+        gains_namespace=_gains_namespace(context, parameters, namespace),
         description=_description(context, parameters, namespace),
         plugin=plugin,
     )
+
+
+def _gains_namespace(context: PluginContext, parameters: ParameterReader, namespace: str) -> str:
+    """Return where the gains lie: in Kinetic and Melodic they are outside the namespace."""
+    from gazelle.control.hardware.ros1_gains import GAINS_NAME
+
+    if parameters.has("legacyModeNS"):
+        return "" if parameters.flag("legacyModeNS") else namespace
+    store = context.host.node.parameters
+    own = store.get(join_names(namespace, GAINS_NAME), None)
+    return "" if own is None and store.get(f"/{GAINS_NAME}", None) is not None else namespace
+
+
+def _offer_gains(context: PluginContext, manager: ControllerManager, namespace: str) -> None:
+    """Let the gains of joints be changed while the robot runs, by dynamic_reconfigure."""
+    from gazelle.control.controllers.controller import ControllerContext
+    from gazelle.control.hardware.ros1_gains import gains_parameters
+    from gazelle.control.pid import offer_live_gains
+    from gazelle.simulator.control_ports import make_ports
+
+    host = context.host
+    hardware: DefaultRobotHWSim = manager.robot.components[0]  # type: ignore[assignment]
+    with_pids = [section for section in hardware.sections if section.pids is not None]
+    if not with_pids:
+        return
+    parameters = gains_parameters(host.node.parameters, namespace.rstrip("/"), host.diagnostics)
+    ports = make_ports(host, context.resources, namespace, "gazebo_ros_control", 1)
+    rate_hz = 1e9 / host.engine.step_ns
+    owner = ControllerContext(
+        "gazebo_ros_control", hardware.plugin, manager.robot, parameters, ports, rate_hz
+    )
+    for section in with_pids:
+        assert section.pids is not None
+        for place, name in enumerate(section.names):
+            offer_live_gains(owner, f"pid_gains/{name}", (section.pids, place))
 
 
 def _source(context: PluginContext, namespace: str) -> Any:
