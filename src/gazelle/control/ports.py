@@ -54,6 +54,11 @@ class GoalPort(Protocol):
         """True once a client asked to cancel and the server agreed."""
         ...
 
+    @property
+    def is_feedback_wanted(self) -> bool:
+        """True when somebody would get feedback; cheap enough to ask at every tick."""
+        ...
+
     def accept(self) -> None:
         """Take the goal; it is being executed from now on."""
         ...

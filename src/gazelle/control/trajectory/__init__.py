@@ -1,0 +1,1 @@
+"""Trajectories of joints: reading, splines, replacement, tolerances; no topics, no hardware."""

@@ -1,0 +1,214 @@
+"""ROS 1's trajectories: segments that begin and end at their own times, spliced when replaced.
+
+Behaviour: ``joint_trajectory_controller`` of ros_controllers (``initJointTrajectory``,
+``TrajectoryInterface``, ``HoldTrajectoryBuilder``, ``StopTrajectoryBuilder``).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from gazelle.control.bank import Array, Indices
+from gazelle.control.trajectory.splines import JointState, PieceSampler, quintic, stacked
+from gazelle.control.trajectory.tolerances import Tolerances
+
+__all__ = ["Segment", "SegmentTrajectory", "Track", "hold", "ramp_down"]
+
+_SECONDS = 1e-9
+
+
+class Segment(NamedTuple):
+    """One polynomial of a track.
+
+    Attributes:
+        start_ns: when it begins.
+        end_ns: when it ends.
+        duration_s: how long it lasts.
+        coefficients: (6, 3 M), see `stacked`.
+        from_start_s: ``time_from_start`` of the waypoint it begins with.
+        is_of_goal: whether the goal that is executed owns it, so tolerances are checked.
+        tolerances: those to check, None for none.
+    """
+
+    start_ns: int
+    end_ns: int
+    duration_s: float
+    coefficients: Array
+    from_start_s: float = 0.0
+    is_of_goal: bool = False
+    tolerances: Tolerances | None = None
+
+    @classmethod
+    def between(cls, start_ns: int, start: JointState, end_ns: int, end: JointState) -> Segment:
+        """Return the segment from one waypoint to another."""
+        duration_s = (end_ns - start_ns) * _SECONDS
+        return cls(start_ns, end_ns, duration_s, stacked(quintic(start, end, duration_s)))
+
+
+@dataclass(slots=True)
+class Track:
+    """The segments of joints that move together.
+
+    Attributes:
+        places: (M,) places of the joints in the controller.
+        segments: in order of time; the last one holds for ever.
+        cursor: which segment the last `sample` was in.
+        state: (3, M) of the last `sample`.
+    """
+
+    places: Indices
+    segments: list[Segment]
+    cursor: int = 0
+    state: Array = field(init=False)
+    _starts_ns: list[int] = field(init=False)
+    _sampler: PieceSampler = field(init=False)
+    _rest: float = field(init=False, default=-1.0)
+
+    def __post_init__(self) -> None:
+        self._starts_ns = [segment.start_ns for segment in self.segments]
+        self._sampler = PieceSampler(len(self.places))
+        self.state = self._sampler.state
+
+    def index_at(self, time_ns: int) -> int:
+        """Return which segment is active at a time; 0 before the first one."""
+        return max(bisect_right(self._starts_ns, time_ns) - 1, 0)
+
+    def sample(self, time_ns: int) -> bool:
+        """Put the state at a time into `state`; outside a segment joints rest at its ends.
+
+        Returns:
+            False when nothing changed since the last call, because the joints rest.
+        """
+        starts, cursor = self._starts_ns, self.cursor
+        if time_ns < starts[cursor] or (cursor + 1 < len(starts) and starts[cursor + 1] <= time_ns):
+            self.cursor = cursor = self.index_at(time_ns)
+            self._rest = -1.0
+        segment = self.segments[cursor]
+        time_s = (time_ns - segment.start_ns) * _SECONDS
+        inside_s = min(max(time_s, 0.0), segment.duration_s)
+        if inside_s == time_s:
+            self._rest = -1.0
+        elif inside_s == self._rest:
+            return False
+        self._sampler.sample(segment.coefficients, inside_s)
+        if inside_s != time_s:
+            self.state[1:] = 0.0
+            self._rest = inside_s
+        return True
+
+    def state_at(self, time_ns: int) -> JointState:
+        """Return the state at a time; the last sample stays."""
+        segment = self.segments[self.index_at(time_ns)]
+        time_s = (time_ns - segment.start_ns) * _SECONDS
+        inside_s = min(max(time_s, 0.0), segment.duration_s)
+        sampler = PieceSampler(len(self.places))
+        sampler.sample(segment.coefficients, inside_s)
+        if inside_s != time_s:
+            sampler.state[1:] = 0.0
+        return JointState(*sampler.state)
+
+    def joints(self, columns: Indices) -> Track:
+        """Return the track of some of its joints, given by column."""
+        wanted = np.concatenate([columns + k * len(self.places) for k in range(3)])
+        segments = [
+            segment._replace(
+                coefficients=segment.coefficients[:, wanted],
+                tolerances=segment.tolerances and segment.tolerances.of_joints(columns),
+            )
+            for segment in self.segments
+        ]
+        return Track(self.places[columns], segments)
+
+
+@dataclass(slots=True)
+class SegmentTrajectory:
+    """What all joints of a controller are to do.
+
+    Attributes:
+        tracks: each joint is in one of them.
+        state: (3, N), position, velocity and acceleration of the last `sample`.
+    """
+
+    tracks: list[Track]
+    state: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        if len(self.tracks) == 1:
+            self.state = self.tracks[0].state
+        else:
+            self.state = np.zeros((3, sum(len(track.places) for track in self.tracks)))
+
+    def sample(self, time_ns: int) -> bool:
+        """Put the state at a time into `state`; False when nothing changed since the last call."""
+        if len(self.tracks) == 1:
+            return self.tracks[0].sample(time_ns)
+        changed = False
+        for track in self.tracks:
+            if track.sample(time_ns):
+                self.state[:, track.places] = track.state
+                changed = True
+        return changed
+
+    def state_at(self, time_ns: int) -> JointState:
+        """Return the state at a time; the last sample stays."""
+        both = np.zeros_like(self.state)
+        for track in self.tracks:
+            state = track.state_at(time_ns)
+            both[0, track.places] = state.position
+            both[1, track.places] = state.velocity
+            both[2, track.places] = state.acceleration
+        return JointState(*both)
+
+    @property
+    def start_ns(self) -> int:
+        """Time from which on all joints have something to do."""
+        return max(track.segments[0].start_ns for track in self.tracks)
+
+    def track_of(self, joint: int) -> tuple[Track, int]:
+        """Return the track of a joint and its column there."""
+        return next(found for found in self._columns() if found[0].places[found[1]] == joint)
+
+    def _columns(self) -> Iterator[tuple[Track, int]]:
+        for track in self.tracks:
+            for column in range(len(track.places)):
+                yield track, column
+
+
+def hold(position: Array, time_ns: int, *, is_of_goal: bool = False) -> SegmentTrajectory:
+    """Return a trajectory that stays at a place."""
+    zero = np.zeros(len(position))
+    state = JointState(position, zero, zero)
+    return _one(Segment.between(time_ns, state, time_ns, state), is_of_goal)
+
+
+def ramp_down(
+    position: Array,
+    velocity: Array,
+    time_ns: int,
+    duration_ns: int,
+    *,
+    is_of_goal: bool = False,
+) -> SegmentTrajectory:
+    """Return a trajectory that stops within some time (``stop_trajectory_duration``).
+
+    It is the first half of the quintic that would come back with the opposite velocity.
+    """
+    zero = np.zeros(len(position))
+    start = JointState(position, velocity, zero)
+    back = JointState(position, -velocity, zero)
+    twice = Segment.between(time_ns, start, time_ns + 2 * duration_ns, back)
+    sampler = PieceSampler(len(position))
+    sampler.sample(twice.coefficients, duration_ns * _SECONDS)
+    end = JointState(*sampler.state)
+    return _one(Segment.between(time_ns, start, time_ns + duration_ns, end), is_of_goal)
+
+
+def _one(segment: Segment, is_of_goal: bool) -> SegmentTrajectory:
+    n = segment.coefficients.shape[1] // 3
+    track = Track(np.arange(n, dtype=np.intp), [segment._replace(is_of_goal=is_of_goal)])
+    return SegmentTrajectory([track])

@@ -1,0 +1,119 @@
+"""Reads trajectory_msgs/JointTrajectory into arrays in the controller's order of joints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from gazelle.control.bank import Array, Indices
+from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
+from gazelle.control.trajectory.splines import JointState
+
+__all__ = ["Waypoints", "check_joints", "duration_ns", "read_waypoints"]
+
+_NANO = 1_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Waypoints:
+    """A trajectory of some of a controller's joints.
+
+    Attributes:
+        places: (M,) places of the joints in the controller, rising.
+        times_ns: when each waypoint is to be reached, since the start.
+        states: the waypoints, columns in the order of `places`.
+        stamp_ns: when it starts; 0 means now.
+    """
+
+    places: Indices
+    times_ns: tuple[int, ...]
+    states: tuple[JointState, ...]
+    stamp_ns: int
+
+    def joints(self, columns: Indices) -> Waypoints:
+        """Return the trajectory of some of its joints, given by column."""
+        states = tuple(_columns(state, columns) for state in self.states)
+        return Waypoints(self.places[columns], self.times_ns, states, self.stamp_ns)
+
+
+def duration_ns(value: Any) -> int:
+    """Return a time or duration message in ns."""
+    return int(value.sec) * _NANO + int(value.nanosec)
+
+
+def check_joints(names: Sequence[str], joints: Sequence[str], *, allow_partial: bool) -> Indices:
+    """Return the places of a message's joints in the controller.
+
+    Raises:
+        TrajectoryError: joints are missing, unknown or there twice.
+    """
+    text = ""
+    unknown = [name for name in names if name not in joints]
+    missing = [name for name in joints if name not in names]
+    if unknown:
+        text = f"; '{unknown[0]}' is none of {', '.join(joints)}"
+    elif not names:
+        text = "; there are no joint names"
+    elif len(set(names)) < len(names):
+        text = "; a joint is there twice"
+    elif missing and not allow_partial:
+        text = f"; '{missing[0]}' is missing (allow_partial_joints_goal is false)"
+    if text:
+        text = f"Joints on incoming goal don't match the controller joints{text}"
+        raise TrajectoryError(ErrorCode.INVALID_JOINTS, text)
+    return np.array([joints.index(name) for name in names], dtype=np.intp)
+
+
+def read_waypoints(trajectory: Any, places: Indices) -> Waypoints:
+    """Read a trajectory message whose joints were checked.
+
+    Args:
+        trajectory: trajectory_msgs/JointTrajectory with ROS 2's fields.
+        places: places of its joints in the controller.
+
+    Raises:
+        TrajectoryError: a field has not one value for each joint, a value is not finite, or the
+            points do not follow each other in time.
+    """
+    order = np.argsort(places)
+    states = tuple(
+        _state(point, number, order, len(places)) for number, point in enumerate(trajectory.points)
+    )
+    times_ns = tuple(duration_ns(point.time_from_start) for point in trajectory.points)
+    for number, (before, after) in enumerate(pairwise(times_ns)):
+        if after <= before:
+            text = "Trajectory message contains waypoints that are not strictly increasing in time."
+            text += f" Time between points {number} and {number + 1} is not strictly increasing, it"
+            text += f" is {before / _NANO:f} and {after / _NANO:f} respectively"
+            raise TrajectoryError(ErrorCode.INVALID_GOAL, text)
+    return Waypoints(places[order], times_ns, states, duration_ns(trajectory.header.stamp))
+
+
+def _state(point: Any, number: int, order: Indices, n_joints: int) -> JointState:
+    fields: list[Array | None] = []
+    for name in ("positions", "velocities", "accelerations", "effort"):
+        values = np.asarray(getattr(point, name), dtype=np.float64)
+        if len(values) not in (0, n_joints):
+            text = "Size mismatch in trajectory point position, velocity or acceleration data. "
+            text += f"Mismatch between joint_names size ({n_joints}) and {name} ({len(values)}) "
+            raise TrajectoryError(ErrorCode.INVALID_GOAL, f"{text}at point #{number}.")
+        if not np.isfinite(values).all():
+            text = f"{name} of point #{number} are not finite numbers: {values.tolist()}"
+            raise TrajectoryError(ErrorCode.INVALID_GOAL, text)
+        fields.append(values[order] if len(values) else None)
+    position = fields[0] if fields[0] is not None else np.empty(0)
+    return JointState(position, *fields[1:])
+
+
+def _columns(state: JointState, columns: Indices) -> JointState:
+    return JointState(
+        state.position[columns] if len(state.position) else state.position,
+        *(
+            None if values is None else values[columns]
+            for values in (state.velocity, state.acceleration, state.effort)
+        ),
+    )
