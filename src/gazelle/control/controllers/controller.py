@@ -28,6 +28,7 @@ class ControllerContext:
         parameters: its own.
         ports: the outside world.
         update_rate_hz: how often `update` will be called.
+        namespace: of the controller manager, without slashes at its ends; empty for the root.
     """
 
     name: str
@@ -36,6 +37,7 @@ class ControllerContext:
     parameters: ControllerParameters
     ports: Ports
     update_rate_hz: float
+    namespace: str = ""
 
     @property
     def generation(self) -> int:

@@ -11,7 +11,16 @@ from gazelle.control.table import ControllerTable
 __all__ = ["all_tables", "controller_class", "known_types"]
 
 # Modules of `gazelle.control.controllers` and the classes in them, in the documentation's order.
-_FAMILIES: tuple[tuple[str, str], ...] = ()
+_FAMILIES: tuple[tuple[str, str], ...] = (
+    ("diff_drive", "DiffDriveController"),
+    ("ackermann_steering", "AckermannSteeringController"),
+    ("bicycle_steering", "BicycleSteeringController"),
+    ("tricycle_steering", "TricycleSteeringController"),
+    ("tricycle", "TricycleController"),
+    ("four_wheel_steering", "FourWheelSteeringController"),
+    ("mecanum_drive", "MecanumDriveController"),
+    ("omni_wheel_drive", "OmniWheelDriveController"),
+)
 
 
 @cache

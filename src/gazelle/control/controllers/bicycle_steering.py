@@ -1,0 +1,33 @@
+"""``bicycle_steering_controller/BicycleSteeringController`` of ROS 2."""
+
+from __future__ import annotations
+
+from gazelle.control.controllers.controller import ControllerContext
+from gazelle.control.controllers.drive_controller import Drive, DriveController
+from gazelle.control.controllers.steering_drive import SteeringDrive, SteeringKind
+from gazelle.control.controllers.steering_table import (
+    LIBRARY_BEHAVIOUR,
+    library_rows,
+    library_topics,
+)
+from gazelle.control.table import ControllerTable
+
+__all__ = ["BicycleSteeringController"]
+
+
+class BicycleSteeringController(DriveController):
+    """One driven and one steered wheel."""
+
+    TABLE = ControllerTable(
+        family="bicycle_steering",
+        summary="Drives a base with one driven and one steered wheel and publishes odometry.",
+        types=("bicycle_steering_controller/BicycleSteeringController",),
+        interfaces="claims velocity of the driven and position of the steered joint; reads"
+        " velocity and position",
+        parameters=library_rows("traction_wheel_radius"),
+        topics=library_topics(),
+        behaviour=LIBRARY_BEHAVIOUR,
+    )
+
+    def _make(self, context: ControllerContext) -> Drive:
+        return SteeringDrive(context, SteeringKind.BICYCLE)

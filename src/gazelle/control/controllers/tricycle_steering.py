@@ -1,0 +1,44 @@
+"""``tricycle_steering_controller/TricycleSteeringController`` of ROS 2."""
+
+from __future__ import annotations
+
+from gazelle.control.controllers.controller import ControllerContext
+from gazelle.control.controllers.drive_controller import Drive, DriveController
+from gazelle.control.controllers.steering_drive import SteeringDrive, SteeringKind
+from gazelle.control.controllers.steering_table import (
+    LIBRARY_BEHAVIOUR,
+    library_rows,
+    library_topics,
+)
+from gazelle.control.table import ControllerTable, Parameter
+
+__all__ = ["TricycleSteeringController"]
+
+
+class TricycleSteeringController(DriveController):
+    """Two driven wheels and one steered wheel."""
+
+    TABLE = ControllerTable(
+        family="tricycle_steering",
+        summary="Drives a base with two driven wheels and one steered wheel, and publishes"
+        " odometry.",
+        types=("tricycle_steering_controller/TricycleSteeringController",),
+        interfaces="claims velocity of the driven and position of the steered joint; reads"
+        " velocity and position",
+        parameters=(
+            *library_rows("traction_wheels_radius"),
+            Parameter(
+                "traction_track_width",
+                "number",
+                None,
+                "distance of the driven wheels",
+                unit="m",
+                aliases=("wheel_track",),
+            ),
+        ),
+        topics=library_topics(),
+        behaviour=LIBRARY_BEHAVIOUR,
+    )
+
+    def _make(self, context: ControllerContext) -> Drive:
+        return SteeringDrive(context, SteeringKind.TRICYCLE)

@@ -1,0 +1,1 @@
+"""Wheeled bases: kinematics, odometry, speed limits, and what their controllers share."""

@@ -1,0 +1,62 @@
+"""Measures of wheels: parameters first, the robot's description second."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gazelle.control.controllers.controller import ControllerContext
+from gazelle.control.errors import ControllerError
+from gazelle.control.wheels.urdf_geometry import joint_offset_m
+
+__all__ = ["measure", "positive", "report_exchanged"]
+
+
+def positive(context: ControllerContext, key: str) -> float:
+    """Return a length that must be given and be above 0.
+
+    Raises:
+        ControllerError: it is missing or not above 0.
+    """
+    parameters = context.parameters
+    parameters.require(key)
+    return _checked(context, key, parameters.number(key))
+
+
+def measure(context: ControllerContext, key: str, described: Callable[[], float]) -> float:
+    """Return a length from the parameters, or from the robot's description.
+
+    Raises:
+        ControllerError: neither has it, or it is not above 0.
+    """
+    parameters = context.parameters
+    if parameters.has(key):
+        return _checked(context, key, parameters.number(key))
+    try:
+        value = described()
+    except ControllerError as error:
+        raise ControllerError(f"controller '{context.name}': {error}") from None
+    if context.generation == 1:
+        context.ports.log("info", f"{key} {value:g} m is taken from the robot's description")
+    else:
+        text = f"{key} is not given; {value:g} m of the robot's description is used. Real ROS 2 "
+        text += f"would refuse: Invalid value set during initialization for parameter '{key}'"
+        parameters.report("control.wheel-measure", text, fix=f"give {key}: {value:g}")
+    return _checked(context, key, value)
+
+
+def report_exchanged(context: ControllerContext, left: str, right: str) -> None:
+    """Report a left wheel that stands to the right of the right one: turns go the wrong way."""
+    model = context.robot.model
+    if model.joint(left) is None or model.joint(right) is None:
+        return
+    gap = joint_offset_m(model, right, left, 1)
+    if gap < 0:
+        text = f"'{left}' is named as a left wheel and stands {-gap:g} m to the right of '{right}'"
+        text += ": the base turns right when it is told to turn left"
+        context.parameters.report("control.wheels-exchanged", text, fix="exchange the names")
+
+
+def _checked(context: ControllerContext, key: str, value: float) -> float:
+    if value > 0:
+        return value
+    raise ControllerError(f"controller '{context.name}': {key} is {value:g}, it must be above 0")
