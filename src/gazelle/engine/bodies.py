@@ -18,6 +18,7 @@ from gazelle.engine.library import mujoco
 from gazelle.engine.names import part_of, scoped
 from gazelle.engine.shapes import add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
+from gazelle.engine.tyres import add_tyre
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay"]
@@ -70,12 +71,16 @@ class SpecBuilder:
         spec: MuJoCo's spec.
         diagnostics: takes what is mapped, clipped or ignored.
         step_s: length of a step.
+        slipping: wheel joints whose links get a tyre.
+        tyres: name of the tyre's body by link.
     """
 
     world: World
     spec: Any
     diagnostics: Diagnostics
     step_s: float
+    slipping: frozenset[str] = frozenset()
+    tyres: dict[str, str] = field(default_factory=dict)
     geoms: list[BuiltGeom] = field(default_factory=list)
     decays: list[VelocityDecay] = field(default_factory=list)
     trees: dict[str, KinematicTree] = field(default_factory=dict)
@@ -103,8 +108,9 @@ class SpecBuilder:
                 is_root = entry.parent is None or entry.parent in fixed
                 self._add_motion(model, entry, body, is_root=is_root)
                 self._add_mass(model, entry, body, inertias[entry.link.name], moved)
+            carrier = body if static else self._tyre(model, entry, body)
             for collision in entry.link.collisions:
-                self._add_collision(model, entry.link, collision, body, static, mass)
+                self._add_collision(model, entry.link, collision, carrier, static, mass)
         for joint in model.joints:
             if joint.mimic is not None and not model.static:
                 add_mimic(self.spec, joint, model.name, self.step_s)
@@ -137,6 +143,16 @@ class SpecBuilder:
             allowed = model.allow_auto_disable
             body.sleep = policy.mjSLEEP_ALLOWED if allowed else policy.mjSLEEP_NEVER
         self._add_decay(entry.link, name, is_free=joint is None)
+
+    def _tyre(self, model: Model, entry: TreeLink, body: Any) -> Any:
+        """Return the body that carries a link's collisions."""
+        joint = "" if entry.joint is None else scoped(model.name, entry.joint.name)
+        if joint not in self.slipping:
+            return body
+        name = scoped(model.name, entry.link.name)
+        carrier = add_tyre(body, name, joint, entry)
+        self.tyres[name] = carrier.name
+        return carrier
 
     def _add_decay(self, link: Link, name: str, *, is_free: bool) -> None:
         if link.linear_damping <= 0 and link.angular_damping <= 0:

@@ -19,6 +19,7 @@ from gazelle.engine.locks import add_lock
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.names import root_joint, rotor_joint, scoped
+from gazelle.engine.tyres import correct_weights
 from gazelle.engine.welds import add_weld
 from gazelle.errors import EngineError
 
@@ -39,11 +40,13 @@ class Extras:
         motors: full names of the joints that get a motor.
         locks: full names of the joints that get a lock.
         welds: pairs of full names of links that can be held together.
+        slipping: full names of the joints of wheels that slip.
     """
 
     motors: tuple[str, ...] = ()
     locks: tuple[str, ...] = ()
     welds: tuple[tuple[str, str], ...] = ()
+    slipping: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +92,7 @@ def compile_world(
     """
     _check_names(world)
     spec = _new_spec(world, step_s)
-    builder = SpecBuilder(world, spec, diagnostics, step_s)
+    builder = SpecBuilder(world, spec, diagnostics, step_s, extras.slipping)
     for model in world.models:
         builder.add_model(model)
     for model in world.models:
@@ -177,6 +180,7 @@ def _finish(
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
     if motors or builder.decays:
         mujoco.mj_setConst(model, mujoco.MjData(model))
+    correct_weights(model, [(name, link) for link, name in builder.tyres.items()])
     # MuJoCo weighs turning speeds with the size of the geometry that turns; a joint that carries
     # none would count as resting at any speed.
     np.maximum(model.dof_length, 1.0, out=model.dof_length)

@@ -23,6 +23,7 @@ from gazelle.engine.collision_groups import (
     assign_groups,
     may_touch,
 )
+from gazelle.engine.names import scoped
 from gazelle.engine.surfaces import (
     HARD_SOLIMP,
     MIN_MU,
@@ -135,9 +136,9 @@ def _exclude(builder: SpecBuilder, crowded: frozenset[str]) -> None:
         known = {entry.link.name for entry in tree.links}
         for first, second in sorted(excluded):
             if first in known and second in known and first != second:
-                builder.spec.add_exclude(
-                    bodyname1=f"{model_name}::{first}", bodyname2=f"{model_name}::{second}"
-                )
+                names = [scoped(model_name, link) for link in (first, second)]
+                bodies = [builder.tyres.get(name, name) for name in names]
+                builder.spec.add_exclude(bodyname1=bodies[0], bodyname2=bodies[1])
 
 
 def _strangers(model: Model | None) -> set[tuple[str, ...]]:

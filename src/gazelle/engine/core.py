@@ -24,6 +24,7 @@ from gazelle.engine.names import joint_part, scoped
 from gazelle.engine.reading import joint_reaction, waking_copy
 from gazelle.engine.records import Contact, Wrench
 from gazelle.engine.state import carry_over, initial_data, joint_names_of
+from gazelle.engine.tyres import TyreBank
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import TimedWrench, WrenchTable
 from gazelle.errors import EngineError, NotFoundError
@@ -61,6 +62,7 @@ class EngineCore:
         self.motors = MotorBank()
         self.locks = LockBank()
         self._welds = WeldBank()
+        self._tyres = TyreBank()
         self._wrenches = WrenchTable()
         self._must_compile = False
         self._fresh = 0
@@ -326,7 +328,10 @@ class EngineCore:
         return compile_world(
             world,
             Extras(
-                tuple(self.motors.installed), tuple(self.locks.installed), tuple(self._welds.pairs)
+                tuple(self.motors.installed),
+                tuple(self.locks.installed),
+                tuple(self._welds.pairs),
+                frozenset(self._tyres.slips),
             ),
             step_s=self._step_ns / _NS,
             diagnostics=self.diagnostics,
@@ -348,6 +353,7 @@ class EngineCore:
         self.motors.bind(compiled)
         self.locks.bind(compiled.model, data, self._step_ns / _NS)
         self._welds.bind(compiled.model, data)
+        self._tyres.bind(compiled.model)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import Model, World
+from gazelle.description.model import JointType, Model, World
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
@@ -21,6 +21,7 @@ from gazelle.engine.names import scoped
 from gazelle.engine.records import Contact, Snapshot
 from gazelle.engine.state import hash_state, set_initial_positions
 from gazelle.engine.touching import read_contacts
+from gazelle.engine.tyres import CENTRING_STEPS, Slip, TyreBank
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import WrenchTable
 from gazelle.errors import EngineError, SimulationDivergedError
@@ -47,6 +48,7 @@ class EngineState:
     motors: MotorBank
     locks: LockBank
     welds: WeldBank
+    tyres: TyreBank
     wrenches: WrenchTable
 
 
@@ -74,6 +76,9 @@ class Engine(EngineCore):
             steps = self._wrenches.steps_until_change(self.iteration, left)
             if self.motors.has_positions:
                 steps = min(steps, POSITION_STEPS)
+            if self._tyres.slips:
+                steps = min(steps, CENTRING_STEPS)
+                self._tyres.prepare(model, data, step_s)
             if self._wrenches.changed:
                 self._write_wrenches()
             self.motors.drive(model, data, step_s, steps)
@@ -140,7 +145,7 @@ class Engine(EngineCore):
             NotFoundError: there is no such model.
         """
         self._model_named(name)
-        for bank in (self.motors, self.locks, self._welds):
+        for bank in (self.motors, self.locks, self._welds, self._tyres):
             bank.forget(f"{name}::")
         kept = tuple(model for model in self._world.models if model.name != name)
         gone = frozenset(item for item in self.link_names if item.startswith(f"{name}::"))
@@ -167,6 +172,35 @@ class Engine(EngineCore):
         self._welds.detach((link_a, link_b))
         self._welds.detach((link_b, link_a))
         self.state_changed()
+
+    def set_wheel_slip(
+        self, joint: str, lateral: float, longitudinal: float, radius_m: float
+    ) -> None:
+        """Let a wheel slip against the ground in proportion to the force on it.
+
+        The first time the world is built anew; after that it costs next to nothing.
+
+        Args:
+            joint: ``model::joint``, the wheel's axle; its child carries the tread.
+            lateral: speed along the axle per force, m/s per N; ODE's ``slip1`` with ``fdir1``
+                along the axle.
+            longitudinal: speed in the rolling direction per force, m/s per N; ODE's ``slip2``.
+            radius_m: of the wheel.
+
+        Raises:
+            NotFoundError: there is no such joint.
+            EngineError: the joint does not turn, or a value is negative or not finite.
+        """
+        kind = self.description_of_joint(joint).type
+        if kind not in (JointType.REVOLUTE, JointType.CONTINUOUS):
+            raise EngineError(f"joint '{joint}' ({kind.value}) carries no wheel that could slip")
+        slip = Slip(lateral, longitudinal, radius_m)
+        if not (all(map(math.isfinite, slip)) and min(slip) >= 0 and radius_m > 0):
+            raise EngineError(
+                f"wheel '{joint}' cannot slip like {slip}: positive numbers are needed"
+            )
+        if self._tyres.set(joint, slip):
+            self._must_compile = True
 
     def model_velocity(self, name: str) -> tuple[Array, Array]:
         """Return linear and angular velocity of the model's frame, world frame."""
@@ -238,7 +272,8 @@ class Engine(EngineCore):
         return EngineState(
             self._world, self._compiled, copy.copy(self.model), copy.copy(self._data),
             self.time_ns, self.iteration, self._step_ns, copy.deepcopy(self.motors),
-            self.locks.copy(), self._welds.copy(), copy.deepcopy(self._wrenches),
+            self.locks.copy(), self._welds.copy(), copy.deepcopy(self._tyres),
+            copy.deepcopy(self._wrenches),
         )  # fmt: skip
 
     def restore_state(self, state: EngineState) -> None:
@@ -247,6 +282,7 @@ class Engine(EngineCore):
         self.time_ns, self.iteration = state.time_ns, state.iteration
         self.motors, self._wrenches = copy.deepcopy(state.motors), copy.deepcopy(state.wrenches)
         self.locks, self._welds = state.locks.copy(), state.welds.copy()
+        self._tyres = copy.deepcopy(state.tyres)
         self._compiled = replace(state.compiled, model=copy.copy(state.model))
         self._hold(copy.copy(state.data))
         self.locks.hold(self.model, self._data)

@@ -11,6 +11,7 @@ __all__ = [
     "rotor_joint",
     "scoped",
     "tendon",
+    "tyre",
     "weld",
 ]
 
@@ -55,6 +56,11 @@ def lock(joint: str) -> str:
 def weld(first: str, second: str) -> str:
     """Return the name of the constraint that holds two links together."""
     return f"{first}{_MARK}weld{_MARK}{second}"
+
+
+def tyre(link: str) -> str:
+    """Return the name of the body that carries the collisions of a wheel that slips."""
+    return f"{link}{_MARK}tyre"
 
 
 def part_of(name: str, index: int) -> str:

@@ -93,6 +93,7 @@ def hash_state(compiled: Compiled, data: Any, iteration: int) -> str:
         data.qacc_warmstart,
         compiled.model.tendon_frictionloss,
         compiled.model.eq_data,
+        compiled.model.dof_damping,
         data.eq_active,
     )
     for array in arrays:
