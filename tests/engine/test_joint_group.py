@@ -270,6 +270,16 @@ def test_handle_locks_and_releases_one_joint(build):
     assert joint.position < 0.2
 
 
+def test_lock_holds_a_joint_where_it_was_put(build):
+    engine = build.engine(build.arm())
+    joint = engine.joint("arm::joint")
+    joint.lock_position(0.3)
+    engine.step(10)
+    joint.set_state(-0.5, 0.0)
+    engine.step(100)
+    assert joint.position == pytest.approx(-0.5, abs=1e-5)
+
+
 def test_ramp_needs_a_step(build):
     group = group_of(build.engine(chain()))
     with pytest.raises(EngineError, match="at least one step"):

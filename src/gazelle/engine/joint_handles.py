@@ -154,10 +154,11 @@ class JointHandle:
         self._engine.data.qfrc_applied[dof] = 0.0
 
     def set_state(self, position: float | None = None, velocity: float | None = None) -> None:
-        """Put the joint to a position and velocity at once, whatever holds it."""
+        """Put the joint to a position and velocity at once; a lock holds it there from now on."""
         dof = self._driven()
         if position is not None:
             self._engine.data.qpos[self._qpos] = _finite(position, self.name)
+            self._engine.locks.move(self._element, position)
         if velocity is not None:
             self._engine.data.qvel[dof] = _finite(velocity, self.name)
         self._engine.state_changed()

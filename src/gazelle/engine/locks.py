@@ -157,6 +157,16 @@ class LockBank:
             self._wake(places)
         return jumps if jumps is not None and jumps.any() else None
 
+    def move(self, joint: str, position: float) -> None:
+        """Hold a joint that was put somewhere there, if it is held at all."""
+        if joint in self.installed:
+            place = self.installed.index(joint)
+            self._reference[place] = position
+            self._increment[place] = self._left[place] = 0
+            if place < len(self._column):
+                self._column[place] = position
+            self._find_next_end()
+
     def release(self, places: Indices | None = None) -> None:
         """Let joints move freely; all of them by default."""
         chosen = np.arange(len(self.installed)) if places is None else places
