@@ -16,7 +16,7 @@ from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.process import node_words
 
-__all__ = ["HostEnded", "NodeEnded", "NodeHost"]
+__all__ = ["HostEnded", "NodeEnded", "NodeHost", "NodeReady"]
 
 
 class NodeEnded:
@@ -25,6 +25,13 @@ class NodeEnded:
     def __init__(self, host_id: int, code: int) -> None:
         self.host_id = host_id
         self.code = code
+
+
+class NodeReady:
+    """A hosted node that stays has done what others may wait for."""
+
+    def __init__(self, host_id: int) -> None:
+        self.host_id = host_id
 
 
 class HostEnded:
@@ -89,5 +96,8 @@ class NodeHost:
         with self._status:
             for line in self._status:
                 message = json.loads(line)
-                self._events.put(NodeEnded(message["id"], message["exit"]))
+                if "ready" in message:
+                    self._events.put(NodeReady(message["id"]))
+                else:
+                    self._events.put(NodeEnded(message["id"], message["exit"]))
         self._events.put(HostEnded(self.popen.wait()))

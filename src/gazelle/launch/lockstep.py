@@ -10,12 +10,25 @@ from dataclasses import replace
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.executables import Executable
 
-__all__ = ["HeldStart", "holds_time", "is_simulator", "with_simulator_words"]
+__all__ = [
+    "HeldStart",
+    "holds_time",
+    "is_simulator",
+    "starts_in_turn",
+    "with_simulator_words",
+]
 
 Startable = tuple[NodeSpec, Executable]
 _SERVERS = frozenset({"gzserver", "gazebo", "debug", "perf"})
 _PAUSED = frozenset({"-u", "--pause"})
 _BOND = frozenset({"-b", "-bond", "--bond"})
+_CONTROLLER_SPAWNERS = frozenset(
+    {
+        "gazelle.nodes.controller_spawner:run",
+        "gazelle.nodes.controller_spawner_ros2:run",
+        "gazelle.nodes.controller_manager_command:run",
+    }
+)
 
 
 def is_simulator(executable: Executable) -> bool:
@@ -31,15 +44,21 @@ def with_simulator_words(spec: NodeSpec, words: Sequence[str]) -> NodeSpec:
 
 def holds_time(nodes: Sequence[Startable]) -> bool:
     """Return whether time is to be held: something is spawned, and no file asks for a pause."""
-    servers = [spec for spec, executable in nodes if is_simulator(executable)]
-    paused = any(_PAUSED & set(shlex.split(spec.args)) for spec in servers)
-    return bool(servers) and not paused and any(_spawns(node) for node in nodes)
+    return starts_in_turn(nodes) and not any(
+        _PAUSED & set(shlex.split(spec.args)) for spec in _servers(nodes)
+    )
+
+
+def starts_in_turn(nodes: Sequence[Startable]) -> bool:
+    """Return whether spawners are to start one after another: models or controllers come."""
+    return bool(_servers(nodes)) and any(_spawns(node) or _controls(node) for node in nodes)
 
 
 class HeldStart:
-    """Starts spawners one after another, in the file's order, and then lets time go on.
+    """Starts spawners one after another, and then lets time go on.
 
-    Started together they would race, and a model would appear at another time in every run.
+    Models come first, then controllers, each in the file's order. Started together they would
+    race, and a model would appear, or a controller take over, at another time in every run.
     """
 
     def __init__(
@@ -51,13 +70,15 @@ class HeldStart:
     ) -> None:
         self._start = start
         self._release = release
-        self._waiting = deque(node for node in nodes if _spawns(node))
+        models = [node for node in nodes if _spawns(node)]
+        controllers = [node for node in nodes if _controls(node)]
+        self._waiting = deque([*models, *controllers])
         self._current = ""
 
     @staticmethod
     def others(nodes: Sequence[Startable]) -> list[Startable]:
         """Return the nodes that start at once."""
-        return [node for node in nodes if not _spawns(node)]
+        return [node for node in nodes if not _spawns(node) and not _controls(node)]
 
     def begin(self) -> None:
         """Start the first spawner."""
@@ -67,6 +88,10 @@ class HeldStart:
         """Hear that a node has ended."""
         if spec.full_name == self._current:
             self._next()
+
+    def ready(self, spec: NodeSpec) -> None:
+        """Hear that a spawner of controllers, which stays, has started them."""
+        self.ended(spec)
 
     def _next(self) -> None:
         if not self._waiting:
@@ -78,9 +103,22 @@ class HeldStart:
         self._start(spec, executable)
 
 
+def _servers(nodes: Sequence[Startable]) -> list[NodeSpec]:
+    return [spec for spec, executable in nodes if is_simulator(executable)]
+
+
 def _spawns(node: Startable) -> bool:
     """Return whether a node puts a model into the world and ends (``-b`` would stay)."""
     spec, executable = node
     builtin = executable.builtin
     is_spawner = builtin is not None and builtin.target.endswith("spawn_model:run")
     return is_spawner and not _BOND & set(shlex.split(spec.args))
+
+
+def _controls(node: Startable) -> bool:
+    """Return whether a node starts controllers and can say when it has."""
+    spec, executable = node
+    builtin = executable.builtin
+    is_spawner = builtin is not None and builtin.target in _CONTROLLER_SPAWNERS
+    # A node in a process of its own has no way to say that it is ready.
+    return is_spawner and not spec.env and not spec.launch_prefix

@@ -23,7 +23,13 @@ from gazelle.launch.config import LaunchConfig, NodeSpec
 from gazelle.launch.console import Console, summary
 from gazelle.launch.environment import node_environment, ros_home
 from gazelle.launch.executables import Executable, find_executable
-from gazelle.launch.lockstep import HeldStart, holds_time, is_simulator, with_simulator_words
+from gazelle.launch.lockstep import (
+    HeldStart,
+    holds_time,
+    is_simulator,
+    starts_in_turn,
+    with_simulator_words,
+)
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.workspace import Workspace
 
@@ -113,11 +119,12 @@ def launch(
             console=console,
             stop_times=options.stop_times,
             on_end=run.ended,
+            on_ready=run.ready,
         )
         if missing and not nodes:
             console.error("none of the nodes can be started, roslaunch will exit")
             return 1
-        code = run(supervisor, nodes, held=options.lockstep and holds_time(nodes))
+        code = run(supervisor, nodes, in_turn=options.lockstep and starts_in_turn(nodes))
     console.bold("done")
     return 1 if missing else code
 
@@ -132,9 +139,9 @@ class _Run:
         self._held: HeldStart | None = None
 
     def __call__(
-        self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, held: bool
+        self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, in_turn: bool
     ) -> int:
-        """Start everything and stay until the launch is over."""
+        """Start everything, spawners in turn when asked for, and stay until the launch is over."""
         # Another launch on this graph has it already.
         has_rosout = _ROSOUT.full_name in self._graph.node_names()
         rosout = (
@@ -146,9 +153,12 @@ class _Run:
         )
         if rosout is not None and supervisor.start(_ROSOUT, rosout, core=True):
             self._console.plain("started core service [/rosout]")
-        if held:
-            self._held = HeldStart(nodes, start=supervisor.start, release=self._release)
-        for spec, executable in HeldStart.others(nodes) if held else nodes:
+        # A pause that a file asks for is the user's to end.
+        held = in_turn and holds_time(nodes)
+        if in_turn:
+            release = self._release if held else _stay_paused
+            self._held = HeldStart(nodes, start=supervisor.start, release=release)
+        for spec, executable in HeldStart.others(nodes) if in_turn else nodes:
             pause = held and is_simulator(executable)
             supervisor.start(with_simulator_words(spec, ["-u"]) if pause else spec, executable)
         if self._held is not None:
@@ -160,9 +170,18 @@ class _Run:
         if self._held is not None:
             self._held.ended(spec)
 
+    def ready(self, spec: NodeSpec) -> None:
+        """Hear that a spawner of controllers has started them and stays."""
+        if self._held is not None:
+            self._held.ready(spec)
+
     def _release(self) -> None:
         """Let time go on, without keeping the supervisor from its events."""
         threading.Thread(target=_unpause, args=(self._graph,), daemon=True).start()
+
+
+def _stay_paused() -> None:
+    """Time goes on when the user says so."""
 
 
 def _unpause(graph: Graph) -> None:

@@ -19,7 +19,7 @@ from gazelle.launch.config import NodeSpec
 from gazelle.launch.console import Console
 from gazelle.launch.executables import Executable
 from gazelle.launch.guard import Guard
-from gazelle.launch.host import HostEnded, NodeEnded, NodeHost
+from gazelle.launch.host import HostEnded, NodeEnded, NodeHost, NodeReady
 from gazelle.launch.process import (
     LaunchedProcess,
     code_text,
@@ -75,6 +75,7 @@ class Supervisor:
         console: Console,
         stop_times: StopTimes | None = None,
         on_end: Callable[[NodeSpec], None] | None = None,
+        on_ready: Callable[[NodeSpec], None] | None = None,
     ) -> None:
         """Prepare; nothing runs yet.
 
@@ -85,6 +86,7 @@ class Supervisor:
             console: the terminal.
             stop_times: patience at the end.
             on_end: hears of every node that has ended and is not started again.
+            on_ready: hears of hosted nodes that stay and say that nobody need wait for them.
         """
         self._environment = environment
         self._log_folder = log_folder
@@ -92,6 +94,7 @@ class Supervisor:
         self._console = console
         self._stop_times = stop_times or StopTimes()
         self._on_end = on_end
+        self._on_ready = on_ready
         self._events: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._running: list[LaunchedProcess] = []
         self._leftovers: set[int] = set()
@@ -225,6 +228,9 @@ class Supervisor:
             self._respawning -= 1
             self._start(event.process.label, event.process.spec)
             return True
+        if isinstance(event, NodeReady):
+            self._tell_ready(event.host_id)
+            return True
         if isinstance(event, HostEnded) and self._revive_host(event):
             return True
         ended = [self._ended(process, code) for process, code in self._ends(event)]
@@ -264,6 +270,11 @@ class Supervisor:
     def _tell_end(self, spec: NodeSpec) -> None:
         if self._on_end is not None:
             self._on_end(spec)
+
+    def _tell_ready(self, host_id: int) -> None:
+        for item in self._running:
+            if item.host_id == host_id and self._on_ready is not None:
+                self._on_ready(item.spec)
 
     def _end_leftovers(self, group: int) -> None:
         """End what a process has started and left behind."""

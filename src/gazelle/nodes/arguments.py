@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.graph.names import parse_command_line
 
 __all__ = ["NodeArguments", "read_arguments"]
+
+
+def _nobody_waits() -> None:
+    """Nobody waits for this node."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +27,7 @@ class NodeArguments:
         rest: the node's own arguments.
         output: ``screen``, or ``log`` for warnings and errors only on the terminal.
         log_file: where the node's log goes (``__log:=``), empty for nowhere.
+        ready: called by a node that stays, once it has done what others may wait for.
     """
 
     name: str
@@ -32,10 +37,16 @@ class NodeArguments:
     rest: tuple[str, ...] = ()
     output: str = "screen"
     log_file: str = ""
+    ready: Callable[[], None] = _nobody_waits
 
 
 def read_arguments(
-    argv: Sequence[str], default_name: str, *, namespace: str = "/", output: str = "screen"
+    argv: Sequence[str],
+    default_name: str,
+    *,
+    namespace: str = "/",
+    output: str = "screen",
+    ready: Callable[[], None] = _nobody_waits,
 ) -> NodeArguments:
     """Split a node's words into ROS's and its own (wiki: Remapping Arguments)."""
     line = parse_command_line(argv)
@@ -47,4 +58,5 @@ def read_arguments(
         rest=tuple(line.rest),
         output=output,
         log_file=line.special.get("__log", ""),
+        ready=ready,
     )

@@ -7,6 +7,7 @@ import os
 import sys
 import threading
 import traceback
+from collections.abc import Callable
 from typing import Any, TextIO
 
 from gazelle.errors import GazelleError
@@ -21,7 +22,8 @@ def host(status_fd: int, commands: TextIO) -> int:
     """Run nodes until the command stream ends.
 
     Args:
-        status_fd: receives ``{"id": 3, "exit": 0}`` when a node has ended.
+        status_fd: receives ``{"id": 3, "exit": 0}`` when a node has ended, and before that
+            ``{"id": 3, "ready": true}`` when it says that others need not wait for it.
         commands: ``{"start": {"id", "node", "argv", "namespace", "output"}}`` or ``{"stop": 3}``.
     """
     status = os.fdopen(status_fd, "w", encoding="utf-8")
@@ -69,18 +71,34 @@ class _Nodes:
     def _run(self, request: dict[str, Any], graph: Graph, stop: threading.Event) -> None:
         code = 1
         try:
-            code = run_node(request, graph, stop)
+            code = run_node(request, graph, stop, ready=lambda: self._ready(request["id"]))
         except GazelleError as error:
             sys.stderr.write(f"[{request['node']}] {error}\n")
         except Exception:  # noqa: BLE001 - one node's bug must not take the others along
             traceback.print_exc()
+        self._tell({"id": request["id"], "exit": code})
+
+    def _ready(self, number: int) -> None:
+        self._tell({"id": number, "ready": True})
+
+    def _tell(self, message: dict[str, Any]) -> None:
         with self._lock:
-            self._status.write(json.dumps({"id": request["id"], "exit": code}) + "\n")
+            self._status.write(json.dumps(message) + "\n")
             self._status.flush()
 
 
-def run_node(request: dict[str, Any], graph: Graph, stop: threading.Event) -> int:
-    """Run one node in this thread and return its exit code.
+def _nobody_waits() -> None:
+    """Nobody waits for a node that runs alone."""
+
+
+def run_node(
+    request: dict[str, Any],
+    graph: Graph,
+    stop: threading.Event,
+    *,
+    ready: Callable[[], None] = _nobody_waits,
+) -> int:
+    """Run one node in this thread and return its exit code; `ready` is for it to call.
 
     Raises:
         GazelleError: there is no such node, or it failed in a way it can explain.
@@ -94,5 +112,6 @@ def run_node(request: dict[str, Any], graph: Graph, stop: threading.Event) -> in
         type_name,
         namespace=request.get("namespace", "/"),
         output=request.get("output", "screen"),
+        ready=ready,
     )
     return int(node.load()(arguments, graph, stop))

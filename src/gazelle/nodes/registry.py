@@ -105,6 +105,44 @@ _NODES = (
         aliases=(("robot_state_publisher", "state_publisher"),),
     ),
     BuiltinNode(
+        "controller_manager",
+        "controller_manager",
+        "gazelle.nodes.controller_manager_command:run",
+        light=True,
+        help="lists, loads, starts, stops and unloads controllers",
+        aliases=(("pr2_controller_manager", "pr2_controller_manager"),),
+    ),
+    BuiltinNode(
+        "controller_manager",
+        "spawner",
+        "gazelle.nodes.controller_spawner:run",
+        light=True,
+        help="loads and starts controllers",
+        aliases=(("pr2_controller_manager", "spawner"),),
+    ),
+    BuiltinNode(
+        "controller_manager",
+        "spawner.py",
+        "gazelle.nodes.controller_spawner_ros2:run",
+        light=True,
+        help="loads and activates controllers, ROS 2's older name",
+    ),
+    BuiltinNode(
+        "controller_manager",
+        "unspawner",
+        "gazelle.nodes.controller_spawner:run_unspawner",
+        light=True,
+        help="stops controllers",
+        aliases=(("pr2_controller_manager", "unspawner"),),
+    ),
+    BuiltinNode(
+        "controller_manager",
+        "unspawner.py",
+        "gazelle.nodes.controller_spawner_ros2:run_unspawner",
+        light=True,
+        help="deactivates and unloads controllers, ROS 2's older name",
+    ),
+    BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"
     ),
     BuiltinNode(

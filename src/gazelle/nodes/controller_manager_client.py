@@ -1,0 +1,188 @@
+"""Calls a controller manager's services, of ros_control or ros2_control."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import GraphError
+from gazelle.graph import Node
+from gazelle.interfaces import message_type, ros1_service_type, service_type
+
+__all__ = ["ManagerClient"]
+
+_POLL_S = 0.1
+_CALL_S = 30.0
+_PACKAGE = "controller_manager_msgs"
+BEST_EFFORT, STRICT = 1, 2
+
+
+class ManagerClient:
+    """One controller manager as its users see it.
+
+    Attributes:
+        name: the manager's global name, such as ``/mira/controller_manager``.
+    """
+
+    def __init__(self, node: Node, name: str, stop: threading.Event | None = None) -> None:
+        """Take a node and the manager's name; nothing is called yet.
+
+        Args:
+            node: a started node of the graph.
+            name: resolved by the node.
+            stop: ends waiting early.
+        """
+        self.name = node.resolve_name(name)
+        self._node = node
+        self._stop = stop or threading.Event()
+        self._generation = 0
+
+    @property
+    def generation(self) -> int:
+        """1 for ros_control, 2 for ros2_control, told from the services; 0 when it is not there."""
+        graph = self._node.graph
+        if not self._generation and graph.has_service(f"{self.name}/load_controller"):
+            is_ros2 = graph.has_service(f"{self.name}/configure_controller")
+            self._generation = 2 if is_ros2 else 1
+        return self._generation
+
+    def wait(
+        self,
+        service: str = "load_controller",
+        timeout_s: float | None = None,
+        *,
+        late: Callable[[], None] | None = None,
+        late_s: float = 10.0,
+    ) -> bool:
+        """Wait until a service is offered.
+
+        Args:
+            service: below the manager's name.
+            timeout_s: on the node's clock, so a paused simulation takes no time; None for ever.
+            late: called again and again while it is not there, every `late_s` real seconds.
+            late_s: see `late`.
+
+        Returns:
+            False when the time was up, or waiting was ended.
+        """
+        graph, clock = self._node.graph, self._node.clock
+        start_ns, told_s = clock.now_ns(), time.monotonic()
+        used_sim_time = clock.use_sim_time
+        while not self._stop.is_set():
+            if graph.wait_for_service(f"{self.name}/{service}", _POLL_S):
+                return True
+            if clock.use_sim_time != used_sim_time or clock.now_ns() < start_ns:
+                # Another clock, or one that went back: count anew.
+                used_sim_time, start_ns = clock.use_sim_time, clock.now_ns()
+            if timeout_s is not None and clock.now_ns() - start_ns > timeout_s * 1e9:
+                return False
+            if late is not None and time.monotonic() - told_s > late_s:
+                told_s = time.monotonic()
+                late()
+        return False
+
+    def elsewhere(self) -> str:
+        """Return a sentence about the controller managers that there are."""
+        ending = "/load_controller"
+        services = (one.name for one in self._node.graph.services())
+        found = [name.removesuffix(ending) for name in services if name.endswith(ending)]
+        if not found:
+            return (
+                "there is no controller manager at all: the robot's description needs the plug-in "
+                "libgazebo_ros_control.so or libgazebo_ros2_control.so, and the robot must be "
+                "spawned"
+            )
+        nearest = nearest_names(self.name, found) or tuple(found)
+        return f"controller managers are: {', '.join(nearest)}"
+
+    def call(self, service: str, kind: str, *, timeout_s: float = _CALL_S, **fields: Any) -> Any:
+        """Call a service with the layout of the manager's generation and return its answer.
+
+        Raises:
+            GraphError: nobody answers.
+        """
+        name = f"{self.name}/{service}"
+        full = kind if "/" in kind else f"{_PACKAGE}/{kind}"
+        kind_class: Any = service_type(full)
+        make = kind_class.Request
+        if self.generation == 1 and full.startswith(_PACKAGE):
+            kind_class = ros1_service_type(full)
+            make = kind_class._request_class
+        client, request = self._node.create_client(name, kind_class), make(**fields)
+        try:
+            return client.call(request, timeout_s=timeout_s)
+        finally:
+            client.unregister()
+
+    def controllers(self) -> Sequence[Any]:
+        """Return the loaded controllers as the manager lists them."""
+        found: Sequence[Any] = self.call("list_controllers", "ListControllers").controller
+        return found
+
+    def load(self, name: str) -> bool:
+        """Load a controller."""
+        return bool(self.call("load_controller", "LoadController", name=name).ok)
+
+    def configure(self, name: str) -> bool:
+        """Configure a controller; ROS 1's are when they are loaded."""
+        if self.generation == 1:
+            return True
+        return bool(self.call("configure_controller", "ConfigureController", name=name).ok)
+
+    def unload(self, name: str, *, timeout_s: float = _CALL_S) -> bool:
+        """Unload a controller."""
+        answer = self.call("unload_controller", "UnloadController", name=name, timeout_s=timeout_s)
+        return bool(answer.ok)
+
+    def switch(
+        self,
+        start: Sequence[str] = (),
+        stop: Sequence[str] = (),
+        *,
+        strictness: int = STRICT,
+        asap: bool = False,
+        switch_timeout_s: float = 0.0,
+        timeout_s: float = _CALL_S,
+    ) -> Any:
+        """Start and stop controllers; the answer has ``ok``, ROS 2's a ``message`` too."""
+        if self.generation == 1:
+            fields: dict[str, Any] = {
+                "start_controllers": list(start),
+                "stop_controllers": list(stop),
+                "start_asap": asap,
+                "timeout": switch_timeout_s,
+            }
+        else:
+            seconds, nanoseconds = divmod(round(switch_timeout_s * 1e9), 1_000_000_000)
+            duration = message_type("builtin_interfaces/Duration")
+            fields = {
+                "activate_controllers": list(start),
+                "deactivate_controllers": list(stop),
+                "activate_asap": asap,
+                "timeout": duration(sec=seconds, nanosec=nanoseconds),
+            }
+        return self.call(
+            "switch_controller",
+            "SwitchController",
+            strictness=strictness,
+            timeout_s=timeout_s,
+            **fields,
+        )
+
+    def set_parameters(self, values: Mapping[str, Any]) -> str:
+        """Set parameters of a ROS 2 manager; return why that failed, empty when it did not.
+
+        Raises:
+            GraphError: nobody answers.
+        """
+        from gazelle.graph.parameter_values import value_message
+
+        parameter = message_type("rcl_interfaces/Parameter")
+        request = [parameter(name=key, value=value_message(value)) for key, value in values.items()]
+        if not self.wait("set_parameters", _CALL_S):
+            raise GraphError(f"Could not contact service {self.name}/set_parameters")
+        answer = self.call("set_parameters", "rcl_interfaces/SetParameters", parameters=request)
+        return next((one.reason or "refused" for one in answer.results if not one.successful), "")
