@@ -31,6 +31,10 @@ COMMANDS: dict[str, Command] = {
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),
     "gazebo": Command("gazelle.cli.gzserver", "run a world"),
     "spawn_model": Command("gazelle.cli.spawn_model", "put a model into a running world"),
+    "controller_manager": Command(
+        "gazelle.cli.controller_manager", "list, load, start, stop, spawn, kill controllers"
+    ),
+    "ros2": Command("gazelle.cli.ros2", "commands of ROS 2: control, param"),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
 }

@@ -16,6 +16,7 @@ ROS_COMMANDS = (
     "gazebo",
     "gzclient",
     "gzserver",
+    "ros2",
     "rosclean",
     "roscore",
     "roslaunch",

@@ -72,7 +72,9 @@ class ControllerManager:
         self.source = source
         self.diagnostics = diagnostics
         self.update_rate_hz = update_rate_hz
-        self._maker = ControllerMaker(robot, source, make_ports, diagnostics, workspace)
+        self._maker = ControllerMaker(
+            robot, source, make_ports, diagnostics, workspace, self.namespace
+        )
         self._on_claim = on_claim
         self._clock = clock
         self._records: dict[str, ControllerRecord] = {}

@@ -34,8 +34,10 @@ class ControllerMaker:
         make_ports: Callable[[str], OwnedPorts],
         diagnostics: Diagnostics,
         workspace: Workspace | None,
+        namespace: str,
     ) -> None:
         self.source = source
+        self._namespace = namespace.strip("/")
         self._robot = robot
         self._make_ports = make_ports
         self._diagnostics = diagnostics
@@ -106,7 +108,13 @@ class ControllerMaker:
     ) -> Controller:
         parameters = self.parameters(record.name, found)
         context = ControllerContext(
-            record.name, record.type, self._robot, parameters, ports, record.update_rate_hz
+            record.name,
+            record.type,
+            self._robot,
+            parameters,
+            ports,
+            record.update_rate_hz,
+            self._namespace,
         )
         try:
             controller = found(context)

@@ -213,9 +213,7 @@ class UserNode:
 
     def get_namespace(self) -> str:
         """Return the controller's namespace, such as ``/mira/my_controller``."""
-        if self._context.generation == 1:
-            return self._context.parameters.full_name("").rstrip("/")
-        return f"/{self._context.name}"
+        return "/" + "/".join(filter(None, (self._context.namespace, self._context.name)))
 
     def getParam(self, name: str, default: Any = None) -> Any:
         """Return a parameter, `default` when it is not there."""

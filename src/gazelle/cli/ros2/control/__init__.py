@@ -1,0 +1,112 @@
+"""``ros2 control``: controllers and hardware of a controller manager."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from gazelle.cli.tool import ToolError, joined
+from gazelle.errors import GraphError
+
+__all__ = ["main"]
+
+_NAME = "Name of the controller"
+
+
+def main(argv: list[str]) -> int:
+    """Run a verb of ``ros2 control``."""
+    from gazelle.cli.ros2.control import listing, verbs
+    from gazelle.nodes.controller_manager_client import ManagerClient
+
+    options = _parser().parse_args(_own_words(argv))
+    module = listing if hasattr(listing, options.verb) else verbs
+    try:
+        with joined() as graph:
+            node = graph.create_node("ros2control", anonymous=True, rosout=False)
+            client = ManagerClient(node, options.controller_manager)
+            _wait(client)
+            return int(getattr(module, options.verb)(client, options))
+    except (ToolError, GraphError) as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+def _wait(client: object) -> None:
+    """Wait for the manager; what there is instead is said while waiting."""
+    from gazelle.nodes.controller_manager_client import ManagerClient
+
+    assert isinstance(client, ManagerClient)
+    service = f"{client.name}/list_controllers"
+
+    def tell() -> None:
+        text = f"waiting for service {service} to become available... {client.elsewhere()}"
+        print(text, file=sys.stderr)
+
+    client.wait("list_controllers", late=tell, late_s=1.5)
+    if client.generation == 1:
+        raise ToolError(
+            f"{client.name} is a controller manager of ROS 1; use: controller_manager list | load "
+            "| start | stop …"
+        )
+
+
+def _own_words(argv: list[str]) -> list[str]:
+    return argv[: argv.index("--ros-args")] if "--ros-args" in argv else argv
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="ros2 control", description="Various control related")
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
+    rows = (
+        ("list_controller_types", "Output the available controller types and their base classes"),
+        ("list_controllers", "Output the list of loaded controllers, their type and status"),
+        ("list_hardware_components", "Output the list of available hardware components"),
+        ("list_hardware_interfaces", "Output the list of available command and state interfaces"),
+        ("load_controller", "Load a controller in a controller manager"),
+        ("reload_controller_libraries", "Reload controller libraries"),
+        ("set_controller_state", "Adjust the state of the controller"),
+        ("set_hardware_component_state", "Adjust the state of the hardware component"),
+        ("switch_controllers", "Switch controllers in a controller manager"),
+        ("unload_controller", "Unload a controller in a controller manager"),
+    )
+    found = {name: verbs.add_parser(name, help=about, description=about) for name, about in rows}
+    _add_listing(found)
+    _add_changing(found)
+    for verb in found.values():
+        verb.add_argument("-c", "--controller-manager", default="controller_manager")
+        verb.add_argument("--include-hidden-nodes", action="store_true", help=argparse.SUPPRESS)
+        verb.add_argument("--spin-time", help=argparse.SUPPRESS)
+        verb.add_argument("-s", "--use-sim-time", action="store_true", help=argparse.SUPPRESS)
+    return parser
+
+
+def _add_listing(found: dict[str, argparse.ArgumentParser]) -> None:
+    verb = found["list_controllers"]
+    for name in ("claimed", "required-state", "required-command", "chained", "exported"):
+        verb.add_argument(f"--{name}-interfaces", action="store_true")
+    for name in ("list_controllers", "list_hardware_components", "list_hardware_interfaces"):
+        found[name].add_argument("-v", "--verbose", action="store_true")
+
+
+def _add_changing(found: dict[str, argparse.ArgumentParser]) -> None:
+    states = ["unconfigured", "inactive", "active"]
+    verb = found["load_controller"]
+    verb.add_argument("controller_name", help=_NAME)
+    verb.add_argument("param_file", nargs="?", help="The YAML file with the parameters")
+    # "start" and "configured" are Foxy's and Galactic's words.
+    verb.add_argument("--set-state", choices=["inactive", "active", "configured", "start"])
+    verb = found["set_controller_state"]
+    verb.add_argument("controller_name", help=_NAME)
+    verb.add_argument("state", choices=[*states, "configured", "start", "stop"])
+    verb = found["set_hardware_component_state"]
+    verb.add_argument("hardware_component_name")
+    verb.add_argument("state", choices=states)
+    found["unload_controller"].add_argument("controller_name", help=_NAME)
+    found["reload_controller_libraries"].add_argument("--force-kill", action="store_true")
+    verb = found["switch_controllers"]
+    verb.add_argument("--deactivate", "--stop", nargs="*", default=[])
+    verb.add_argument("--activate", "--start", nargs="*", default=[])
+    verb.add_argument("--strict", action="store_true")
+    verb.add_argument("--best-effort", action="store_true")
+    verb.add_argument("--activate-asap", "--start-asap", action="store_true")
+    verb.add_argument("--switch-timeout", type=float, default=5.0)
