@@ -129,8 +129,9 @@ TABLE = ControllerTable(
         "A command older than cmd_vel_timeout counts as 0; the limits bound the braking, too."
         " In ROS 2 a timeout of 0 means that a command holds for ever.",
         "Limits act in the order jerk, acceleration, velocity. ROS 1's jerk limit lets"
-        " acceleration change by 2·jerk·dt a period, so measured jerk reaches twice the parameter"
-        " (diff_drive_controller::SpeedLimiter).",
+        " acceleration change by 2·jerk·dt a period, so measured jerk reaches twice the parameter,"
+        " and the speed swings about its target (diff_drive_controller::SpeedLimiter;"
+        " control_toolbox#240).",
         "Odometry integrates arcs exactly; its velocities are means over"
         " velocity_rolling_window_size updates.",
         "Without wheel_separation or wheel_radius ROS 1 takes them from the URDF; real ROS 2"
