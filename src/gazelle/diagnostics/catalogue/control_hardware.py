@@ -154,4 +154,86 @@ _LOADING = (
     ),
 )
 
-ENTRIES = (*_TRANSMISSIONS, *_JOINTS, *_LOADING)
+_ROS2 = (
+    Entry(
+        "control.hardware-parameter",
+        "info",
+        "A parameter of ros2_control hardware has no effect",
+        "The simulated hardware does not know it.",
+        "nothing, when it is for the real robot",
+    ),
+    Entry(
+        "control.hardware-plugin",
+        "error",
+        "The hardware of a <ros2_control> block is not simulated",
+        "Drivers of real robots are compiled code and need the robot. Nothing takes their place, "
+        "as in Gazebo: controllers that need the block's joints cannot be loaded.",
+        "use gazebo_ros2_control/GazeboSystem or gz_ros2_control/GazeboSimSystem in simulation, "
+        "with an argument of the xacro file",
+        "According to the loaded plugin descriptions the class … does not exist.",
+    ),
+    Entry(
+        "control.hardware-plugin-other",
+        "warning",
+        "The hardware of a <ros2_control> block belongs to another program",
+        "Gazelle runs it; the Gazebo plug-in of the model would not load it.",
+        "use the hardware of the plug-in that the model names",
+        "The plugin failed to load for some reason.",
+    ),
+    Entry(
+        "control.no-parameter-file",
+        "warning",
+        "A ros2_control plug-in names no parameter file",
+        "The controller manager runs with its defaults; controllers have no types.",
+        "add <parameters>path/to/controllers.yaml</parameters> to the plug-in",
+        "No parameter file provided. Configuration might be wrong",
+    ),
+    Entry(
+        "control.ros2-control-gpio",
+        "info",
+        "Simulated hardware has no gpio",
+        "The interfaces are left out, as in Gazebo; mock_components/GenericSystem has them.",
+        "nothing, when it is for the real robot",
+    ),
+    Entry(
+        "control.ros2-control-interface",
+        "warning",
+        "An interface of a <ros2_control> block is not offered in simulation",
+        "Joints have position, velocity and effort; IMUs and force-torque sensors their values.",
+        "correct the name, or remove the interface",
+    ),
+    Entry(
+        "control.ros2-control-mimic",
+        "error",
+        "A joint of a <ros2_control> block mimics a joint that is not in the block",
+        "It moves by itself.",
+        "correct the name, or use <mimic> in the joint of the robot",
+        "Mimicked joint not found",
+    ),
+    Entry(
+        "control.ros2-control-missing",
+        "error",
+        "A robot with a ros2_control plug-in has no <ros2_control> block",
+        "The controller manager runs, but has no interfaces.",
+        "add a <ros2_control> block with the joints",
+        "no ros2_control tag",
+    ),
+    Entry(
+        "control.ros2-control-sensor",
+        "warning",
+        "A sensor of a <ros2_control> block is not in the simulated model",
+        "Its states are left out.",
+        "give an IMU or force-torque sensor of the model the same name",
+        "which is not in the gazebo model.",
+    ),
+    Entry(
+        "control.ros2-control-value",
+        "warning",
+        "A number of a <ros2_control> block cannot be read",
+        "It is left out.",
+        "write a plain number; decimal commas are not understood",
+        "Failed converting initial_value string to real number",
+    ),
+)
+
+ENTRIES = (*_TRANSMISSIONS, *_JOINTS, *_LOADING, *_ROS2)

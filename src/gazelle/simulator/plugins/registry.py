@@ -32,6 +32,8 @@ _FAMILIES = (
     ("gz_systems", "TABLE", "load"),
     ("gz_systems", "SERVER_TABLE", "load"),
     ("ros_control", "TABLE", "load"),
+    ("ros2_control", "TABLE", "load"),
+    ("ros2_control", "GZ_TABLE", "load_gz"),
     ("bumper", "TABLE", "load"),
     ("ft_sensor", "TABLE", "load"),
     ("ft_sensor", "F3D_TABLE", "load_f3d"),
@@ -48,8 +50,6 @@ _FAMILIES = (
 )
 # Compiled plug-ins people meet often, and where their behaviour comes from instead.
 _ELSEWHERE = {
-    "gazebo_ros2_control": "controllers of ros2_control do not run; joints move freely",
-    "gz_ros2_control-system": "controllers of ros2_control do not run; joints move freely",
     "gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the plug-in is not needed",
     "roboticsgroup_upatras_gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the "
     "plug-in is not needed",

@@ -1,0 +1,156 @@
+"""The robot of ROS 2: engine and ``<ros2_control>`` blocks behind ros2_control's interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gazelle.control.bank import InterfaceBank
+from gazelle.control.hardware.gazebo_system import GazeboSystem, SystemOptions
+from gazelle.control.hardware.generic_system import GENERIC_PARAMETERS, GenericSystem
+from gazelle.control.hardware.host import HardwareHost
+from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, resource_of
+from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
+from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
+from gazelle.control.robot import Robot
+from gazelle.description.model import Model
+from gazelle.diagnostics import did_you_mean
+
+__all__ = ["CLASSIC_PLUGINS", "GZ_PLUGINS", "MOCK_PLUGINS", "build_ros2_robot"]
+
+CLASSIC_PLUGINS = ("gazebo_ros2_control/GazeboSystem",)
+"""Hardware of Gazebo Classic."""
+
+GZ_PLUGINS = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem")
+"""Hardware of gz-sim."""
+
+MOCK_PLUGINS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+"""Hardware without hardware."""
+
+_KNOWN = (*CLASSIC_PLUGINS, *GZ_PLUGINS, *MOCK_PLUGINS)
+
+
+def build_ros2_robot(
+    host: HardwareHost,
+    model: Model,
+    options: SystemOptions,
+    *,
+    gains: Mapping[str, Any] | None = None,
+    sensors: SensorSource | None = None,
+) -> Robot:
+    """Return the robot of a model in the world; joints have their initial values and hold.
+
+    Args:
+        host: the physics, and where to report.
+        model: as it is in the world, with its ``<ros2_control>`` blocks.
+        options: of the plug-in that loads the hardware.
+        gains: ``pid_gains`` of the plug-in's node.
+        sensors: what the model can measure; None for nothing.
+    """
+    builder = _Builder(host, model, options, gains or {}, sensors)
+    tags = read_hardware_tags(model, host.diagnostics)
+    if not tags:
+        text = f"model '{model.name}' has no <ros2_control> block: there is nothing to control"
+        text += " (no ros2_control tag)"
+        host.diagnostics.report("control.ros2-control-missing", text, model.span)
+    for tag in tags:
+        builder.add(tag)
+    return builder.robot()
+
+
+class _Builder:
+    def __init__(
+        self,
+        host: HardwareHost,
+        model: Model,
+        options: SystemOptions,
+        gains: Mapping[str, Any],
+        sensors: SensorSource | None,
+    ) -> None:
+        self._host, self._model, self._options = host, model, options
+        self._gains, self._sensors = gains, sensors
+        self._bank = InterfaceBank()
+        self._components: list[GazeboSystem | GenericSystem] = []
+        self._interfaces: dict[str, tuple[str, ...]] = {}
+        self._frames: dict[str, str] = {}
+
+    def add(self, tag: HardwareTag) -> None:
+        """Make the hardware of a block; a block whose class is unknown is reported only."""
+        plugin = tag.plugin.replace("::", "/")
+        if plugin not in _KNOWN:
+            self._report_unknown(tag)
+        elif plugin in MOCK_PLUGINS:
+            self._report_elsewhere(tag, "it mirrors commands and moves nothing")
+            self._add_mock(tag)
+        else:
+            is_gz = plugin in GZ_PLUGINS
+            if is_gz is not self._options.is_gz:
+                self._report_elsewhere(tag, "it works here all the same")
+            self._add_simulated(tag, self._options._replace(is_gz=is_gz))
+
+    def robot(self) -> Robot:
+        """Return everything added, ready to be read."""
+        self._bank.freeze()
+        for component in self._components:
+            component.start()
+        return Robot(
+            2,
+            self._model,
+            self._bank,
+            tuple(self._components),
+            {joint.name: joint for item in self._components for joint in item.joints},
+            self._interfaces,
+            self._frames,
+        )
+
+    def _add_simulated(self, tag: HardwareTag, options: SystemOptions) -> None:
+        host, model = self._host, self._model
+        joints = read_ros2_joints(host, model, tag, self._gains)
+        mimics = read_mimics(host, model, tag)
+        sensors = SensorStates(tag.of_kind("sensor"), self._bank, self._sensors, host.diagnostics)
+        for part in tag.of_kind("gpio"):
+            text = f"gpio '{part.name}' of '{tag.name}' is left out: {tag.plugin} has none"
+            host.diagnostics.report("control.ros2-control-gpio", text, part.span)
+        self._report_parameters(tag, ())
+        self._components.append(
+            GazeboSystem(host.engine, self._bank, model.name, tag, joints, mimics, sensors, options)
+        )
+        self._interfaces.update(sensors.interfaces)
+        self._frames.update(sensors.frames)
+
+    def _add_mock(self, tag: HardwareTag) -> None:
+        joints = [resource_of(part, self._model) for part in tag.of_kind("joint")]
+        mimics = read_mimics(self._host, self._model, tag)
+        self._report_parameters(tag, GENERIC_PARAMETERS)
+        self._components.append(GenericSystem(tag, self._bank, joints, mimics))
+        for part in (*tag.of_kind("sensor"), *tag.of_kind("gpio")):
+            self._interfaces[part.name] = tuple(f"{part.name}/{item.name}" for item in part.states)
+            self._frames[part.name] = part.parameters.get("frame_id", part.name)
+
+    def _report_unknown(self, tag: HardwareTag) -> None:
+        named = f"class '{tag.plugin}'" if tag.plugin else "no <plugin>"
+        text = f"hardware '{tag.name}' has {named}, which is not simulated hardware: its joints"
+        text += " and sensors cannot be controlled (The plugin failed to load for some reason."
+        text += f" According to the loaded plugin descriptions the class {tag.plugin} does not"
+        text += " exist.)"
+        hint = did_you_mean(tag.plugin, _KNOWN)
+        if not hint:
+            best = GZ_PLUGINS[0] if self._options.is_gz else CLASSIC_PLUGINS[0]
+            hint = f"for the simulation, write <plugin>{best}</plugin>"
+        self._host.diagnostics.report("control.hardware-plugin", text, tag.span, fix=hint)
+
+    def _report_elsewhere(self, tag: HardwareTag, what: str) -> None:
+        best = GZ_PLUGINS[0] if self._options.is_gz else CLASSIC_PLUGINS[0]
+        text = f"hardware '{tag.name}' is {tag.plugin}, which the model's Gazebo plug-in would not"
+        text += f" load; {what}"
+        fix = f"for the simulation, write <plugin>{best}</plugin>"
+        self._host.diagnostics.report("control.hardware-plugin-other", text, tag.span, fix=fix)
+
+    def _report_parameters(self, tag: HardwareTag, known: tuple[str, ...]) -> None:
+        for name in tag.parameters:
+            if name not in known:
+                text = f"parameter '{name}' of hardware '{tag.name}' has no effect on {tag.plugin}"
+                hint = did_you_mean(name, known)
+                self._host.diagnostics.report(
+                    "control.hardware-parameter", text, tag.span, fix=hint
+                )

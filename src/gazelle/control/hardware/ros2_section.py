@@ -1,0 +1,135 @@
+"""The joints of a ROS 2 robot that are commanded in the same way just now."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gazelle.control.bank import Array, Indices, InterfaceBank
+from gazelle.control.hardware.joint_commands import (
+    JointWriter,
+    effort_writer,
+    position_writer,
+    velocity_writer,
+)
+from gazelle.control.hardware.joint_states import JointStates
+from gazelle.control.hardware.ros2_joints import Ros2Joint
+from gazelle.control.pid import PidBank
+
+if TYPE_CHECKING:
+    from gazelle.engine import Engine
+
+__all__ = ["Method", "Ros2Section"]
+
+Method = str
+"""``position``, ``velocity``, ``effort``, ``servo`` (gz-sim's position), or with ``_pid``."""
+
+
+class Ros2Section:
+    """Joints with one control method, made anew whenever controllers are switched.
+
+    What holds a joint goes on until its first command comes.
+
+    Args:
+        engine: the physics.
+        bank: has the commands.
+        model: name of the model in the world.
+        joints: all joints of the hardware, in the order of its states.
+        places: those of this section.
+        method: how they are commanded.
+        servo_gain_1_s: of ``servo``: speed over position error, 1/s.
+        max_effort: of ``velocity`` and ``servo`` motors (N,); infinite for ``SetVelocity``.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        bank: InterfaceBank,
+        model: str,
+        joints: Sequence[Ros2Joint],
+        places: Sequence[int],
+        method: Method,
+        *,
+        servo_gain_1_s: float,
+        max_effort: Array,
+    ) -> None:
+        mine = [joints[place] for place in places]
+        self.method = method
+        self.names = tuple(joint.name for joint in mine)
+        interface = {"servo": "position"}.get(method, method.removesuffix("_pid"))
+        self._bank = bank
+        self._commands = bank.command_places([f"{name}/{interface}" for name in self.names])
+        self._places: Indices = np.array(places, dtype=np.intp)
+        self._lower = np.array([joint.commands[interface].lower for joint in mine])
+        self._upper = np.array([joint.commands[interface].upper for joint in mine])
+        self._is_bounded = bool(np.isfinite(self._lower).any() or np.isfinite(self._upper).any())
+        self._servo_gain_1_s = servo_gain_1_s
+        self.pids = None
+        if method.endswith("_pid"):
+            self.pids = PidBank([joint.gains[interface] for joint in mine])
+        names = [f"{model}::{name}" for name in self.names]
+        self._writer = _WRITERS.get(method, _effort)(engine, names, max_effort)
+        # An effort would do nothing to a joint that is still locked.
+        self._waiting = np.ones(len(mine), dtype=bool)
+        self._must_release = method == "effort" or self.pids is not None
+
+    def write(self, states: JointStates, step_s: float, steps: int, *, is_new: bool) -> None:
+        """Act on the commands; NaN leaves a joint as it is.
+
+        Args:
+            states: as last read.
+            step_s: length of a physics step.
+            steps: until the next command.
+            is_new: False when this step was written before: PIDs do not run again.
+        """
+        commands = self._bank.commands[self._commands]
+        if self._is_bounded:
+            commands = np.minimum(np.maximum(commands, self._lower), self._upper)
+        if self._must_release and self._waiting.any():
+            self._let_go(~np.isnan(commands))
+        if self.method == "servo":
+            error = commands - states.position[self._places]
+            self._writer.write(self._servo_gain_1_s * error, steps)
+        elif self.pids is None:
+            self._writer.write(commands, steps)
+        elif is_new:
+            self._run_pids(self.pids, commands, states, step_s)
+
+    def forget(self) -> None:
+        """Send everything again: the engine was reset."""
+        self._writer.forget()
+        self._waiting[:] = True
+        if self.pids is not None:
+            self.pids.reset()
+
+    def _let_go(self, commanded: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> None:
+        leaving = np.flatnonzero(self._waiting & commanded)
+        if len(leaving):
+            self._writer.release(leaving.tolist())
+            self._waiting[leaving] = False
+
+    def _run_pids(self, pids: PidBank, commands: Array, states: JointStates, step_s: float) -> None:
+        is_position = self.method == "position_pid"
+        measured = (states.position if is_position else states.velocity)[self._places]
+        errors = commands - measured
+        idle = np.isnan(errors)
+        efforts = pids.compute(np.where(idle, 0.0, errors), step_s)
+        self._writer.write(np.where(idle, math.nan, efforts))
+
+
+def _position(engine: Engine, names: Sequence[str], max_effort: Array) -> JointWriter:
+    return position_writer(engine, names)
+
+
+def _effort(engine: Engine, names: Sequence[str], max_effort: Array) -> JointWriter:
+    return effort_writer(engine, names)
+
+
+_WRITERS: dict[Method, Callable[[Engine, Sequence[str], Array], JointWriter]] = {
+    "position": _position,
+    "velocity": velocity_writer,
+    "servo": velocity_writer,
+}

@@ -1,0 +1,115 @@
+"""States of the sensors of ``<ros2_control>`` blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple, Protocol
+
+from gazelle.control.bank import InterfaceBank
+from gazelle.control.hardware.ros2_tags import PartTag
+from gazelle.diagnostics import Diagnostics, did_you_mean
+
+__all__ = ["FORCE_TORQUE_STATES", "IMU_STATES", "SensorReadout", "SensorSource", "SensorStates"]
+
+IMU_STATES = (
+    "orientation.x",
+    "orientation.y",
+    "orientation.z",
+    "orientation.w",
+    "angular_velocity.x",
+    "angular_velocity.y",
+    "angular_velocity.z",
+    "linear_acceleration.x",
+    "linear_acceleration.y",
+    "linear_acceleration.z",
+)
+"""State interfaces of an IMU in the order of its values."""
+
+FORCE_TORQUE_STATES = ("force.x", "force.y", "force.z", "torque.x", "torque.y", "torque.z")
+"""State interfaces of a force-torque sensor in the order of its values."""
+
+
+class SensorReadout(NamedTuple):
+    """A sensor of the simulated model.
+
+    Attributes:
+        interfaces: names of its values.
+        frame_id: frame of the values.
+        read: returns them.
+    """
+
+    interfaces: tuple[str, ...]
+    frame_id: str
+    read: Callable[[], Sequence[float]]
+
+
+class SensorSource(Protocol):
+    """Sensors of the simulated model."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of those that hardware can offer."""
+        ...
+
+    def find(self, name: str) -> SensorReadout | None:
+        """Return a sensor by its name in the model, None when there is none."""
+        ...
+
+
+class SensorStates:
+    """Sensors of one block; those whose states nobody reads are not computed.
+
+    Attributes:
+        interfaces: full names of the states by sensor.
+        frames: ``frame_id`` by sensor.
+    """
+
+    def __init__(
+        self,
+        parts: Sequence[PartTag],
+        bank: InterfaceBank,
+        source: SensorSource | None,
+        diagnostics: Diagnostics,
+    ) -> None:
+        self.interfaces: dict[str, tuple[str, ...]] = {}
+        self.frames: dict[str, str] = {}
+        self._bank = bank
+        self._rows: list[tuple[Mapping[int, int], Callable[[], Sequence[float]]]] = []
+        for part in parts:
+            readout = source.find(part.name) if source is not None else None
+            if readout is None:
+                names = source.names if source is not None else ()
+                text = f"sensor '{part.name}' is not an IMU or force-torque sensor of the simulated"
+                text += " model; it is left out (Skipping sensor in the URDF named"
+                text += f" '{part.name}' which is not in the gazebo model.)"
+                hint = did_you_mean(part.name, names)
+                diagnostics.report("control.ros2-control-sensor", text, part.span, fix=hint)
+                continue
+            self._add(part, readout, diagnostics)
+
+    def read(self) -> None:
+        """Measure what is read."""
+        looked_up = self._bank.looked_up
+        for places, read in self._rows:
+            if looked_up.isdisjoint(places):
+                continue
+            values = read()
+            for place, number in places.items():
+                self._bank.states[place] = values[number]
+
+    def _add(self, part: PartTag, readout: SensorReadout, diagnostics: Diagnostics) -> None:
+        places: dict[int, int] = {}
+        names = []
+        for item in part.states:
+            if item.name not in readout.interfaces:
+                text = f"sensor '{part.name}' has no state '{item.name}'; it has"
+                text += f" {', '.join(readout.interfaces)}"
+                hint = did_you_mean(item.name, readout.interfaces)
+                diagnostics.report("control.ros2-control-interface", text, part.span, fix=hint)
+                continue
+            name = f"{part.name}/{item.name}"
+            places[self._bank.add_state(name)] = readout.interfaces.index(item.name)
+            names.append(name)
+        self.interfaces[part.name] = tuple(names)
+        self.frames[part.name] = part.parameters.get("frame_id", readout.frame_id)
+        self._rows.append((places, readout.read))

@@ -1,0 +1,115 @@
+"""``libgazebo_ros2_control`` and gz-sim's ``gz_ros2_control``: the robot of ROS 2."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.ros2_control_table import GZ_TABLE, TABLE
+from gazelle.simulator.plugins.ros_control_loop import control_period, run_control_loop
+
+if TYPE_CHECKING:
+    from gazelle.control.hardware.gazebo_system import SystemOptions
+    from gazelle.control.sources.files import FileSource
+
+__all__ = ["GZ_TABLE", "TABLE", "load", "load_gz"]
+
+_UPDATE_RATE_HZ = 100
+"""Default of the controller manager's ``update_rate``."""
+
+
+def load(context: PluginContext) -> None:
+    """Start the plug-in of Gazebo Classic."""
+    _load(context, context.reader(TABLE), is_gz=False)
+
+
+def load_gz(context: PluginContext) -> None:
+    """Start the plug-in of gz-sim."""
+    _load(context, context.reader(GZ_TABLE), is_gz=True)
+
+
+def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -> None:
+    from gazelle.control.controller_manager import ControllerManager
+    from gazelle.control.hardware.ros2_robot import build_ros2_robot
+    from gazelle.simulator.control_ports import make_ports, offer_manager
+    from gazelle.simulator.plugins.ros2_control_sensors import ModelSensors
+
+    host, resources, engine = context.host, context.resources, context.host.engine
+    namespace = join_names("/", parameters.ros.namespace or context.default_namespace)
+    name = parameters.text("controller_manager_name")
+    source = _source(context, parameters, namespace, name)
+    rate_hz = _rate(context, source)
+    steps = control_period(context, round(1e9 / rate_hz), "update_rate")
+    options = _options(parameters, is_gz=is_gz, rate_hz=1e9 / float(steps * engine.step_ns))
+    gains = source.tree(context.plugin.name).get("pid_gains", {})
+    robot = build_ros2_robot(
+        host,
+        context.model,
+        options,
+        gains=gains if isinstance(gains, dict) else {},
+        sensors=ModelSensors(host, context.model),
+    )
+    remappings = parameters.ros.remappings
+    manager = ControllerManager(
+        robot,
+        namespace=namespace,
+        make_ports=lambda one: make_ports(host, resources, namespace, one, 2, remappings),
+        source=source,
+        diagnostics=host.diagnostics,
+        update_rate_hz=options.update_rate_hz,
+        workspace=host.workspace,
+        clock=lambda: engine.time_ns,
+    )
+    offer_manager(manager, host, resources, name=name, remappings=remappings)
+    run_control_loop(context, manager, steps)
+    parameters.report_unread()
+
+
+def _options(parameters: ParameterReader, *, is_gz: bool, rate_hz: float) -> SystemOptions:
+    from gazelle.control.hardware.gazebo_system import SystemOptions
+
+    gain = parameters.number("position_proportional_gain") if is_gz else 0.0
+    return SystemOptions(is_gz, parameters.flag("hold_joints"), gain, rate_hz)
+
+
+def _source(
+    context: PluginContext, parameters: ParameterReader, namespace: str, manager: str
+) -> FileSource:
+    from gazelle.control.sources.files import FileSource
+
+    files = []
+    for text in parameters.texts("parameters"):
+        path = _resolved(context, text.strip())
+        if path is not None:
+            files.append(path)
+    if not any(text.strip() for text in parameters.texts("parameters")):
+        message = f"plug-in '{context.plugin.name}' names no <parameters> file: controllers have"
+        message += " no types and no parameters (No parameter file provided. Configuration might"
+        message += " be wrong)"
+        context.report("control.no-parameter-file", message)
+    return FileSource(files, namespace, context.host.diagnostics, manager=manager)
+
+
+def _resolved(context: PluginContext, text: str) -> Path | None:
+    """Return the file that ``<parameters>`` means; addresses of packages work too."""
+    if not text:
+        return None
+    workspace = context.host.workspace
+    base = context.model.file.parent if context.model.file is not None else None
+    if workspace is None:
+        return Path(text)
+    found = workspace.resolve(text, base_dir=base)
+    return found.path or Path(text)
+
+
+def _rate(context: PluginContext, source: FileSource) -> float:
+    value: Any = source.manager_tree().get("update_rate", _UPDATE_RATE_HZ)
+    if isinstance(value, int | float) and not isinstance(value, bool) and value > 0:
+        return float(value)
+    text = f"update_rate of the controller manager is {value!r}, not a number above 0;"
+    text += f" {_UPDATE_RATE_HZ} Hz is used"
+    place = source.place("controller_manager", "update_rate") or context.plugin.span
+    context.host.diagnostics.report("control.bad-value", text, place)
+    return float(_UPDATE_RATE_HZ)
