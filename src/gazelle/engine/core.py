@@ -262,13 +262,19 @@ class EngineCore:
 
     def add_wrench(
         self, link: str, force_n: Array, torque_nm: Array, duration_ns: int | None
-    ) -> None:
+    ) -> TimedWrench:
         """Let a wrench about a link's centre of mass act for a time; None for ever."""
         until = None
         if duration_ns is not None:
             steps = max(1, -(-duration_ns // self._step_ns))
             until = self.iteration + steps
-        self._wrenches.add(TimedWrench(link, force_n, torque_nm, until))
+        item = TimedWrench(link, force_n, torque_nm, until)
+        self._wrenches.add(item)
+        return item
+
+    def end_wrench(self, wrench: TimedWrench) -> None:
+        """End one wrench before its time; see `LinkHandle.apply_wrench`."""
+        self._wrenches.remove(wrench)
 
     def clear_wrenches(self, link: str | None = None) -> None:
         """End the wrenches on a link, or all."""

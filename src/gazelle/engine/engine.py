@@ -273,14 +273,14 @@ class Engine(EngineCore):
             self._world, self._compiled, copy.copy(self.model), copy.copy(self._data),
             self.time_ns, self.iteration, self._step_ns, copy.deepcopy(self.motors),
             self.locks.copy(), self._welds.copy(), copy.deepcopy(self._tyres),
-            copy.deepcopy(self._wrenches),
+            self._wrenches.copy(),
         )  # fmt: skip
 
     def restore_state(self, state: EngineState) -> None:
         """Go back to a saved state, with the models there were."""
         self._world, self._step_ns = state.world, state.step_ns
         self.time_ns, self.iteration = state.time_ns, state.iteration
-        self.motors, self._wrenches = copy.deepcopy(state.motors), copy.deepcopy(state.wrenches)
+        self.motors, self._wrenches = copy.deepcopy(state.motors), state.wrenches.copy()
         self.locks, self._welds = state.locks.copy(), state.welds.copy()
         self._tyres = copy.deepcopy(state.tyres)
         self._compiled = replace(state.compiled, model=copy.copy(state.model))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.engine.library import mujoco
 from gazelle.engine.records import Acceleration, Velocity
+from gazelle.engine.wrenches import TimedWrench
 from gazelle.geometry import Pose
 
 if TYPE_CHECKING:
@@ -94,8 +95,8 @@ class LinkHandle:
         *,
         point_link_m: Vector3 | Array | None = None,
         duration_ns: int | None = None,
-    ) -> None:
-        """Apply a force and a torque in the world frame.
+    ) -> TimedWrench:
+        """Apply a force and a torque in the world frame; `Engine.end_wrench` ends what it returns.
 
         Args:
             force_n: world frame.
@@ -110,7 +111,7 @@ class LinkHandle:
         if point_link_m is not None:
             point = self.T_world_link().transform(np.asarray(point_link_m, dtype=np.float64))
             torque = torque + np.cross(point - self.com_world(), force)
-        self._engine.add_wrench(self.name, force, torque, duration_ns)
+        return self._engine.add_wrench(self.name, force, torque, duration_ns)
 
     def clear_wrenches(self) -> None:
         """End all wrenches on this link."""

@@ -41,6 +41,16 @@ class WrenchTable:
         self.items.append(item)
         self.changed = True
 
+    def copy(self) -> WrenchTable:
+        """Return a copy for a saved state; the wrenches themselves never change."""
+        return WrenchTable(list(self.items), self.changed)
+
+    def remove(self, item: TimedWrench) -> None:
+        """End one wrench; one that has ended already is left alone."""
+        kept = [other for other in self.items if other is not item]
+        self.changed = self.changed or len(kept) != len(self.items)
+        self.items = kept
+
     def clear(self, links: frozenset[str] | None = None) -> None:
         """Remove the wrenches on some links, or all."""
         kept = [] if links is None else [item for item in self.items if item.link not in links]

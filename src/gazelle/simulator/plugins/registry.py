@@ -45,6 +45,9 @@ _FAMILIES = (
     ("range", "HECTOR_TABLE", "load_hector"),
     ("multicamera", "TABLE", "load"),
     ("block_laser", "TABLE", "load"),
+    ("skid_steer", "TABLE", "load"),
+    ("planar_move", "TABLE", "load"),
+    ("velocity_control", "TABLE", "load"),
     ("named", "TABLE", "load"),
     ("named", "NOTHING_TABLE", "load_nothing"),
 )
@@ -93,6 +96,7 @@ def load_plugin(context: PluginContext) -> bool:
     """Start a plug-in; an unknown one is reported by name and place, and False is returned.
 
     A gz-sim plug-in is looked up by its ``filename``, then by its ``name``, the system's class.
+    Then a plug-in of the user's own in Python is looked for.
     """
     plugin = context.plugin
     for name in (plugin.filename, plugin.name):
@@ -100,6 +104,12 @@ def load_plugin(context: PluginContext) -> bool:
         if found is not None:
             found[1](context)
             return True
+    from gazelle.simulator.plugins.user.loader import load_user_plugin, report_compiled
+
+    if load_user_plugin(context):
+        return True
+    if plugin.filename and report_compiled(context):
+        return False
     name = plain_name(plugin.filename)
     meaning = _ELSEWHERE.get(name, "what it does in Gazebo does not happen here")
     text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of model '{context.model.name}' is "

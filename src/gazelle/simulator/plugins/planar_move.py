@@ -1,0 +1,160 @@
+"""``libgazebo_ros_planar_move``: a robot that slides over the floor as it is told, ROS 1 and 2."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from gazelle.geometry import Pose
+from gazelle.simulator.plugins.body_odometry import (
+    BodyOdometry,
+    OdometrySetup,
+    frame_prefix,
+    planar_covariance,
+)
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.scheduler import period_in_steps
+
+__all__ = ["TABLE", "load"]
+
+_EVERY_STEP = Fraction(1)
+
+TABLE = PluginTable(
+    family="planar_move",
+    summary="Gives a robot the commanded velocity in the plane, without wheels (omnidirectional).",
+    filenames=("gazebo_ros_planar_move",),
+    behaviour=(
+        "ROS 1 sets the velocity at every step, ROS 2 at `update_rate`; in between friction and"
+        " gravity act, so what stands on the floor should have little friction. The vertical speed"
+        " is set to 0.",
+        "Without a command the robot is kept still; it floats where it is.",
+        "The velocity is that of the model's frame; the joints keep their own speeds.",
+        "ROS 1 measures the twist as the difference of two poses over the time between them.",
+    ),
+    topics=(
+        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
+        Topic("{odometryTopic}", "nav_msgs/msg/Odometry", "`odometryRate`", "`odometryFrame`"),
+        Topic("/tf", "tf2_msgs/msg/TFMessage", "`odometryRate`", "`odometryFrame`"),
+    ),
+    parameters=(
+        Parameter("robotNamespace", "text", "", "namespace of all topics"),
+        Parameter("commandTopic", "text", "cmd_vel", "commands"),
+        Parameter("odometryTopic", "text", "odom", "odometry"),
+        Parameter("odometryFrame", "text", "odom", "its frame", "", ("odometry_frame",)),
+        Parameter(
+            "robotBaseFrame", "text", "base_footprint", "child frame", "", ("robot_base_frame",)
+        ),
+        Parameter(
+            "odometryRate", "number", 20.0, "publish rate, 0 for never", "Hz", ("publish_rate",)
+        ),
+        Parameter("update_rate", "number", 20.0, "how often the velocity is set (ROS 2)", "Hz"),
+        Parameter("cmdTimeout", "number", -1.0, "age at which a command ends (ROS 1)", "s"),
+        Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)"),
+        Parameter("publish_odom_tf", "flag", True, "publish odom → base (ROS 2)"),
+        Parameter("covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²"),
+        Parameter("covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²"),
+        Parameter("covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²"),
+    ),
+)
+
+
+def load(context: PluginContext) -> None:
+    """Start moving the model."""
+    parameters = context.reader(TABLE)
+    _PlanarMove(context, parameters)
+    parameters.report_unread()
+
+
+class _PlanarMove:
+    """One running plug-in."""
+
+    def __init__(self, context: PluginContext, parameters: ParameterReader) -> None:
+        self._context = context
+        self._engine = context.host.engine
+        self._is_ros2 = parameters.ros.present or parameters.has("update_rate")
+        self._command = (0.0, 0.0, 0.0)
+        self._stamp_ns = 0
+        timeout = parameters.number("cmdTimeout")
+        self._timeout_ns = math.inf if timeout < 0 else timeout * 1e9
+        self._odometry = BodyOdometry(context, _setup(context, parameters, ros2=self._is_ros2))
+        self._last: tuple[int, Pose] = (self._engine.time_ns, self._pose())
+        topic = context.topic(parameters, parameters.text("commandTopic"))
+        # Twist and TwistStamped are both taken.
+        context.resources.subscription(topic, None, self._take, announced="geometry_msgs/msg/Twist")
+        self._start(parameters)
+
+    def _start(self, parameters: ParameterReader) -> None:
+        resources, step_ns = self._context.resources, self._engine.step_ns
+        name = self._context.plugin.name
+        period = _EVERY_STEP
+        if self._is_ros2:
+            period = period_in_steps(parameters.number("update_rate"), step_ns)
+        resources.task(f"{name} move", period, self._move)
+        rate = parameters.number("odometryRate")
+        if rate > 0:
+            resources.task(f"{name} odometry", period_in_steps(rate, step_ns), self._publish)
+        resources.on_reset(self._reset)
+
+    def _take(self, message: Any) -> None:
+        twist = getattr(message, "twist", message)
+        self._command = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
+        self._stamp_ns = self._engine.time_ns
+
+    def _move(self) -> None:
+        if self._engine.time_ns - self._stamp_ns > self._timeout_ns:
+            self._command = (0.0, 0.0, 0.0)
+        forward, sideways, turn = self._command
+        if not any(self._command) and self._is_asleep():
+            return
+        yaw = self._pose().rpy_rad[2]
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        linear = (forward * cos - sideways * sin, sideways * cos + forward * sin, 0.0)
+        self._engine.set_model_velocity(self._context.model.name, linear, (0.0, 0.0, turn))
+
+    def _publish(self) -> None:
+        pose, time_ns = self._pose(), self._engine.time_ns
+        (last_ns, last), self._last = self._last, (time_ns, pose)
+        if self._is_ros2 or time_ns == last_ns:
+            self._odometry.publish(pose)
+            return
+        period_s = (time_ns - last_ns) * 1e-9
+        gap = np.subtract(pose.position_m, last.position_m)[:2] / period_s
+        yaw = pose.rpy_rad[2]
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        turn = math.remainder(yaw - last.rpy_rad[2], 2 * math.pi) / period_s
+        motion = (cos * gap[0] + sin * gap[1], cos * gap[1] - sin * gap[0], turn)
+        self._odometry.publish(pose, motion)
+
+    def _pose(self) -> Pose:
+        return self._engine.model_pose(self._context.model.name)
+
+    def _is_asleep(self) -> bool:
+        model = self._context.model
+        link = model.canonical_link or model.links[0].name
+        return self._engine.is_asleep(self._engine.body_id(f"{model.name}::{link}"))
+
+    def _reset(self) -> None:
+        self._command = (0.0, 0.0, 0.0)
+        self._last = (self._engine.time_ns, self._pose())
+
+
+def _setup(context: PluginContext, parameters: ParameterReader, *, ros2: bool) -> OdometrySetup:
+    prefix = "" if ros2 else frame_prefix(context, parameters)
+    covariance = planar_covariance(
+        *(parameters.number(f"covariance_{axis}") for axis in ("x", "y", "yaw"))
+    )
+    topic = context.topic(parameters, parameters.text("odometryTopic"))
+    return OdometrySetup(
+        topic if parameters.flag("publish_odom") else "",
+        parameters.flag("publish_odom_tf"),
+        prefix + parameters.text("odometryFrame"),
+        prefix + parameters.text("robotBaseFrame"),
+        covariance,
+        covariance if ros2 else np.zeros(36),
+        is_flat=not ros2,
+    )
