@@ -8,7 +8,11 @@ from typing import TYPE_CHECKING, Any
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.ros2_control_table import GZ_TABLE, TABLE
-from gazelle.simulator.plugins.ros_control_loop import control_period, run_control_loop
+from gazelle.simulator.plugins.ros_control_loop import (
+    check_controllers,
+    control_period,
+    run_control_loop,
+)
 
 if TYPE_CHECKING:
     from gazelle.control.hardware.gazebo_system import SystemOptions
@@ -64,6 +68,7 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     )
     offer_manager(manager, host, resources, name=name, remappings=remappings)
     run_control_loop(context, manager, steps)
+    check_controllers(context, manager, steps)
     parameters.report_unread()
 
 

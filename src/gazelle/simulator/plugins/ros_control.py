@@ -7,7 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.ros_control_loop import control_period, run_control_loop
+from gazelle.simulator.plugins.ros_control_loop import (
+    check_controllers,
+    control_period,
+    run_control_loop,
+)
 from gazelle.simulator.plugins.ros_control_table import DEFAULT_ROBOT_SIM, TABLE
 
 if TYPE_CHECKING:
@@ -49,6 +53,7 @@ def _make(context: PluginContext, parameters: ParameterReader) -> ControllerMana
     )
     offer_manager(manager, host, resources)
     run_control_loop(context, manager, steps)
+    check_controllers(context, manager, steps)
     return manager
 
 

@@ -11,7 +11,7 @@ from gazelle.simulator.plugins.context import PluginContext
 if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
 
-__all__ = ["control_period", "run_control_loop"]
+__all__ = ["check_controllers", "control_period", "run_control_loop"]
 
 
 def control_period(context: PluginContext, period_ns: int, what: str) -> Fraction:
@@ -45,6 +45,29 @@ def run_control_loop(context: PluginContext, manager: ControllerManager, steps: 
     if steps > 1 and any(item.writes_every_step for item in manager.robot.components):
         context.resources.task(f"{name}, every step", Fraction(1), loop.write)
     context.resources.on_reset(loop.reset)
+
+
+def check_controllers(context: PluginContext, manager: ControllerManager, steps: Fraction) -> None:
+    """Report what can be known before the first step: names, limits and gains that do not fit."""
+    from gazelle.control.checks import check_control, joint_inertias, moveit_controllers
+
+    engine, model, robot = context.host.engine, context.model, manager.robot
+    # Locks that were just asked for are built in now.
+    engine.ensure_compiled()
+    full = {f"{model.name}::{name}": name for name in robot.joints}
+    inertias = joint_inertias(engine, full)
+    tree = context.host.node.parameters.get("/move_group", {})
+    check_control(
+        {joint.name: joint for joint in model.joints},
+        robot.joints,
+        manager.source,
+        context.host.diagnostics,
+        moveit=moveit_controllers(tree if isinstance(tree, dict) else {}),
+        inertias={full[name]: value for name, value in inertias.items()},
+        step_s=engine.step_ns * 1e-9,
+        period_steps=int(steps),
+        span=context.plugin.span,
+    )
 
 
 class _Loop:
