@@ -20,6 +20,8 @@ _FAMILIES: tuple[tuple[str, str], ...] = (
     ("four_wheel_steering", "FourWheelSteeringController"),
     ("mecanum_drive", "MecanumDriveController"),
     ("omni_wheel_drive", "OmniWheelDriveController"),
+    ("joint_trajectory.ros1", "Ros1JointTrajectoryController"),
+    ("joint_trajectory.ros2", "Ros2JointTrajectoryController"),
 )
 
 

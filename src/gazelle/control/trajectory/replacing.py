@@ -104,6 +104,11 @@ class PointTrajectory:
         """When the last waypoint is to be reached; known once it is begun."""
         return self._times_ns[-1]
 
+    @property
+    def last_point(self) -> JointState:
+        """The last waypoint, with a position in any case; known once it is begun."""
+        return self._points[-1]
+
     def segment_at(self, time_ns: int) -> int:
         """Return how many waypoints were reached; all of them at the end."""
         return max(bisect_right(self._times_ns, time_ns, lo=1) - 1, 0)

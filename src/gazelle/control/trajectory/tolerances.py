@@ -70,8 +70,8 @@ class Tolerances:
 
 def violated(error: Array, limits: Array) -> NDArray[np.bool_]:
     """Return which joints (N,) exceed their tolerances; both are (3, N), NaN exceeds nothing."""
-    exceeded: NDArray[np.bool_] = np.abs(error) > limits
-    return np.logical_or.reduce(exceeded)
+    exceeded: NDArray[np.bool_] = np.logical_or.reduce(np.abs(error) > limits)
+    return exceeded
 
 
 def goal_tolerances(

@@ -1,0 +1,209 @@
+"""How a trajectory becomes commands: handed on as it is, or through one PID for each joint."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from gazelle.control.bank import Array, Indices
+from gazelle.control.controllers.controller import ControllerContext
+from gazelle.control.errors import ControllerError
+from gazelle.control.parameters import flattened
+from gazelle.control.pid import PidBank, PidGains, offer_live_gains, read_gains
+
+__all__ = ["Forwarding", "PidOutput", "TrajectoryOutput", "report_idle_gains"]
+
+_ROWS = {"position": 0, "velocity": 1, "acceleration": 2}
+_SECONDS = 1e-9
+
+
+class TrajectoryOutput(Protocol):
+    """Writes the commands of a trajectory controller."""
+
+    @property
+    def commands(self) -> tuple[str, ...]:
+        """Command interfaces it writes."""
+        ...
+
+    @property
+    def is_closed_loop(self) -> bool:
+        """Whether commands depend on errors, so it must run at every update."""
+        ...
+
+    def start(self, position: Array) -> None:
+        """Begin at a place (N,)."""
+        ...
+
+    def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
+        """Command a state (3, N) with efforts (N,), from which joints differ by errors (3, N)."""
+        ...
+
+    def stop(self) -> None:
+        """Command nothing more: velocities, accelerations and efforts become 0."""
+        ...
+
+    def commanded(self) -> dict[str, Array]:
+        """Return the present commands by interface, in the order of the joints it commands."""
+        ...
+
+
+class Forwarding:
+    """Hands positions, velocities, accelerations and efforts on as they are."""
+
+    is_closed_loop = False
+
+    def __init__(
+        self,
+        context: ControllerContext,
+        names: Sequence[str],
+        interfaces: Sequence[str],
+        columns: Indices | None = None,
+    ) -> None:
+        """Look up interfaces.
+
+        Args:
+            context: of the controller.
+            names: joints to command.
+            interfaces: of each joint.
+            columns: which of the controller's joints they are, None for all of them.
+        """
+        self._bank = context.robot.bank
+        self._interfaces = tuple(interfaces)
+        self._places = _places(context, names, interfaces)
+        self._columns = columns
+        self.commands = _names(names, interfaces)
+
+    def start(self, position: Array) -> None:
+        """Command the positions, and no velocities, accelerations or efforts."""
+        self.stop()
+        if "position" in self._places:
+            self._bank.commands[self._places["position"]] = self._some(position)
+
+    def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
+        """Hand the desired state on."""
+        commands = self._bank.commands
+        for interface, places in self._places.items():
+            row = _ROWS.get(interface)
+            if row is not None:
+                commands[places] = self._some(desired[row])
+            elif effort is not None:
+                commands[places] = self._some(effort)
+
+    def stop(self) -> None:
+        """Leave positions, set the rest to 0."""
+        for interface, places in self._places.items():
+            if interface != "position":
+                self._bank.commands[places] = 0.0
+
+    def commanded(self) -> dict[str, Array]:
+        """Return the present commands."""
+        return {name: self._bank.commands[places] for name, places in self._places.items()}
+
+    def _some(self, values: Array) -> Array:
+        return values if self._columns is None else values[self._columns]
+
+
+class PidOutput:
+    """Commands velocities or efforts: feed-forward of the velocity plus a PID on the error."""
+
+    is_closed_loop = True
+
+    def __init__(
+        self,
+        context: ControllerContext,
+        names: Sequence[str],
+        interface: str,
+        feed_forward: Array,
+        columns: Indices | None = None,
+    ) -> None:
+        """Read the gains and offer to change them live.
+
+        Args:
+            context: of the controller.
+            names: joints to command.
+            interface: ``velocity`` or ``effort``.
+            feed_forward: of each of them.
+            columns: which of the controller's joints they are, None for all of them.
+
+        Raises:
+            ControllerError: a ROS 1 controller has no gains for a joint.
+        """
+        self._bank = context.robot.bank
+        self._interface = interface
+        self._places = _places(context, names, (interface,))
+        self._columns = columns
+        self.commands = _names(names, (interface,))
+        self.set_feed_forward(feed_forward)
+        self._pids = PidBank([_gains(context, name) for name in names])
+        separator = "/" if context.generation == 1 else "."
+        self._live = [
+            offer_live_gains(context, f"gains{separator}{name}", (self._pids, place))
+            for place, name in enumerate(names)
+        ]
+
+    def set_feed_forward(self, feed_forward: Array) -> None:
+        """Change what desired velocities are multiplied with, (N,)."""
+        self._feed_forward, self._feeds = feed_forward, bool(feed_forward.any())
+
+    def start(self, position: Array) -> None:
+        """Forget errors and integrals, command 0."""
+        self._pids.reset()
+        self.stop()
+
+    def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
+        """Compute the commands."""
+        if self._columns is not None:
+            desired, error = desired[:, self._columns], error[:, self._columns]
+            effort = None if effort is None else effort[self._columns]
+        command = self._pids.compute(error[0], period_ns * _SECONDS, error[1])
+        if self._feeds:
+            command += desired[1] * self._feed_forward
+        if effort is not None:
+            command += effort
+        self._bank.commands[self._places[self._interface]] = command
+
+    def stop(self) -> None:
+        """Command 0."""
+        self._bank.commands[self._places[self._interface]] = 0.0
+
+    def commanded(self) -> dict[str, Array]:
+        """Return the present commands."""
+        return {name: self._bank.commands[places] for name, places in self._places.items()}
+
+
+def report_idle_gains(context: ControllerContext) -> None:
+    """Say once that gains change nothing when positions are commanded."""
+    parameters = context.parameters
+    found = [name for name, _ in flattened({"gains": parameters.group("gains")})]
+    # Whether a joint wraps stands below gains too, and has an effect.
+    idle = [name for name in found if not name.endswith(("angle_wraparound", "normalize_error"))]
+    if not idle or idle == ["gains"]:
+        return
+    text = f"'{parameters.full_name('gains')}' has no effect: with the position interface the "
+    text += "trajectory's positions are commanded as they are, no PID is computed"
+    fix = "command 'effort' or 'velocity' to use the gains, or remove them"
+    parameters.report("control.idle-gains", text, key="gains", fix=fix)
+
+
+def _gains(context: ControllerContext, name: str) -> PidGains:
+    found = read_gains(context.parameters, "gains", name, generation=context.generation)
+    if found is not None:
+        return found
+    if context.generation == 2:
+        return PidGains()
+    where = context.parameters.full_name(f"gains.{name}")
+    text = f"controller '{context.name}': No p gain specified for pid. Namespace: {where} "
+    raise ControllerError(f"{text}(Failed to initialize PID gains from ROS parameter server.)")
+
+
+def _places(
+    context: ControllerContext, names: Sequence[str], interfaces: Sequence[str]
+) -> dict[str, Indices]:
+    return {
+        interface: context.command_places([f"{name}/{interface}" for name in names])
+        for interface in interfaces
+    }
+
+
+def _names(names: Sequence[str], interfaces: Sequence[str]) -> tuple[str, ...]:
+    return tuple(f"{name}/{interface}" for name in names for interface in interfaces)
