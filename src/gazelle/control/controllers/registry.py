@@ -12,6 +12,22 @@ __all__ = ["all_tables", "controller_class", "known_types"]
 
 # Modules of `gazelle.control.controllers` and the classes in them, in the documentation's order.
 _FAMILIES: tuple[tuple[str, str], ...] = (
+    ("joint_state_controller", "JointStateController"),
+    ("joint_state_broadcaster", "JointStateBroadcaster"),
+    ("joint_command", "JointCommandController"),
+    ("joint_group_command", "JointGroupCommandController"),
+    ("joint_group_command", "MultiInterfaceCommandController"),
+    ("joint_position", "JointPositionController"),
+    ("joint_velocity", "JointVelocityController"),
+    ("joint_group_position", "JointGroupPositionController"),
+    ("pid_controller", "PidController"),
+    ("ros1_sensors", "ImuSensorController"),
+    ("imu_sensor_broadcaster", "ImuSensorBroadcaster"),
+    ("ros1_sensors", "ForceTorqueSensorController"),
+    ("force_torque_broadcaster", "ForceTorqueSensorBroadcaster"),
+    ("range_sensor_broadcaster", "RangeSensorBroadcaster"),
+    ("pose_broadcaster", "PoseBroadcaster"),
+    ("gps_sensor_broadcaster", "GpsSensorBroadcaster"),
     ("diff_drive", "DiffDriveController"),
     ("ackermann_steering", "AckermannSteeringController"),
     ("bicycle_steering", "BicycleSteeringController"),

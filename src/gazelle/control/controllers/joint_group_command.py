@@ -1,0 +1,171 @@
+"""Controllers that pass a list of numbers on to as many interfaces."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.control.bank import Array, Indices
+from gazelle.control.controllers.controller import Controller, ControllerContext
+from gazelle.control.errors import ControllerError
+from gazelle.control.table import ControllerTable, Parameter, Topic
+
+__all__ = ["JointGroupCommandController", "MultiInterfaceCommandController"]
+
+_INTERFACES = {
+    "effort_controllers/JointGroupEffortController": "effort",
+    "velocity_controllers/JointGroupVelocityController": "velocity",
+    "position_controllers/JointGroupPositionController": "position",
+}
+_FORWARD = "forward_command_controller/ForwardCommandController"
+_MULTI = "forward_command_controller/MultiInterfaceForwardCommandController"
+_ARRAY = "std_msgs/Float64MultiArray"
+_UNTIL_TOLD = "In ROS 2 nothing is commanded before the first message after each activation."
+
+
+class _ForwardController(Controller):
+    """Passes arrays on.
+
+    Attributes:
+        stop_value: written to every interface at the stop; None leaves the commands.
+    """
+
+    stop_value: float | None = None
+
+    def _forward(self, commands: tuple[str, ...]) -> None:
+        """Look up interfaces and listen."""
+        context = self.context
+        self.commands = commands
+        self._places: Indices = context.command_places(commands)
+        self._values: Array | None = None
+        topic = "~/command" if context.generation == 1 else "~/commands"
+        context.ports.subscription(topic, _ARRAY, self._take)
+
+    def start(self, time_ns: int) -> None:
+        """Forget what came before."""
+        self._values = None
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Pass the last array on."""
+        if self._values is not None:
+            self.robot.bank.commands[self._places] = self._values
+
+    def stop(self, time_ns: int) -> None:
+        """Set everything to 0 where the original does."""
+        if self.stop_value is not None:
+            self.robot.bank.commands[self._places] = self.stop_value
+
+    def _take(self, message: Any) -> None:
+        values = np.array(message.data, dtype=np.float64)
+        count = len(self.commands)
+        if len(values) == count:
+            self._values = values
+            return
+        if self.context.generation == 1:
+            text = (
+                f"Dimension of command ({len(values)}) does not match number of joints ({count})! "
+            )
+            text += "Not executing!"
+        else:
+            text = f"command size ({len(values)}) does not match number of interfaces ({count})"
+        self.context.ports.log("error", f"{self.context.name}: {text}")
+
+
+class JointGroupCommandController(_ForwardController):
+    """Passes arrays on to one interface of several joints, in both generations."""
+
+    TABLE = ControllerTable(
+        "joint_group_command",
+        "Passes an array of commands on to the same interface of several joints.",
+        (*_INTERFACES, _FORWARD),
+        "claims effort, velocity or position of the joints, as the type says, or `interface_name`",
+        (
+            Parameter("joints", "texts", None, "the joints, in the order of the array; required"),
+            Parameter(
+                "interface_name",
+                "text",
+                None,
+                "interface of ForwardCommandController; required there",
+                generations=(2,),
+            ),
+        ),
+        (
+            Topic("~/command", _ARRAY, "listens", generations=(1,)),
+            Topic("~/commands", _ARRAY, "listens", generations=(2,)),
+        ),
+        (
+            "In ROS 1 efforts and velocities begin at 0 and positions where the joints are "
+            "(joint_group_*_controller.cpp).",
+            _UNTIL_TOLD,
+            "In ROS 2 effort_controllers and velocity_controllers command 0 when they stop.",
+            "An array of the wrong length is not taken.",
+        ),
+    )
+
+    def __init__(self, context: ControllerContext) -> None:
+        """Look up the joints."""
+        super().__init__(context)
+        parameters = context.parameters
+        parameters.require("joints")
+        joints = parameters.texts("joints")
+        if not joints:
+            empty = ("List of joint names is empty.", "'joints' parameter was empty")
+            raise ControllerError(f"{context.name}: {empty[context.generation - 1]}")
+        for joint in joints:
+            context.joint(joint)
+        interface = _INTERFACES.get(context.type.replace("::", "/"), "")
+        if not interface:
+            parameters.require("interface_name")
+            interface = parameters.text("interface_name")
+        elif parameters.has("interface_name"):
+            text = f"'interface_name' has no effect: {context.type} commands {interface}"
+            parameters.report("control.idle-parameter", text, key="interface_name")
+        self._forward(tuple(f"{joint}/{interface}" for joint in joints))
+        self._state_places: Indices | None = None
+        if context.generation == 1 and interface == "position":
+            self.states = self.commands
+            self._state_places = context.state_places(self.states)
+        if context.generation == 2 and interface != "position" and context.type != _FORWARD:
+            self.stop_value = 0.0
+
+    def start(self, time_ns: int) -> None:
+        """Begin at rest in ROS 1, with nothing in ROS 2."""
+        super().start(time_ns)
+        if self._state_places is not None:
+            self._values = self.robot.bank.states[self._state_places]
+        elif self.context.generation == 1:
+            self._values = np.zeros(len(self.commands))
+
+
+class MultiInterfaceCommandController(_ForwardController):
+    """Passes arrays on to several interfaces of one joint."""
+
+    TABLE = ControllerTable(
+        "multi_interface_command",
+        "Passes an array of commands on to several interfaces of one joint.",
+        (_MULTI,),
+        "claims `interface_names` of the joint",
+        (
+            Parameter("joint", "text", None, "the joint; required", generations=(2,)),
+            Parameter(
+                "interface_names",
+                "texts",
+                None,
+                "its interfaces, in the order of the array; required",
+                generations=(2,),
+            ),
+        ),
+        (Topic("~/commands", _ARRAY, "listens", generations=(2,)),),
+        (_UNTIL_TOLD, "Once stopped it leaves its last command with the hardware."),
+    )
+
+    def __init__(self, context: ControllerContext) -> None:
+        """Look up the interfaces."""
+        super().__init__(context)
+        context.parameters.require("joint")
+        context.parameters.require("interface_names")
+        joint = context.parameters.text("joint")
+        context.joint(joint)
+        names = context.parameters.texts("interface_names")
+        self._forward(tuple(f"{joint}/{name}" for name in names))

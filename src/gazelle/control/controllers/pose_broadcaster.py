@@ -1,0 +1,106 @@
+"""ROS 2's pose_broadcaster."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.control.bank import Array
+from gazelle.control.controllers.controller import Controller, ControllerContext
+from gazelle.control.controllers.sensor_messages import (
+    POSE_INTERFACES,
+    point,
+    quaternion,
+    sensor_places,
+    vector,
+)
+from gazelle.control.messages import message_class, stamped
+from gazelle.control.table import ControllerTable, Parameter, Topic
+
+__all__ = ["PoseBroadcaster"]
+
+_UNIT_TOLERANCE = 10e-3
+_SAY_EVERY_NS = 1_000_000_000
+
+
+class PoseBroadcaster(Controller):
+    """Publishes one pose at every update, as message and as transform."""
+
+    TABLE = ControllerTable(
+        "pose_broadcaster",
+        "Publishes one pose, such as a tracker measures it, and its transform.",
+        ("pose_broadcaster/PoseBroadcaster",),
+        "claims none; reads position and orientation of the sensor",
+        (
+            Parameter("pose_name", "text", None, "the sensor; required"),
+            Parameter("frame_id", "text", None, "frame of the message; required"),
+            Parameter("tf.enable", "flag", True, "publish the transform"),
+            Parameter("tf.child_frame_id", "text", "", "child frame; pose_name if empty"),
+            Parameter("tf.publish_rate", "number", 0.0, "of transforms at most; 0: all", "Hz"),
+        ),
+        (
+            Topic("~/pose", "geometry_msgs/PoseStamped", rate="every update", frame="frame_id"),
+            Topic("/tf", "tf2_msgs/TFMessage", rate="every update", frame="frame_id"),
+        ),
+        (
+            "A pose that is no number, or whose quaternion is not of length 1, has no transform "
+            "(pose_broadcaster.cpp).",
+        ),
+    )
+
+    def __init__(self, context: ControllerContext) -> None:
+        """Look up the sensor."""
+        super().__init__(context)
+        parameters = context.parameters
+        parameters.require("pose_name")
+        parameters.require("frame_id")
+        name, self._frame_id = parameters.text("pose_name"), parameters.text("frame_id")
+        self.states = tuple(f"{name}/{word}" for word in POSE_INTERFACES)
+        self._places = sensor_places(context, name, POSE_INTERFACES)
+        self._child_frame_id = parameters.text("tf.child_frame_id") or name
+        rate_hz = parameters.number("tf.publish_rate")
+        self._tf_period_ns = round(1e9 / rate_hz) if rate_hz > 0.0 else 0
+        self._next_tf_ns = self._next_word_ns = 0
+        self._publisher = context.ports.publisher("~/pose", "geometry_msgs/PoseStamped")
+        self._tf = None
+        if parameters.flag("tf.enable"):
+            self._tf = context.ports.publisher("/tf", "tf2_msgs/TFMessage")
+
+    def start(self, time_ns: int) -> None:
+        """Begin at once."""
+        self._next_tf_ns = self._next_word_ns = time_ns
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Publish what somebody listens to."""
+        values = self.robot.bank.states[self._places]
+        if self._publisher.matched:
+            message = stamped("geometry_msgs/PoseStamped", time_ns, self._frame_id)
+            message.pose.position = point(values[:3])
+            message.pose.orientation = quaternion(values[3:])
+            self._publisher.publish(message)
+        if not _is_valid(values):
+            self._complain(time_ns, values)
+        elif self._tf is not None and time_ns >= self._next_tf_ns:
+            self._next_tf_ns = time_ns + self._tf_period_ns
+            if self._tf.matched:
+                self._tf.publish(self._transform(time_ns, values))
+
+    def _transform(self, time_ns: int, values: Array) -> Any:
+        message = stamped("geometry_msgs/TransformStamped", time_ns, self._frame_id)
+        message.child_frame_id = self._child_frame_id
+        message.transform.translation = vector(values[:3])
+        message.transform.rotation = quaternion(values[3:])
+        return message_class("tf2_msgs/TFMessage")(transforms=[message])
+
+    def _complain(self, time_ns: int, values: Array) -> None:
+        if time_ns < self._next_word_ns:
+            return
+        self._next_word_ns = time_ns + _SAY_EVERY_NS
+        text = f"Invalid pose {np.array2string(values[:3])}, {np.array2string(values[3:])}"
+        self.context.ports.log("error", f"{self.context.name}: {text}")
+
+
+def _is_valid(values: Array) -> bool:
+    length2 = float(values[3:] @ values[3:])
+    return bool(np.isfinite(values).all()) and abs(length2 - 1.0) <= _UNIT_TOLERANCE

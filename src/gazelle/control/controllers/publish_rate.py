@@ -1,0 +1,48 @@
+"""How often a controller publishes, counted in the time of the control loop."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+__all__ = ["PublishRate"]
+
+_NS_PER_S = 1_000_000_000
+
+
+class PublishRate:
+    """Tells at every update whether a message is due; on average exactly at the rate.
+
+    ros_control counts ``last + period < now`` and adds one period to `last` at each message, so a
+    message is never left out and late ones do not move the following.
+    """
+
+    def __init__(self, rate_hz: float, *, at_once: bool = False) -> None:
+        """Set the rate.
+
+        Args:
+            rate_hz: 0 or less never publishes.
+            at_once: the first message comes with the first update, as joint_state_controller has
+                it (which starts 1.001 periods ago); otherwise it comes after the first period.
+        """
+        self._period_ns = Fraction(0)
+        if rate_hz > 0.0:
+            self._period_ns = Fraction(_NS_PER_S) / Fraction(rate_hz).limit_denominator(1_000_000)
+        self._at_once = at_once
+        self._last_ns: Fraction | None = None
+
+    def start(self, time_ns: int) -> None:
+        """Begin to count; a second start goes on counting unless time went back."""
+        if self._last_ns is not None and self._at_once and self._last_ns <= time_ns:
+            return
+        early = self._period_ns * 1001 / 1000 if self._at_once else Fraction(0)
+        self._last_ns = time_ns - early
+
+    def due(self, time_ns: int) -> bool:
+        """Tell whether to publish now, and count it."""
+        if self._last_ns is None or not self._period_ns:
+            return False
+        next_ns = self._last_ns + self._period_ns
+        if next_ns >= time_ns:
+            return False
+        self._last_ns = next_ns
+        return True
