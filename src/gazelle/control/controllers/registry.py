@@ -38,6 +38,8 @@ _FAMILIES: tuple[tuple[str, str], ...] = (
     ("omni_wheel_drive", "OmniWheelDriveController"),
     ("joint_trajectory.ros1", "Ros1JointTrajectoryController"),
     ("joint_trajectory.ros2", "Ros2JointTrajectoryController"),
+    ("gripper_action", "GripperActionController"),
+    ("gripper_action_parallel", "ParallelGripperActionController"),
 )
 
 
