@@ -10,11 +10,11 @@ import numpy as np
 from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.messages import header, message_class
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.wheels.odometry import PlanarOdometry
-from gazelle.interfaces import message_type
 
-__all__ = ["Frames", "OdometryOutput", "PublishRate", "header", "read_covariance", "read_frames"]
+__all__ = ["Frames", "OdometryOutput", "PublishRate", "read_covariance", "read_frames"]
 
 _DIAGONAL = np.arange(6) * 7
 
@@ -24,13 +24,6 @@ class Frames(NamedTuple):
 
     odom: str
     base: str
-
-
-def header(time_ns: int, frame_id: str) -> Any:
-    """Return a ``std_msgs/Header``."""
-    seconds, rest = divmod(time_ns, 1_000_000_000)
-    stamp = message_type("builtin_interfaces/Time")(sec=seconds, nanosec=rest)
-    return message_type("std_msgs/Header")(stamp=stamp, frame_id=frame_id)
 
 
 def read_frames(context: ControllerContext, *, namespace_prefix: bool) -> Frames:
@@ -155,7 +148,7 @@ class OdometryOutput:
             self._tf.publish(self._transform(time_ns, odometry))
 
     def _message(self, time_ns: int, odometry: PlanarOdometry) -> Any:
-        message = message_type("nav_msgs/Odometry")(
+        message = message_class("nav_msgs/Odometry")(
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
         if self.sends_pose:
@@ -169,15 +162,15 @@ class OdometryOutput:
         return message
 
     def _transform(self, time_ns: int, odometry: PlanarOdometry) -> Any:
-        transform = message_type("geometry_msgs/TransformStamped")(
+        transform = message_class("geometry_msgs/TransformStamped")(
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
         transform.transform.translation.x = odometry.pose.x_m
         transform.transform.translation.y = odometry.pose.y_m
         transform.transform.rotation = _yaw_quaternion(odometry.pose.yaw_rad)
-        return message_type("tf2_msgs/TFMessage")(transforms=[transform])
+        return message_class("tf2_msgs/TFMessage")(transforms=[transform])
 
 
 def _yaw_quaternion(yaw_rad: float) -> Any:
     half = yaw_rad / 2
-    return message_type("geometry_msgs/Quaternion")(z=math.sin(half), w=math.cos(half))
+    return message_class("geometry_msgs/Quaternion")(z=math.sin(half), w=math.cos(half))
