@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import Model, Sensor
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 
 if TYPE_CHECKING:
     from gazelle.engine import JointHandle, LinkHandle
-    from gazelle.simulator.plugins.context import SensorPlace
-    from gazelle.simulator.world_server import WorldServer
+    from gazelle.simulator.plugins.context import Host, SensorPlace
 
 __all__ = ["JointOfSimulation", "LinkOfSimulation", "ModelOfSimulation", "SensorOfSimulation"]
 
@@ -101,7 +102,7 @@ class LinkOfSimulation:
 class ModelOfSimulation:
     """A model."""
 
-    def __init__(self, server: WorldServer, name: str) -> None:
+    def __init__(self, server: Host, name: str) -> None:
         """Use `Simulation.model`."""
         self._server = server
         self.name = name
@@ -132,11 +133,33 @@ class ModelOfSimulation:
         """Names of its joints."""
         return tuple(joint.name for joint in self.description.joints)
 
+    def link(self, name: str) -> LinkOfSimulation:
+        """Return one of its links.
+
+        Raises:
+            NotFoundError: it has no such link; the message names the nearest.
+        """
+        self._require("link", name, self.links)
+        return LinkOfSimulation(self._server.engine.link(f"{self.name}::{name}"))
+
+    def joint(self, name: str) -> JointOfSimulation:
+        """Return one of its joints.
+
+        Raises:
+            NotFoundError: it has no such joint; the message names the nearest.
+        """
+        self._require("joint", name, self.joints)
+        return JointOfSimulation(self._server.engine.joint(f"{self.name}::{name}"))
+
+    def _require(self, kind: str, name: str, names: tuple[str, ...]) -> None:
+        if name not in names:
+            raise NotFoundError(kind, name, nearest=nearest_names(name, names))
+
 
 class SensorOfSimulation:
     """A sensor that is read on demand, with or without topics."""
 
-    def __init__(self, server: WorldServer, place: SensorPlace) -> None:
+    def __init__(self, server: Host, place: SensorPlace) -> None:
         """Use `Simulation.sensor`."""
         self._server = server
         self._place = place

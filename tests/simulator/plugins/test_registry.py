@@ -5,7 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from gazelle.diagnostics import Severity
 from gazelle.simulator import Simulation
+from gazelle.simulator.plugins.named import NOTHING_TABLE
+from gazelle.simulator.plugins.named import TABLE as NAMED_TABLE
 from gazelle.simulator.plugins.registry import all_tables, known_names, plain_name
 from gazelle.simulator.plugins.table import tables_as_markdown
 
@@ -87,6 +90,12 @@ def test_systems_of_gz_sim_are_built_in(load: Callable[..., Simulation]) -> None
         ("libgazebo_ros_camera.so", "needs a camera around it"),
         ("libgazebo_ros_openni_kinect.so", "needs a camera around it"),
         ("libgazebo_ros_imu_sensor.so", "needs an imu sensor around it"),
+        ("libgazebo_ros_bumper.so", "needs a contact sensor around it"),
+        ("libgazebo_ros_gps_sensor.so", "needs a gps sensor around it"),
+        ("libgazebo_ros_range.so", "needs a ray or sonar sensor around it"),
+        ("libhector_gazebo_ros_sonar.so", "needs a ray or sonar sensor around it"),
+        ("libgazebo_ros_multicamera.so", "needs a camera around it"),
+        ("libgazebo_ros_block_laser.so", "needs a ray sensor around it"),
     ],
 )
 def test_a_sensor_plug_in_outside_its_sensor_is_reported(
@@ -104,6 +113,8 @@ def test_a_sensor_plug_in_outside_its_sensor_is_reported(
         "<plugin name='p' filename='libgazebo_ros_p3d.so'><bodyName>lo</bodyName></plugin>",
         "<plugin name='p' filename='libgazebo_ros_imu.so'><bodyName>lo</bodyName></plugin>",
         "<plugin name='p' filename='libhector_gazebo_ros_imu.so'><bodyName>lo</bodyName></plugin>",
+        "<plugin name='p' filename='libhector_gazebo_ros_gps.so'><bodyName>lo</bodyName></plugin>",
+        "<plugin name='p' filename='libgazebo_ros_f3d.so'><bodyName>lo</bodyName></plugin>",
     ],
 )
 def test_a_missing_link_is_reported(load: Callable[..., Simulation], plugin: str) -> None:
@@ -118,6 +129,8 @@ def test_a_missing_link_is_reported(load: Callable[..., Simulation], plugin: str
         "<plugin name='p' filename='libgazebo_ros_diff_drive.so'><leftJoint>j</leftJoint></plugin>",
         "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>"
         "<jointName>j</jointName></plugin>",
+        "<plugin name='p' filename='libgazebo_ros_ft_sensor.so'><jointName>j</jointName>"
+        "<topicName>t</topicName></plugin>",
         "<plugin name='p' filename='gz-sim-diff-drive-system'><left_joint>j</left_joint>"
         "<right_joint>j</right_joint></plugin>",
     ],
@@ -130,7 +143,28 @@ def test_a_missing_joint_is_reported(load: Callable[..., Simulation], plugin: st
 
 
 def test_a_sensor_kind_that_is_not_simulated_is_reported(load: Callable[..., Simulation]) -> None:
-    sensor = "<gazebo reference='l'><sensor name='s' type='gps'/></gazebo>"
+    sensor = "<gazebo reference='l'><sensor name='s' type='logical_camera'/></gazebo>"
     sim = load(f"<robot name='r'>{LINK}{sensor}</robot>", world=None)
     (found,) = sim.diagnostics.by_code("simulator.sensor-not-simulated")
-    assert "sensor 'r::l::s' is of type 'gps', which is not simulated" in found.message
+    assert "sensor 'r::l::s' is of type 'logical_camera', which is not simulated" in found.message
+
+
+@pytest.mark.parametrize("filename", NAMED_TABLE.filenames)
+def test_a_plug_in_known_by_name_says_what_does_not_happen(
+    load: Callable[..., Simulation], filename: str
+) -> None:
+    plugin = f"<gazebo><plugin name='p' filename='lib{filename}.so'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.named-only")
+    assert f"plug-in 'p' (lib{filename}.so): " in found.message
+    assert not sim.diagnostics.by_code("plugin.unknown")
+
+
+@pytest.mark.parametrize("filename", NOTHING_TABLE.filenames)
+def test_a_library_that_does_nothing_is_a_remark(
+    load: Callable[..., Simulation], filename: str
+) -> None:
+    plugin = f"<gazebo><plugin name='p' filename='lib{filename}.so'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.without-effect")
+    assert found.severity is Severity.INFO

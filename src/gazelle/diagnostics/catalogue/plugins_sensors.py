@@ -48,4 +48,29 @@ ENTRIES = (
         "It is a library that other plug-ins are made of, or a template to copy.",
         "nothing to do; the element can be removed",
     ),
+    Entry(
+        "plugin.compiled",
+        "warning",
+        "A plug-in of the workspace is compiled code",
+        "Its C++ source is there, but Gazelle has neither a compiler nor Gazebo's libraries. A "
+        "Python file of the plug-in's name takes its place.",
+        "write the plug-in in Python (docs/howto/own_plugin.md)",
+        "Failed to load plugin",
+    ),
+    Entry(
+        "plugin.user-class",
+        "error",
+        "A plug-in's Python file has no class for the place it stands in",
+        "A plug-in in a world needs a WorldPlugin, in a model a ModelPlugin, in a sensor a "
+        "SensorPlugin; with several of them the <plugin>'s name chooses.",
+        "derive one class from the right base",
+    ),
+    Entry(
+        "plugin.user-error",
+        "error",
+        "A plug-in of your own raised an exception",
+        "Its topics are closed and it is not called again until the world is loaded anew; "
+        "everything else runs on.",
+        "correct the line named",
+    ),
 )

@@ -132,7 +132,7 @@ ENTRIES = (
         "warning",
         "A sensor is of a kind that is not simulated",
         "It is kept in the model and produces no data.",
-        "use a camera, depth, ray or imu sensor; others will follow",
+        "see docs/plugins.md for the sensors there are",
     ),
     Entry(
         "simulator.unknown-argument",

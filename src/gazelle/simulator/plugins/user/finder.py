@@ -1,0 +1,137 @@
+"""Finds the Python file, or the C++ source, that the filename of a plug-in means."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from gazelle.workspace import Package, Workspace
+
+__all__ = ["CompiledPlugin", "PythonPlugin", "compiled_plugin", "python_plugin", "stems"]
+
+_VARIABLES = ("GAZEBO_PLUGIN_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH")
+_LIBRARY_ENDINGS = (".so", ".dylib", ".dll")
+_SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
+_SOURCE_ENDINGS = (".cpp", ".cc", ".cxx", ".c")
+# GZ_REGISTER_MODEL_PLUGIN and its kin, and what the class is derived from.
+_ROLE = re.compile(r"GZ_REGISTER_(WORLD|MODEL|SENSOR)_PLUGIN|\b(World|Model|Sensor)Plugin\b")
+
+
+class PythonPlugin(NamedTuple):
+    """A Python file and the folder of the user's code it belongs to."""
+
+    path: Path
+    folder: Path
+
+
+class CompiledPlugin(NamedTuple):
+    """A plug-in whose C++ source is there.
+
+    Attributes:
+        package: that builds it.
+        lists: the CMakeLists.txt.
+        line: of its ``add_library``.
+        source: the first source file, None when the list names none that exists.
+        role: ``World``, ``Model`` or ``Sensor`` as far as the source says, else empty.
+    """
+
+    package: Package
+    lists: Path
+    line: int
+    source: Path | None
+    role: str
+
+
+def stems(filename: str) -> tuple[str, ...]:
+    """Return what a file of the plug-in may be called, without its ending, the likeliest first."""
+    name = filename.strip().rsplit("/", 1)[-1]
+    if name.endswith(".py"):
+        return (name.removesuffix(".py"),)
+    for ending in _LIBRARY_ENDINGS:
+        name = name.removesuffix(ending)
+    return tuple(dict.fromkeys((name.removeprefix("lib"), name)))
+
+
+def python_plugin(
+    filename: str,
+    workspace: Workspace | None,
+    beside: Path | None,
+    environ: Mapping[str, str] | None = None,
+) -> PythonPlugin | None:
+    """Return the Python file of a plug-in, None when there is none.
+
+    Looked for in the folders of ``GAZEBO_PLUGIN_PATH``, ``GZ_SIM_SYSTEM_PLUGIN_PATH`` and
+    ``IGN_GAZEBO_SYSTEM_PLUGIN_PATH``, then beside the model's file, then in the packages of the
+    workspace.
+
+    Args:
+        filename: as the ``<plugin>`` has it: ``libmy_plugin.so``, ``my_plugin`` or
+            ``my_plugin.py``.
+        workspace: whose packages are searched.
+        beside: the model's or world's file.
+        environ: the process's own when None.
+    """
+    names = [f"{stem}.py" for stem in stems(filename) if stem]
+    variables = os.environ if environ is None else environ
+    folders = [
+        Path(part) for key in _VARIABLES for part in variables.get(key, "").split(":") if part
+    ]
+    folders += [] if beside is None else [beside.parent]
+    for folder in folders:
+        found = next((folder / name for name in names if (folder / name).is_file()), None)
+        if found is not None:
+            return PythonPlugin(found, folder)
+    for package in _own_packages(workspace):
+        for path in _files(package.path, (".py",)):
+            if path.name in names:
+                return PythonPlugin(path, package.path)
+    return None
+
+
+def compiled_plugin(filename: str, workspace: Workspace | None) -> CompiledPlugin | None:
+    """Return where a plug-in's C++ source is, None when no package builds it."""
+    names = "|".join(re.escape(stem) for stem in stems(filename) if stem)
+    if not names:
+        return None
+    wanted = re.compile(rf"add_library\s*\(\s*({names})\b([^)]*)")
+    for package in _own_packages(workspace):
+        for lists in _files(package.path, ("CMakeLists.txt",)):
+            text = lists.read_text(encoding="utf-8", errors="replace")
+            match = wanted.search(text)
+            if match is not None:
+                line = text.count("\n", 0, match.start()) + 1
+                source = _first_source(lists.parent, match[2])
+                return CompiledPlugin(package, lists, line, source, _role(source))
+    return None
+
+
+def _own_packages(workspace: Workspace | None) -> Iterator[Package]:
+    if workspace is not None:
+        yield from (package for package in workspace.packages.values() if not package.is_builtin)
+
+
+def _files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
+    for root, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name not in _SKIPPED and name[0] != ".")
+        yield from (Path(root) / name for name in sorted(names) if name.endswith(endings))
+
+
+def _first_source(folder: Path, words: str) -> Path | None:
+    for word in words.split():
+        path = folder / word.strip('"').replace("${CMAKE_CURRENT_SOURCE_DIR}/", "")
+        if path.suffix in _SOURCE_ENDINGS and path.is_file():
+            return path
+    return None
+
+
+def _role(source: Path | None) -> str:
+    if source is None:
+        return ""
+    text = source.read_text(encoding="utf-8", errors="replace")
+    roles = [(match[1] or match[2]).capitalize() for match in _ROLE.finditer(text)]
+    # The macro is the last word; bases may be named on the way.
+    return roles[-1] if roles else ""

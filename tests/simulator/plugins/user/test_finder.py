@@ -1,0 +1,78 @@
+"""Where plug-ins of the user's own are looked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gazelle.simulator.plugins.user.finder import compiled_plugin, python_plugin, stems
+from gazelle.workspace import Workspace
+
+
+@pytest.mark.parametrize(
+    ("filename", "wanted"),
+    [
+        ("libmy_plugin.so", ("my_plugin", "libmy_plugin")),
+        ("my_plugin", ("my_plugin",)),
+        ("/opt/lib/libMy.dylib", ("My", "libMy")),
+        ("library.py", ("library",)),
+    ],
+)
+def test_a_librarys_name_is_its_files(filename: str, wanted: tuple[str, ...]) -> None:
+    assert stems(filename) == wanted
+
+
+@pytest.mark.parametrize(
+    "variable",
+    ["GAZEBO_PLUGIN_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH"],
+)
+def test_gazebos_plug_in_paths_are_searched(tmp_path: Path, variable: str) -> None:
+    (tmp_path / "mine.py").write_text("")
+    environ = {variable: f"/nowhere:{tmp_path}"}
+    found = python_plugin("libmine.so", None, None, environ)
+    assert found is not None
+    assert found.path == tmp_path / "mine.py"
+    assert python_plugin("libother.so", None, None, environ) is None
+
+
+def test_the_models_folder_comes_before_packages(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "pkg"
+    (package / "scripts").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>pkg</name></package>")
+    (package / "scripts" / "mine.py").write_text("")
+    workspace = Workspace.discover(environ={"ROS_PACKAGE_PATH": str(tmp_path / "src")}, cwd="/")
+    found = python_plugin("libmine.so", workspace, tmp_path / "model.sdf", {})
+    assert found is not None
+    assert found.path == package / "scripts" / "mine.py"
+    (tmp_path / "mine.py").write_text("")
+    beside = python_plugin("libmine.so", workspace, tmp_path / "model.sdf", {})
+    assert beside is not None
+    assert beside.path == tmp_path / "mine.py"
+
+
+def test_built_folders_are_not_searched(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "pkg"
+    (package / "build").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>pkg</name></package>")
+    (package / "build" / "mine.py").write_text("")
+    workspace = Workspace.discover(environ={"ROS_PACKAGE_PATH": str(tmp_path / "src")}, cwd="/")
+    assert python_plugin("libmine.so", workspace, None, {}) is None
+
+
+def test_a_sources_macro_tells_the_role(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "pkg"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>pkg</name></package>")
+    (package / "CMakeLists.txt").write_text(
+        "add_library(\n  lamp\n  SHARED\n  lamp.cc)\nadd_library(lamp_tools tools.cc)\n"
+    )
+    (package / "lamp.cc").write_text("GZ_REGISTER_WORLD_PLUGIN(Lamp)\n")
+    workspace = Workspace.discover(environ={"ROS_PACKAGE_PATH": str(tmp_path / "src")}, cwd="/")
+    found = compiled_plugin("liblamp.so", workspace)
+    assert found is not None
+    assert (found.line, found.source, found.role) == (1, package / "lamp.cc", "World")
+    tools = compiled_plugin("lamp_tools", workspace)
+    assert tools is not None
+    assert (tools.line, tools.source, tools.role) == (5, None, "")
+    assert compiled_plugin("liblam.so", workspace) is None
