@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
@@ -20,11 +21,15 @@ class ControlRegistry:
     Attributes:
         managers: by namespace, absolute.
         actions: action servers by global name.
+        files: ROS 2 parameter files that a program gave, beside those of the plug-ins.
+        overrides: ROS 2 parameters that a program gave, by the node's own name.
     """
 
     def __init__(self) -> None:
         self.managers: dict[str, ControllerManager] = {}
         self.actions: dict[str, ActionServer] = {}
+        self.files: list[Path] = []
+        self.overrides: dict[str, dict[str, Any]] = {}
 
     def manager(self, namespace: str = "") -> ControllerManager:
         """Return a manager; without a namespace the only one there is.

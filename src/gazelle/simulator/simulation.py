@@ -6,25 +6,32 @@ import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.handles import (
     JointOfSimulation,
     LinkOfSimulation,
     ModelOfSimulation,
     SensorOfSimulation,
 )
+from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.names import full_name
 from gazelle.simulator.pace import Mode
+from gazelle.simulator.parameter_input import Parameters, give_parameters
 from gazelle.simulator.ports import NodePort, SubscriptionPort
 from gazelle.simulator.sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.world_server import WorldServer
 from gazelle.workspace import Workspace
+
+if TYPE_CHECKING:
+    from gazelle.graph.actions import LocalGoal
+    from gazelle.simulator.controllers import ControllersOfSimulation
 
 __all__ = ["Simulation"]
 
@@ -49,6 +56,7 @@ class Simulation:
         diagnostics: Diagnostics | None = None,
         node: NodePort | None = None,
         seed: int = 0,
+        parameters: Parameters | None = None,
     ) -> None:
         """Start with a world; `load` is the usual way in.
 
@@ -58,7 +66,12 @@ class Simulation:
             diagnostics: collects findings; a new list when None.
             node: a node of a graph; topics stay inside this process when None.
             seed: of all noise.
+            parameters: see `load`.
         """
+        node = LocalNode() if node is None else node
+        controls = ControlRegistry()
+        if parameters is not None:
+            give_parameters(parameters, node.parameters, controls)
         self.diagnostics = Diagnostics() if diagnostics is None else diagnostics
         self._workspace = workspace or Workspace.discover()
         self.server = WorldServer(
@@ -68,6 +81,7 @@ class Simulation:
             diagnostics=self.diagnostics,
             seed=seed,
             mode=Mode.LOCKSTEP,
+            controls=controls,
         )
 
     @classmethod
@@ -82,6 +96,7 @@ class Simulation:
         workspace: Workspace | None = None,
         node: NodePort | None = None,
         seed: int = 0,
+        parameters: Parameters | None = None,
     ) -> Self:
         """Load a world and put a robot into it.
 
@@ -96,8 +111,11 @@ class Simulation:
             workspace: finds packages and models; made from the environment when None.
             node: a node of a graph, when topics shall leave this process.
             seed: of all noise.
+            parameters: of controllers and plug-ins: a mapping, a YAML file or several. What has
+                a ``ros__parameters`` level is ROS 2's, the rest is set in the ROS 1 store.
 
         Raises:
+            GazelleError: a parameter file cannot be read.
             UserFileError: a file has errors, all of them at once.
             NotFoundError: there is no such file, model or world.
         """
@@ -113,7 +131,14 @@ class Simulation:
         diagnostics.raise_if_errors()
         placed = tuple(_placed(model, name, pose) for model in loaded.models)
         chosen = replace(chosen, models=(*chosen.models, *placed))
-        return cls(chosen, workspace=workspace, diagnostics=diagnostics, node=node, seed=seed)
+        return cls(
+            chosen,
+            workspace=workspace,
+            diagnostics=diagnostics,
+            node=node,
+            seed=seed,
+            parameters=parameters,
+        )
 
     def __enter__(self) -> Self:
         return self
@@ -245,6 +270,38 @@ class Simulation:
         if name not in names:
             raise NotFoundError("model", name, nearest=nearest_names(name, names))
         return ModelOfSimulation(self.server, name)
+
+    def controller_manager(self, namespace: str = "") -> ControllersOfSimulation:
+        """Return a robot's controllers.
+
+        Args:
+            namespace: of the controller manager; not needed while there is only one.
+
+        Raises:
+            NotFoundError: no robot has one, or several have.
+        """
+        from gazelle.simulator.controllers import ControllersOfSimulation
+
+        return ControllersOfSimulation(self.server, self.server.controls.manager(namespace))
+
+    def send_goal(
+        self, action: str, goal: Any, *, on_feedback: Callable[[Any], None] | None = None
+    ) -> LocalGoal:
+        """Send a goal to an action of this simulation, such as ``/arm/follow_joint_trajectory``.
+
+        Args:
+            action: global name.
+            goal: the goal message, or a mapping of its fields.
+            on_feedback: called within `step` with each feedback message.
+
+        Returns:
+            a handle with ``status``, ``result``, ``feedback`` and ``cancel()``.
+
+        Raises:
+            NotFoundError: nobody offers the action here; the message names the nearest.
+            InterfaceError: a field of the goal is wrong.
+        """
+        return self.server.controls.action(action).submit(goal, on_feedback=on_feedback)
 
     def publish(self, topic: str, message: Any) -> None:
         """Publish one message, for example a command, to whoever listens.

@@ -63,6 +63,7 @@ class WorldServer:
         mode: Mode = Mode.LOCKSTEP,
         paused: bool = False,
         warm_cameras: bool = False,
+        controls: ControlRegistry | None = None,
     ) -> None:
         """Build the engine and start the plug-ins of every model.
 
@@ -76,6 +77,7 @@ class WorldServer:
                 lock-step.
             paused: `run` waits for `unpause` before the first step.
             warm_cameras: load the cameras' kernels in a thread as soon as there is a camera.
+            controls: with parameters of controllers; an empty one when None.
         """
         from gazelle.engine import Engine
 
@@ -88,7 +90,7 @@ class WorldServer:
         self.paused = paused
         self.scheduler = Scheduler(self.engine.step_ns)
         self.commands = CommandQueue()
-        self.controls = ControlRegistry()
+        self.controls = ControlRegistry() if controls is None else controls
         self.sensors = SensorSet(self.engine, seed)
         self.frames = FrameWorker()
         self.pace = Pace(self._wanted_factor())

@@ -1,0 +1,84 @@
+"""Parameters that a Python program gives a simulation, of ROS 1 or ROS 2."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.errors import GazelleError
+from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.ports import ParameterPort
+
+__all__ = ["Parameters", "give_parameters"]
+
+Parameters = Mapping[str, Any] | str | os.PathLike[str] | Sequence[Any]
+_MARK = "ros__parameters"
+
+
+def give_parameters(
+    parameters: Parameters, store: ParameterPort, controls: ControlRegistry
+) -> None:
+    """Put parameters where plug-ins and controllers look for them.
+
+    Args:
+        parameters: a mapping, a YAML file's path, or a list of such. What has a
+            ``ros__parameters`` level is ROS 2's and read as a parameter file is; the rest goes
+            into the ROS 1 store, by names that start at the root.
+        store: the ROS 1 store.
+        controls: receives ROS 2's.
+
+    Raises:
+        GazelleError: a file cannot be read, or holds no mapping.
+    """
+    if isinstance(parameters, Mapping):
+        _give(parameters, store, controls)
+    elif isinstance(parameters, str | os.PathLike):
+        path = Path(parameters)
+        tree = _read(path)
+        if _is_ros2(tree):
+            controls.files.append(path)
+        else:
+            _give(tree, store, controls)
+    else:
+        for one in parameters:
+            give_parameters(one, store, controls)
+
+
+def _give(tree: Mapping[str, Any], store: ParameterPort, controls: ControlRegistry) -> None:
+    for name, value in tree.items():
+        if isinstance(value, Mapping) and _is_ros2(value):
+            _give_nodes(str(name), value, controls)
+        else:
+            store.set(f"/{str(name).strip('/')}", value)
+
+
+def _give_nodes(name: str, tree: Mapping[str, Any], controls: ControlRegistry) -> None:
+    """Keep parameters of nodes by the nodes' own names: one robot is meant."""
+    for key, value in tree.items():
+        if key == _MARK:
+            known = controls.overrides.setdefault(name.rpartition("/")[2], {})
+            known.update(value or {})
+        elif isinstance(value, Mapping):
+            _give_nodes(str(key), value, controls)
+
+
+def _is_ros2(tree: Mapping[str, Any]) -> bool:
+    return any(
+        key == _MARK or (isinstance(value, Mapping) and _is_ros2(value))
+        for key, value in tree.items()
+    )
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    try:
+        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise GazelleError(f"parameter file '{path}' cannot be read: {error}") from error
+    if not isinstance(tree, Mapping):
+        kind = "nothing" if tree is None else f"a {type(tree).__name__}"
+        raise GazelleError(f"parameter file '{path}' holds {kind}, not names with values")
+    return tree
