@@ -46,8 +46,8 @@ class GripperActionController(Controller):
         ),
         behaviour=(
             "position: the goal is commanded as it is, max_effort is only told in the result. "
-            "effort: a PID with `gains.<joint>`, bounded by the goal's max_effort; 0 means none, so "
-            "nothing moves.",
+            "effort: a PID with `gains.<joint>`, bounded by the goal's max_effort; 0 means none, "
+            "so nothing moves.",
             "A goal nearer than goal_tolerance succeeds; standing for stall_timeout aborts it, or "
             "with allow_stalling succeeds (ROS 2).",
             "Cancelling holds the present position, bounded by `max_effort`.",
