@@ -39,6 +39,7 @@ class RecordedGoal:
     goal_id: str = "goal"
     state: str = "new"
     is_cancel_requested: bool = False
+    is_feedback_wanted: bool = True
     result: Any = None
     text: str = ""
     feedback: list[Any] = field(default_factory=list)
