@@ -134,17 +134,17 @@ class Measurements:
 
     def altimeter(self, place: SensorPlace) -> AltimeterRecord:
         """Return how far an ``altimeter`` has risen since its model was put into the world."""
-        from gazelle.sensors import AltimeterRecord
+        from gazelle.sensors import AltimeterRecord, altitude_change_m
 
         spec = place.sensor.spec
         assert isinstance(spec, AltimeterSpec)
         link = self._engine.link(place.link_name)
         pose = link.T_world_link() @ place.sensor.T_link_sensor
-        start_m = self._start(place).position_m[2]
-        values = np.array([pose.position_m[2] - start_m, _point_velocity(link, pose)[2]])
+        start = self._start(place)
+        values = np.array([altitude_change_m(pose, start), _point_velocity(link, pose)[2]])
         noise = self._noise(place.name, (spec.position_noise, spec.velocity_noise))
         height, speed = noise.apply(values, self._elapsed_s(place.name)).tolist()
-        return AltimeterRecord(height, speed, start_m)
+        return AltimeterRecord(height, speed, start.position_m[2])
 
     def pressure(self, place: SensorPlace) -> PressureRecord:
         """Return the pressure at an ``air_pressure`` sensor."""

@@ -165,3 +165,20 @@ def test_a_force_torque_sensor_on_a_link_is_misplaced(load: Load) -> None:
     assert first.fix == "move it to joint 'j'"
     assert "'i' of type 'imu' sits in joint 'j' and needs a link" in second.message
     assert second.fix == "move it to a link, such as 'b'"
+
+
+def test_a_fixed_joint_of_a_urdf_is_measured(load: Load, listen: Listen) -> None:
+    links = "".join(
+        f"<link name='{name}'><inertial><mass value='{mass}'/><inertia ixx='1' ixy='0' ixz='0'"
+        " iyy='1' iyz='0' izz='1'/></inertial></link>"
+        for name, mass in (("base", 1), ("hand", 2))
+    )
+    keys = "<jointName>wrist</jointName><topicName>ft</topicName>"
+    robot = f"""<robot name="r"><link name="world"/>{links}
+      <joint name="foot" type="fixed"><parent link="world"/><child link="base"/></joint>
+      <joint name="wrist" type="fixed"><parent link="base"/><child link="hand"/></joint>
+      <gazebo>{plugin("libgazebo_ros_ft_sensor.so", keys)}</gazebo></robot>"""
+    sim = load(robot, world=None)
+    messages = listen(sim, "/ft")
+    sim.run(seconds=0.01)
+    assert vector(messages[-1].wrench.force) == pytest.approx([0, 0, -2 * 9.8])

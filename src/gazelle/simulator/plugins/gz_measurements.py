@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from gazelle.description.model import (
     AltimeterSpec,
@@ -14,6 +14,7 @@ from gazelle.description.model import (
     MagnetometerSpec,
     PressureSpec,
 )
+from gazelle.simulator.measurements import Measurements
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.bumper import gz_contacts_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
@@ -26,80 +27,78 @@ __all__ = ["publish_measurement"]
 _EVERY_STEP = Fraction(1)
 
 
+class _Kind(NamedTuple):
+    """The ending of gz's default topic, the ROS type, and what builds a message of it."""
+
+    ending: str
+    type_name: str
+    build: Callable[[Measurements, SensorPlace, int, str], Any]
+
+
 def publish_measurement(
     context: PluginContext, place: SensorPlace, topic: Callable[[str], str]
 ) -> None:
     """Publish a sensor; `topic` gives its topic by the ending of gz's default name."""
     spec, measurements = place.sensor.spec, context.host.sensors.measurements
     frame = place.sensor.frame_id or place.name.replace("::", "/")
+    kind = _KINDS.get(type(spec))
     if isinstance(spec, ContactSpec):
         # gz's Contact system knows its own <topic> only, and publishes in every step.
         name = join_names("/", spec.topic) if spec.topic else topic("contact")
+
+        def contacts(time_ns: int) -> Any:
+            return gz_contacts_message(context, place, time_ns)
+
+        publish_at(context, name, "ros_gz_interfaces/Contacts", _EVERY_STEP, contacts)
+    elif kind is not None:
         publish_at(
             context,
-            name,
-            "ros_gz_interfaces/Contacts",
-            _EVERY_STEP,
-            lambda time_ns: gz_contacts_message(context, place, time_ns),
+            topic(kind.ending),
+            kind.type_name,
+            sensor_period(context, place),
+            lambda time_ns: kind.build(measurements, place, time_ns, frame),
         )
-        return
-    builders: dict[type, tuple[str, str, Callable[[int], Any]]] = {
-        ForceTorqueSpec: (
-            "forcetorque",
-            "geometry_msgs/WrenchStamped",
-            lambda time_ns: wrench_message(time_ns, frame, *measurements.force_torque(place)),
-        ),
-        GpsSpec: (
-            "navsat",
-            "sensor_msgs/NavSatFix",
-            lambda time_ns: fix_message(time_ns, frame, measurements.gps(place).position, None),
-        ),
-        MagnetometerSpec: (
-            "magnetometer",
-            "sensor_msgs/MagneticField",
-            lambda time_ns: _field_message(
-                time_ns, frame, measurements.magnetometer(place).field_t
-            ),
-        ),
-        AltimeterSpec: (
-            "altimeter",
-            "ros_gz_interfaces/Altimeter",
-            lambda time_ns: _altimeter_message(time_ns, frame, *measurements.altimeter(place)),
-        ),
-        PressureSpec: (
-            "air_pressure",
-            "sensor_msgs/FluidPressure",
-            lambda time_ns: _pressure_message(
-                time_ns, frame, measurements.pressure(place).pressure_pa, spec
-            ),
-        ),
-    }
-    found = builders.get(type(spec))
-    if found is not None:
-        ending, type_name, build = found
-        publish_at(context, topic(ending), type_name, sensor_period(context, place), build)
 
 
-def _field_message(time_ns: int, frame: str, field_t: Any) -> Any:
+def _wrench(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
+    return wrench_message(time_ns, frame, *measurements.force_torque(place))
+
+
+def _fix(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
+    return fix_message(time_ns, frame, measurements.gps(place).position, None)
+
+
+def _field(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
     return message_class("sensor_msgs/MagneticField")(
-        header=header(time_ns, frame), magnetic_field=vector_message(field_t)
+        header=header(time_ns, frame),
+        magnetic_field=vector_message(measurements.magnetometer(place).field_t),
     )
 
 
-def _altimeter_message(
-    time_ns: int, frame: str, height_m: float, speed_m_s: float, reference_m: float
-) -> Any:
+def _altitude(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
+    record = measurements.altimeter(place)
     return message_class("ros_gz_interfaces/Altimeter")(
         header=header(time_ns, frame),
-        vertical_position=height_m,
-        vertical_velocity=speed_m_s,
-        vertical_reference=reference_m,
+        vertical_position=record.vertical_position_m,
+        vertical_velocity=record.vertical_velocity_m_s,
+        vertical_reference=record.vertical_reference_m,
     )
 
 
-def _pressure_message(time_ns: int, frame: str, pressure_pa: float, spec: Any) -> Any:
+def _pressure(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
+    spec = place.sensor.spec
+    assert isinstance(spec, PressureSpec)
     return message_class("sensor_msgs/FluidPressure")(
         header=header(time_ns, frame),
-        fluid_pressure=pressure_pa,
+        fluid_pressure=measurements.pressure(place).pressure_pa,
         variance=spec.noise.stddev**2,
     )
+
+
+_KINDS: dict[type, _Kind] = {
+    ForceTorqueSpec: _Kind("forcetorque", "geometry_msgs/WrenchStamped", _wrench),
+    GpsSpec: _Kind("navsat", "sensor_msgs/NavSatFix", _fix),
+    MagnetometerSpec: _Kind("magnetometer", "sensor_msgs/MagneticField", _field),
+    AltimeterSpec: _Kind("altimeter", "ros_gz_interfaces/Altimeter", _altitude),
+    PressureSpec: _Kind("air_pressure", "sensor_msgs/FluidPressure", _pressure),
+}

@@ -38,6 +38,8 @@ _MISSING = {
     "gz-sim-logical-camera-system": "logical cameras see nothing; use the models' poses",
     "gz-sim-thermal-system": "thermal cameras see nothing",
     "gz-sim-air-speed-system": "air speed sensors give no data",
+    "gz-sim-python-system-loader-system": "systems in Python need gz's own bindings; write a "
+    "plug-in of Gazelle's in Python instead (docs/howto/own_plugin.md)",
     "gz-sim-dvl-system": "Doppler velocity logs give no data",
 }
 _NOTHING = {
