@@ -30,6 +30,8 @@ from gazelle.graph.parameters import ParameterShare, ParameterStore, global_para
 if TYPE_CHECKING:
     import zenoh
 
+    from gazelle.graph.actions.listing import ActionInfo
+
 __all__ = ["Graph"]
 
 Role = Literal["auto", "hub", "client"]
@@ -193,6 +195,12 @@ class Graph:
     def services(self, *, include_hidden: bool = False) -> tuple[ServiceInfo, ...]:
         """Return all services with type and servers, by name."""
         return introspection.services_of(self.entities(), include_hidden=include_hidden)
+
+    def actions(self) -> tuple[ActionInfo, ...]:
+        """Return all actions of ROS 1 and ROS 2 with type, servers and clients, by name."""
+        from gazelle.graph.actions.listing import actions_of
+
+        return actions_of(self.entities())
 
     def node_names(self, *, include_hidden: bool = False) -> tuple[str, ...]:
         """Return the global names of all nodes, sorted."""

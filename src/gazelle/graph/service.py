@@ -154,7 +154,15 @@ class ServiceClient:
                 f"service [{self.name}]: the request is a {type(request).__qualname__}, "
                 f"not a {wanted.__qualname__}"
             )
-        payload = wire.encode(request)
+        import zenoh
+
+        try:
+            return self._call(wire.encode(request), timeout_s)
+        except zenoh.ZError as error:
+            # This process may leave the graph while another thread of it waits here.
+            raise ServiceUnavailableError(f"service [{self.name}]: {error}") from error
+
+    def _call(self, payload: bytes, timeout_s: float | None) -> Any:
         start = time.monotonic()
         while True:
             reply = self._ask(payload, _FOR_EVER_S if timeout_s is None else timeout_s)

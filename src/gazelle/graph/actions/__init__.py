@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from gazelle.graph.actions.client import ActionClient
+from gazelle.graph.actions.client_goal import ClientGoal
+from gazelle.graph.actions.comm_state import CommState
 from gazelle.graph.actions.goal import LocalGoal, ServerGoal
+from gazelle.graph.actions.listing import ActionInfo, actions_of
 from gazelle.graph.actions.server import ActionServer
 from gazelle.graph.actions.states import (
     ActionlibStatus,
@@ -14,9 +18,13 @@ from gazelle.graph.actions.states import (
 from gazelle.graph.actions.types import ActionTypes, action_name, action_types, as_message
 
 __all__ = [
+    "ActionClient",
+    "ActionInfo",
     "ActionServer",
     "ActionTypes",
     "ActionlibStatus",
+    "ClientGoal",
+    "CommState",
     "GoalEvent",
     "GoalStateError",
     "LocalGoal",
@@ -25,5 +33,6 @@ __all__ = [
     "Status",
     "action_name",
     "action_types",
+    "actions_of",
     "as_message",
 ]
