@@ -32,6 +32,10 @@ class Ports:
         self.sent: dict[str, list[Any]] = {}
         self.callbacks: dict[str, Callable[[Any], None]] = {}
         self.lines: list[tuple[str, str]] = []
+        self.live: list[Any] = []
+
+    def live_parameters(self, group: str, parameters: Any, on_change: Any) -> Any:
+        self.live.append((group, parameters, on_change))
 
     def publisher(self, topic: str, type_name: str, **options: Any) -> Any:
         sent = self.sent.setdefault(topic, [])

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from gazelle.control.python_controllers.adapter import PythonController
 from gazelle.control.python_controllers.finder import find_python_controller
+from gazelle.control.python_controllers.pid import Pid
 from gazelle.control.python_controllers.views import UserJoint, UserNode, UserRobot
 
 __all__ = [
+    "Pid",
     "PythonController",
     "UserJoint",
     "UserNode",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.control.bank import InterfaceBank
 from gazelle.control.controllers.controller import ControllerContext
@@ -11,6 +11,10 @@ from gazelle.control.errors import ControllerError
 from gazelle.control.ports import PublisherPort
 from gazelle.control.python_controllers.times import ControlTime
 from gazelle.diagnostics import did_you_mean
+
+if TYPE_CHECKING:
+    from gazelle.control.pid import Pid as ControlPid
+    from gazelle.control.pid import PidGains
 
 __all__ = ["UserJoint", "UserNode", "UserRobot"]
 
@@ -206,6 +210,19 @@ class UserNode:
             ", ".join(parameters.tree) or "none"
         )
         raise ControllerError(f"parameter '{parameters.full_name(key)}' is not set; {hint}")
+
+    def read_gains(self, group: str) -> PidGains | None:
+        """Return the gains of a PID below a parameter, None when there is no ``p``."""
+        from gazelle.control.pid import read_gains
+
+        key = group.strip("~/").replace("/", ".")
+        return read_gains(self._context.parameters, key, generation=self._context.generation)
+
+    def offer_live_gains(self, group: str, pid: ControlPid) -> None:
+        """Let others change the gains of a PID while the controller runs."""
+        from gazelle.control.pid import offer_live_gains
+
+        offer_live_gains(self._context, group.strip("~/"), pid)
 
     def has_param(self, name: str) -> bool:
         """Tell whether a parameter or group is there."""
