@@ -72,7 +72,8 @@ class JointWriter:
         self._last = b""
 
     def forget(self) -> None:
-        """Send everything again: the engine was reset."""
+        """Start over: the engine was reset, and nothing acts on the joints."""
+        self.group.release()
         self.held[:] = False
         self._leaving = []
         self._last = b""

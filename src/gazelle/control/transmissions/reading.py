@@ -45,7 +45,7 @@ def read_transmission(tag: TransmissionTag, diagnostics: Diagnostics) -> Transmi
     if not kind:
         text = f"transmission '{tag.name}' is of type '{tag.type}', which is not known; its joints"
         text += " are driven directly"
-        hint = did_you_mean(tag.type, TRANSMISSION_TYPES)
+        hint = did_you_mean(tag.type.rpartition("/")[2], TRANSMISSION_TYPES)
         diagnostics.report("control.transmission-type", text, tag.span, fix=hint)
         return None
     count = 1 if kind == "simple" else 2
