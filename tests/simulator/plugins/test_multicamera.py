@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from gazelle.simulator import Simulation
+from gazelle.simulator.messages import message_class
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -101,3 +102,35 @@ def test_a_prosilica_streams_like_a_camera(load: Load, listen: Listen) -> None:
     sim.run(seconds=0.2)
     assert len(pictures) == 2
     assert column_of_the_post(pictures[-1]) == pytest.approx((WIDTH_PX - 1) / 2, abs=0.75)
+
+
+TRIGGERED = ROS1.replace("ros_multicamera", "ros_triggered_camera").replace(
+    f"<hackBaseline>{BASELINE_M}</hackBaseline>", "<triggerTopicName>shoot</triggerTopicName>"
+)
+
+
+@pytest.mark.parametrize(
+    ("plugin", "trigger"),
+    [
+        (TRIGGERED, "/r/stereo/shoot"),
+        (
+            ROS2.replace("</plugin>", "<triggered>true</triggered></plugin>"),
+            "/r/stereo/image_trigger",
+        ),
+    ],
+)
+def test_a_triggered_camera_takes_one_picture_for_each_trigger(
+    load: Load, listen: Listen, plugin: str, trigger: str
+) -> None:
+    text = world(plugin, ("only",)).replace('type="multicamera"', 'type="camera"')
+    sim = load(text)
+    pictures = listen(sim, "/r/stereo/image_raw")
+    sim.run(seconds=0.5)
+    assert pictures == []
+    empty = message_class("std_msgs/Empty")()
+    for count in (1, 2):
+        for _ in range(count):
+            sim.publish(trigger, empty)
+        sim.run(seconds=0.3)
+    stamps = [message.header.stamp.nanosec // 10**6 for message in pictures]
+    assert stamps == [501, 801, 802]

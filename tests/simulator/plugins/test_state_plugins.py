@@ -156,3 +156,56 @@ def test_the_ros_2_imu_is_remapped_and_keeps_the_sensors_rate(
     assert len(readings) == 50
     assert readings[-1].header.frame_id == "base_link"
     assert readings[-1].orientation.z == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("filename", "orientation"),
+    [("libgazebo_ros_imu.so", 0.04), ("libhector_gazebo_ros_imu.so", 0.0)],
+)
+def test_an_imus_covariances_are_its_noise_squared(
+    load: Load, cart_urdf: Cart, listen: Listen, filename: str, orientation: float
+) -> None:
+    keys = "<bodyName>base_link</bodyName><topicName>imu</topicName>"
+    keys += "<gaussianNoise>0.2</gaussianNoise>"
+    sim = load(cart_urdf(extra=plugin(filename, keys)))
+    readings = listen(sim, "/imu")
+    sim.run(seconds=1.0)
+    for name in ("linear_acceleration", "angular_velocity"):
+        values = np.array([getattr(item, name).x for item in readings])
+        assert values.std() == pytest.approx(0.2, rel=0.1)
+        covariance = getattr(readings[0], f"{name}_covariance")
+        assert np.reshape(covariance, (3, 3)) == pytest.approx(0.04 * np.eye(3))
+    assert readings[0].orientation_covariance[0] == pytest.approx(orientation)
+
+
+def test_hectors_biases_shift_readings_and_tilt_the_orientation(
+    load: Load, cart_urdf: Cart, listen: Listen
+) -> None:
+    keys = "<bodyName>base_link</bodyName><topicName>imu</topicName>"
+    keys += "<accelOffset>0.98 0 0</accelOffset><rateOffset>0 0 0.1</rateOffset>"
+    keys += "<yawOffset>0.3</yawOffset><accelScaleError>1 1 1.01</accelScaleError>"
+    sim = load(cart_urdf(extra=plugin("libhector_gazebo_ros_imu.so", keys)))
+    readings = listen(sim, "/imu")
+    sim.run(seconds=1.0)
+    reading = readings[-1]
+    assert reading.linear_acceleration.x == pytest.approx(0.98, abs=0.02)
+    assert reading.linear_acceleration.z == pytest.approx(9.8 * 1.01, abs=0.02)
+    assert reading.angular_velocity.z == pytest.approx(0.1, abs=1e-3)
+    # A filter that takes 0.1 g ahead for gravity believes that the nose points up.
+    q = reading.orientation
+    roll, pitch, yaw = Pose(quat_xyzw=(q.x, q.y, q.z, q.w)).rpy_rad
+    assert (roll, pitch, yaw) == pytest.approx((0.0, -0.1, 0.3), abs=2e-3)
+
+
+def test_hectors_calibration_takes_the_rates_drift_away(
+    load: Load, cart_urdf: Cart, listen: Listen
+) -> None:
+    keys = "<bodyName>base_link</bodyName><rateDrift>0.5 0.5 0.5</rateDrift>"
+    sim = load(cart_urdf(extra=plugin("libhector_gazebo_ros_imu.so", keys)))
+    readings = listen(sim, "/imu")
+    sim.run(seconds=0.5)
+    assert abs(readings[-1].angular_velocity.z) > 0.01
+    empty = service_class("std_srvs/Empty")
+    sim.server.node.call("/imu/calibrate", empty.Request())  # type: ignore[attr-defined]
+    sim.run(seconds=0.05)
+    assert abs(readings[-1].angular_velocity.z) < 0.005

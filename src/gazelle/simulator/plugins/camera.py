@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.description.model import CameraSpec
 from gazelle.simulator.plugins.camera_info import read_calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream, camera_place, check_frame
-from gazelle.simulator.plugins.camera_table import CAMERA_TABLE
+from gazelle.simulator.plugins.camera_table import CAMERA_TABLE, TRIGGERED_TABLE
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth, cut_depth
 from gazelle.simulator.plugins.image_transport import add_transports
@@ -13,7 +13,7 @@ from gazelle.simulator.plugins.multicamera import start_multicamera_ros2
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.sensor_set import camera_members
 
-__all__ = ["load"]
+__all__ = ["load", "load_triggered"]
 
 
 def load(context: PluginContext) -> None:
@@ -30,7 +30,20 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start_ros1(context: PluginContext, parameters: ParameterReader, place: SensorPlace) -> None:
+def load_triggered(context: PluginContext) -> None:
+    """Start the camera of ROS 1 that takes pictures on a trigger."""
+    parameters = context.reader(TRIGGERED_TABLE)
+    place = camera_place(context)
+    if place is not None:
+        stream = _start_ros1(context, parameters, place)
+        camera = join_names(context.namespace(parameters), parameters.text("cameraName"))
+        stream.wait_for_triggers(join_names(camera, parameters.text("triggerTopicName")))
+    parameters.report_unread()
+
+
+def _start_ros1(
+    context: PluginContext, parameters: ParameterReader, place: SensorPlace
+) -> CameraStream:
     spec = place.sensor.spec
     assert isinstance(spec, CameraSpec)
     frame = parameters.text("frameName")
@@ -49,6 +62,7 @@ def _start_ros1(context: PluginContext, parameters: ParameterReader, place: Sens
     add_colour(stream, image_topic, spec)
     stream.add_info(join_names(namespace, parameters.text("cameraInfoTopicName")))
     add_transports(context, stream, image_topic)
+    return stream
 
 
 def _start_ros2(context: PluginContext, parameters: ParameterReader, place: SensorPlace) -> None:
@@ -68,6 +82,8 @@ def _start_ros2(context: PluginContext, parameters: ParameterReader, place: Sens
     add_colour(stream, topic("image_raw"), spec)
     stream.add_info(topic("camera_info"))
     add_transports(context, stream, topic("image_raw"))
+    if parameters.flag("triggered"):
+        stream.wait_for_triggers(topic("image_trigger"))
     if spec.kind != "rgb":
         limits = DepthLimits(parameters.number("min_depth"), parameters.number("max_depth"))
         add_depth(stream, topic("depth/image_raw"), topic("points"), limits, place)

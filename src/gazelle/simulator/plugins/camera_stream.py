@@ -65,6 +65,8 @@ class CameraStream:
         self._infos: list[PublisherPort] = []
         self._set_info: Any = None
         self._dropped = False
+        self._triggers: int | None = None
+        self._shot_ns = -1
         self._resources = context.resources
         self._task = context.resources.task(
             place.name,
@@ -88,13 +90,32 @@ class CameraStream:
         """Publish camera_info on a topic, with the pictures or alone."""
         self._infos.append(self._resources.publisher(topic, "sensor_msgs/CameraInfo"))
 
+    def wait_for_triggers(self, topic: str) -> None:
+        """Take one picture for each ``std_msgs/Empty`` on a topic instead of pictures at a rate."""
+        self._triggers = 0
+        self._host.scheduler.change_period(self._task, Fraction(1))
+
+        def pull(message: Any) -> None:
+            self._triggers = (self._triggers or 0) + 1
+            # The task sleeps; the picture is that of the next step.
+            self._host.scheduler.look()
+
+        self._resources.subscription(topic, "std_msgs/Empty", pull)
+
     def _wanted(self) -> bool:
+        if self._triggers is not None:
+            return self._triggers > 0
         return any(item.publisher.matched for item in self._outputs) or any(
             item.matched for item in self._infos
         )
 
     def _capture(self) -> None:
         time_ns = self._host.engine.time_ns
+        if self._triggers is not None:
+            # A task that was woken catches up; one step has one picture.
+            if time_ns == self._shot_ns:
+                return
+            self._triggers, self._shot_ns = self._triggers - 1, time_ns
         outputs = [item for item in self._outputs if item.publisher.matched]
         if not outputs:
             self._publish_infos(time_ns)
@@ -154,6 +175,8 @@ class CameraStream:
         )
 
         def change(values: dict[str, bool | int | float | str]) -> None:
+            if self._triggers is not None:
+                return
             period = self._period(float(values["imager_rate"]))
             self._host.scheduler.change_period(self._task, period)
 

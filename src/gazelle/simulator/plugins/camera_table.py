@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
 
-__all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE"]
+__all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE", "TRIGGERED_TABLE"]
 
 _COMMON = (
     Parameter("robotNamespace", "text", "", "namespace of all topics"),
@@ -32,7 +34,7 @@ _COMMON = (
     Parameter("borderCrop", "none", "", "the renderer distorts the whole picture"),
     Parameter("alwaysOn", "none", "", "pictures are rendered while somebody subscribes"),
     Parameter("baseline", "none", "", "no release of the plug-in reads it"),
-    Parameter("triggerTopicName", "none", "", "only the triggered camera reads it"),
+    Parameter("triggerTopicName", "text", "image_trigger", "of the triggered camera (ROS 1)"),
     Parameter("rightFrameName", "none", "", "no release of the plug-in reads it"),
 )
 _DEPTH = (
@@ -137,8 +139,25 @@ CAMERA_TABLE = PluginTable(
         Parameter("cameraInfoTopicName", "text", "camera_info", "camera_info"),
         Parameter("min_depth", "number", 0.4, "nearest depth that is kept (ROS 2)", "m"),
         Parameter("max_depth", "number", 5.0, "farthest depth that is kept (ROS 2)", "m"),
-        Parameter("triggered", "none", "", "pictures are never triggered"),
+        Parameter(
+            "triggered", "flag", False, "a picture for each message on `image_trigger` (ROS 2)"
+        ),
         Parameter("pollServiceName", "none", "", "of prosilica; pictures are not polled"),
+    ),
+)
+
+TRIGGERED_TABLE = replace(
+    CAMERA_TABLE,
+    family="triggered_camera",
+    summary="A camera that takes one picture for each message on its trigger topic (ROS 1).",
+    filenames=("gazebo_ros_triggered_camera",),
+    behaviour=(
+        "Every trigger gives the picture of the next step; several give one after the other. In"
+        " ROS 2 the camera plug-in does so with `triggered`.",
+    ),
+    topics=(
+        Topic("{cameraName}/{triggerTopicName}", "std_msgs/msg/Empty", "a trigger", "", False),
+        *CAMERA_TABLE.topics,
     ),
 )
 

@@ -47,8 +47,10 @@ def error_parameters(
     )
 
 
-def read_model(parameters: ParameterReader, *, axes: int = 3, prefix: str = "") -> DriftModel:
-    """Read the keys of `error_parameters`."""
+def read_model(
+    parameters: ParameterReader, *, axes: int = 3, prefix: str = "", gaussian_noise: float = 0.0
+) -> DriftModel:
+    """Read the keys of `error_parameters`; a `gaussian_noise` other than 0 replaces theirs."""
     from gazelle.sensors import DriftModel
 
     def values(name: str) -> tuple[float, ...]:
@@ -58,7 +60,7 @@ def read_model(parameters: ParameterReader, *, axes: int = 3, prefix: str = "") 
     return DriftModel(
         offset=values("offset"),
         drift=values("drift"),
-        gaussian_noise=values("gaussianNoise"),
+        gaussian_noise=(gaussian_noise,) * axes if gaussian_noise else values("gaussianNoise"),
         drift_frequency_hz=values("driftFrequency"),
         scale_error=values("scaleError"),
     )
@@ -77,8 +79,17 @@ class ErrorSource:
 
     @property
     def drift(self) -> Array:
-        """The slowly moving error as it is now."""
+        """The slowly moving error as it is now; assign to set it."""
         return self._noise.drift
+
+    @drift.setter
+    def drift(self, value: Array) -> None:
+        self._noise.drift = value
+
+    @property
+    def bias(self) -> Array:
+        """Drift and offset together."""
+        return np.add(self._noise.drift, self._model.offset)
 
     def apply(self, values: Array, velocity_error: Array | None = None) -> Array:
         """Return (N,) values with errors.

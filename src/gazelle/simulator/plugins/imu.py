@@ -1,4 +1,4 @@
-"""IMUs: ``libgazebo_ros_imu``, ``libgazebo_ros_imu_sensor`` and ``libhector_gazebo_ros_imu``."""
+"""IMUs: ``libgazebo_ros_imu`` and ``libgazebo_ros_imu_sensor``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec, Noise
 from gazelle.geometry import IDENTITY_POSE, Pose
@@ -23,27 +24,31 @@ if TYPE_CHECKING:
     from gazelle.sensors import ImuRecord
 
 __all__ = [
-    "HECTOR_TABLE",
+    "GRAVITY",
+    "OFFSETS",
     "SENSOR_TABLE",
     "TABLE",
     "imu_message",
     "load",
-    "load_hector",
     "load_sensor",
+    "offset_pose",
     "publish_readings",
 ]
 
-_OFFSETS = (
+Sigmas = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+_NO_SIGMAS: Sigmas = (np.zeros(3), np.zeros(3), np.zeros(3))
+
+OFFSETS = (
     Parameter("xyzOffset", "vector", (0.0, 0.0, 0.0), "mounting position", "m", ("xyzOffsets",)),
     Parameter("rpyOffset", "vector", (0.0, 0.0, 0.0), "mounting turn", "rad", ("rpyOffsets",)),
 )
-_GRAVITY = "At rest the acceleration reads +g along the upward axis, as a real IMU's does."
+GRAVITY = "At rest the acceleration reads +g along the upward axis, as a real IMU's does."
 
 TABLE = PluginTable(
     family="imu",
     summary="A model plug-in that measures the motion of a link.",
     filenames=("gazebo_ros_imu",),
-    behaviour=(_GRAVITY,),
+    behaviour=(GRAVITY,),
     topics=(
         Topic(
             "{topicName}",
@@ -63,7 +68,7 @@ TABLE = PluginTable(
             "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
         ),
         Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
-        *_OFFSETS,
+        *OFFSETS,
         Parameter("imu", "none", "", "no release of this plug-in reads it"),
         Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
     ),
@@ -73,7 +78,7 @@ SENSOR_TABLE = PluginTable(
     family="imu_sensor",
     summary="Publishes the readings of the imu sensor it stands in.",
     filenames=("gazebo_ros_imu_sensor",),
-    behaviour=(_GRAVITY,),
+    behaviour=(GRAVITY,),
     topics=(
         Topic(
             "{topicName}",
@@ -99,52 +104,7 @@ SENSOR_TABLE = PluginTable(
             "",
             ("initial_orientation_as_reference",),
         ),
-        *_OFFSETS,
-    ),
-)
-
-HECTOR_TABLE = PluginTable(
-    family="hector imu",
-    summary="The IMU of hector_gazebo_plugins.",
-    filenames=("hector_gazebo_ros_imu",),
-    behaviour=(_GRAVITY,),
-    topics=(
-        Topic(
-            "{topicName}",
-            "sensor_msgs/msg/Imu",
-            "`updateRate`, 0 is every step",
-            "`frameId`, else `bodyName`",
-        ),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("bodyName", "text", "", "the link"),
-        Parameter("frameId", "text", "", "frame of the data", "", ("frameName",)),
-        Parameter("topicName", "text", "imu", "topic"),
-        Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
-        Parameter("accelGaussianNoise", "vector", (0.0, 0.0, 0.0), "sigma", "m/s²"),
-        Parameter("rateGaussianNoise", "vector", (0.0, 0.0, 0.0), "sigma", "rad/s"),
-        Parameter("accelOffset", "vector", (0.0, 0.0, 0.0), "constant error", "m/s²"),
-        Parameter("rateOffset", "vector", (0.0, 0.0, 0.0), "constant error", "rad/s"),
-        *_OFFSETS,
-        *(
-            Parameter(key, "none", "", "not simulated")
-            for key in (
-                "accelDrift",
-                "accelDriftFrequency",
-                "rateDrift",
-                "rateDriftFrequency",
-                "yawOffset",
-                "yawDrift",
-                "yawDriftFrequency",
-                "yawGaussianNoise",
-                "headingDrift",
-                "headingGaussianNoise",
-                "serviceName",
-                "alwaysOn",
-                "gaussianNoise",
-            )
-        ),
+        *OFFSETS,
     ),
 )
 
@@ -156,26 +116,10 @@ def load(context: PluginContext) -> None:
     sigma = parameters.number("gaussianNoise")
     if link_name is not None:
         frame = parameters.text("frameName") or parameters.text("bodyName")
-        spec = _spec((sigma,) * 3, (sigma,) * 3)
+        spec = _spec(sigma)
         _start_own(context, parameters, link_name, frame, spec)
         name = context.topic(parameters, parameters.text("serviceName"))
         context.resources.service(name, "std_srvs/Empty", lambda request, response: None)
-    parameters.report_unread()
-
-
-def load_hector(context: PluginContext) -> None:
-    """Start hector's plug-in."""
-    parameters = context.reader(HECTOR_TABLE)
-    link_name = context.link_name(parameters.text("bodyName"))
-    if link_name is not None:
-        spec = _spec(
-            parameters.vector("rateGaussianNoise"),
-            parameters.vector("accelGaussianNoise"),
-            parameters.vector("rateOffset"),
-            parameters.vector("accelOffset"),
-        )
-        frame = parameters.text("frameId") or parameters.text("bodyName")
-        _start_own(context, parameters, link_name, frame, spec)
     parameters.report_unread()
 
 
@@ -195,11 +139,11 @@ def load_sensor(context: PluginContext) -> None:
         topic = context.topic(parameters, "~/out" if ros2 else parameters.text("topicName"))
         rate = parameters.number("updateRateHZ")
         period = sensor_period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
-        offset = _offset(parameters)
+        offset = offset_pose(parameters)
         sigma = parameters.number("gaussianNoise")
         spec = sensor.spec
         if sigma > 0 or not isinstance(spec, ImuSpec):
-            spec = _spec((sigma,) * 3, (sigma,) * 3)
+            spec = _spec(sigma)
         T_link_imu = sensor.T_link_sensor @ offset
         relative = parameters.flag("initialOrientationAsReference")
         publish_readings(
@@ -210,6 +154,8 @@ def load_sensor(context: PluginContext) -> None:
             lambda: host.sensors.imu_at(
                 place.name, place.link_name, T_link_imu, spec, relative=relative
             ),
+            # ROS 1 takes its own sigma for the orientation too, ROS 2 the sensor's noises only.
+            sigmas=_sigmas(spec, sigma),
         )
     parameters.report_unread()
 
@@ -217,24 +163,44 @@ def load_sensor(context: PluginContext) -> None:
 def _start_own(
     context: PluginContext, parameters: ParameterReader, link_name: str, frame: str, spec: ImuSpec
 ) -> None:
-    host, offset = context.host, _offset(parameters)
+    host, offset = context.host, offset_pose(parameters)
     topic = context.topic(parameters, parameters.text("topicName"))
     period = period_in_steps(parameters.number("updateRate"), host.engine.step_ns)
     name = f"{context.model.name}::{context.plugin.name}"
     publish_readings(
-        context, topic, frame, period, lambda: host.sensors.imu_at(name, link_name, offset, spec)
+        context,
+        topic,
+        frame,
+        period,
+        lambda: host.sensors.imu_at(name, link_name, offset, spec),
+        sigmas=_sigmas(spec, parameters.number("gaussianNoise")),
     )
 
 
 def publish_readings(
-    context: PluginContext, topic: str, frame: str, period: Any, read: Callable[[], ImuRecord]
+    context: PluginContext,
+    topic: str,
+    frame: str,
+    period: Any,
+    read: Callable[[], ImuRecord],
+    *,
+    sigmas: Sigmas = _NO_SIGMAS,
 ) -> None:
-    """Publish readings every so many steps, while somebody listens."""
+    """Publish readings every so many steps, while somebody listens.
+
+    Args:
+        context: the plug-in's.
+        topic: absolute name.
+        frame: of the data.
+        period: in steps.
+        read: takes a reading.
+        sigmas: of orientation, rates and accelerations, for the covariances.
+    """
     engine = context.host.engine
     publisher = context.resources.publisher(topic, "sensor_msgs/Imu")
 
     def publish() -> None:
-        publisher.publish(imu_message(engine.time_ns, frame, read()))
+        publisher.publish(imu_message(engine.time_ns, frame, read(), sigmas))
 
     name = f"{context.plugin.name} imu"
     context.resources.task(
@@ -242,8 +208,9 @@ def publish_readings(
     )
 
 
-def imu_message(time_ns: int, frame: str, record: ImuRecord) -> Any:
-    """Return a ``sensor_msgs/Imu``; variances are the squares of the noise's sigma."""
+def imu_message(time_ns: int, frame: str, record: ImuRecord, sigmas: Sigmas = _NO_SIGMAS) -> Any:
+    """Return a ``sensor_msgs/Imu``; variances are the squares of the sigmas."""
+    orientation, rate, acceleration = (np.diag(np.square(item)).reshape(9) for item in sigmas)
     x, y, z, w = record.orientation_xyzw
     quaternion = message_class("geometry_msgs/Quaternion")
     return message_class("sensor_msgs/Imu")(
@@ -251,28 +218,24 @@ def imu_message(time_ns: int, frame: str, record: ImuRecord) -> Any:
         orientation=quaternion(x=float(x), y=float(y), z=float(z), w=float(w)),
         angular_velocity=vector_message(record.angular_velocity_rad_s),
         linear_acceleration=vector_message(record.linear_acceleration_m_s2),
-        orientation_covariance=np.zeros(9),
-        angular_velocity_covariance=np.zeros(9),
-        linear_acceleration_covariance=np.zeros(9),
+        orientation_covariance=orientation,
+        angular_velocity_covariance=rate,
+        linear_acceleration_covariance=acceleration,
     )
 
 
-def _offset(parameters: ParameterReader) -> Pose:
+def offset_pose(parameters: ParameterReader) -> Pose:
+    """Return where the IMU sits on its link, of ``xyzOffset`` and ``rpyOffset``."""
     xyz, rpy = parameters.vector("xyzOffset"), parameters.vector("rpyOffset")
     return Pose.from_xyz_rpy(xyz, rpy) if any((*xyz, *rpy)) else IDENTITY_POSE
 
 
-def _spec(
-    rate: tuple[float, ...],
-    acceleration: tuple[float, ...],
-    rate_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
-    acceleration_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
-) -> ImuSpec:
-    def noises(sigmas: tuple[float, ...], means: tuple[float, ...]) -> tuple[Noise, Noise, Noise]:
-        made = [
-            Noise("gaussian" if sigma > 0 or mean else "none", mean, sigma)
-            for sigma, mean in zip(sigmas, means, strict=True)
-        ]
-        return (made[0], made[1], made[2])
+def _spec(sigma: float) -> ImuSpec:
+    noise = Noise("gaussian" if sigma > 0 else "none", 0.0, sigma)
+    return ImuSpec((noise, noise, noise), (noise, noise, noise))
 
-    return ImuSpec(noises(rate, rate_offset), noises(acceleration, acceleration_offset))
+
+def _sigmas(spec: ImuSpec, orientation: float) -> Sigmas:
+    rates = np.array([noise.stddev for noise in spec.angular_velocity_noise])
+    forces = np.array([noise.stddev for noise in spec.linear_acceleration_noise])
+    return (np.full(3, orientation), rates, forces)

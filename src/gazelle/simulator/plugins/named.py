@@ -24,8 +24,6 @@ _MISSING = {
     "gazebo_ros_projector": "no picture is projected; cameras see the scene without it",
     "gazebo_ros_joint_pose_trajectory": "joints do not follow trajectory_msgs on set_joint_"
     "trajectory; use a joint_trajectory_controller",
-    "gazebo_ros_triggered_camera": "pictures are not taken on a trigger; use gazebo_ros_camera, "
-    "which publishes at the sensor's rate",
     "gazebo_ros_triggered_multicamera": "pictures are not taken on a trigger; use "
     "gazebo_ros_multicamera, which publishes at the sensor's rate",
     "ActorPlugin": "actors do not walk around obstacles",
