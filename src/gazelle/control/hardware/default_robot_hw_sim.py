@@ -9,6 +9,7 @@ from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.joint_states import JOINT_STATES, JointStates
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.hardware.ros1_section import Ros1Section
+from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.pid import PidBank, PidGains
 from gazelle.control.robot import JointResource
 
@@ -32,6 +33,7 @@ class DefaultRobotHWSim:
         model: name of the model in the world.
         joints: in the order of the transmissions.
         gains: of the position and velocity joints that have some, by name.
+        sensors: what the model measures besides its joints, which the original does not offer.
         held: joints to hold until they are claimed.
         plugin: class that the file names.
 
@@ -49,12 +51,14 @@ class DefaultRobotHWSim:
         model: str,
         joints: Sequence[Ros1Joint],
         *,
+        sensors: SensorStates,
         gains: Mapping[str, PidGains] | None = None,
         held: Collection[str] = (),
         plugin: str = "gazebo_ros_control/DefaultRobotHWSim",
     ) -> None:
         self.plugin = plugin
         self.joints: tuple[JointResource, ...] = tuple(joint.resource() for joint in joints)
+        self.sensors = sensors
         self._engine = engine
         self._states = JointStates(
             engine, bank, model, [(joint.name, JOINT_STATES) for joint in joints]
@@ -78,6 +82,7 @@ class DefaultRobotHWSim:
     def read(self, time_ns: int, period_ns: int) -> None:
         """Measure."""
         self._states.read()
+        self.sensors.read()
 
     def write(self, time_ns: int, period_ns: int) -> None:
         """Enforce limits, run PIDs, command the joints."""

@@ -9,6 +9,7 @@ from gazelle.control.hardware.holding import joints_to_hold
 from gazelle.control.hardware.host import HardwareHost, ParameterStore
 from gazelle.control.hardware.ros1_gains import gains_parameters, read_joint_gains
 from gazelle.control.hardware.ros1_joints import read_ros1_joints
+from gazelle.control.hardware.sensor_states import SensorSource, SensorStates, sensor_parts
 from gazelle.control.robot import Robot
 from gazelle.control.sources.source import ParameterSource
 from gazelle.description.model import Model
@@ -25,6 +26,7 @@ def build_ros1_robot(
     namespace: str = "",
     gains_namespace: str | None = None,
     description: ControlDescription | None = None,
+    sensors: SensorSource | None = None,
     plugin: str = "gazebo_ros_control/DefaultRobotHWSim",
 ) -> Robot:
     """Return the robot of a model in the world; joints to be held are held from now on.
@@ -37,6 +39,7 @@ def build_ros1_robot(
         namespace: of the robot, absolute; empty or ``/`` for none.
         gains_namespace: where ``gazebo_ros_control/pid_gains`` lies; the robot's when None.
         description: joints and transmissions; the model's own when None.
+        sensors: what the model can measure; None for nothing.
         plugin: class of the hardware that the file names.
     """
     prefix = "/" + namespace.strip("/") if namespace.strip("/") else ""
@@ -45,11 +48,14 @@ def build_ros1_robot(
     place = prefix if gains_namespace is None else gains_namespace.rstrip("/")
     gains = gains_parameters(parameters, place, host.diagnostics)
     bank = InterfaceBank()
+    parts = () if sensors is None else sensor_parts(sensors)
+    measured = SensorStates(parts, bank, sensors, host.diagnostics)
     hardware = DefaultRobotHWSim(
         host.engine,
         bank,
         model.name,
         joints,
+        sensors=measured,
         gains=read_joint_gains(gains, model, joints),
         held=joints_to_hold(joints, source),
         plugin=plugin,
@@ -60,4 +66,5 @@ def build_ros1_robot(
         text = f"no joint of model '{model.name}' can be controlled: it has no <transmission> that"
         text += " drives one of its joints (No valid transmissions found.)"
         host.diagnostics.report("control.no-transmissions", text, model.span)
-    return Robot(1, model, bank, (hardware,), {item.name: item for item in hardware.joints})
+    resources = {item.name: item for item in hardware.joints}
+    return Robot(1, model, bank, (hardware,), resources, measured.interfaces, measured.frames)

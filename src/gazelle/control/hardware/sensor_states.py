@@ -1,4 +1,4 @@
-"""States of the sensors of ``<ros2_control>`` blocks."""
+"""States of sensors among those of the joints."""
 
 from __future__ import annotations
 
@@ -6,10 +6,19 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from gazelle.control.bank import InterfaceBank
-from gazelle.control.hardware.ros2_tags import PartTag
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.control.hardware.ros2_tags import InterfaceTag, PartTag
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 
-__all__ = ["FORCE_TORQUE_STATES", "IMU_STATES", "SensorReadout", "SensorSource", "SensorStates"]
+__all__ = [
+    "FORCE_TORQUE_STATES",
+    "IMU_STATES",
+    "SensorReadout",
+    "SensorSource",
+    "SensorStates",
+    "sensor_parts",
+]
+
+_NOWHERE = SourceSpan("<sensor>")
 
 IMU_STATES = (
     "orientation.x",
@@ -56,8 +65,19 @@ class SensorSource(Protocol):
         ...
 
 
+def sensor_parts(source: SensorSource) -> tuple[PartTag, ...]:
+    """Return parts with everything that a model's sensors measure, for robots without blocks."""
+    found = []
+    for name in source.names:
+        readout = source.find(name)
+        if readout is not None:
+            states = tuple(InterfaceTag(word) for word in readout.interfaces)
+            found.append(PartTag("sensor", name, (), states, {}, _NOWHERE))
+    return tuple(found)
+
+
 class SensorStates:
-    """Sensors of one block; those whose states nobody reads are not computed.
+    """Sensors of one piece of hardware; those whose states nobody reads are not computed.
 
     Attributes:
         interfaces: full names of the states by sensor.

@@ -38,7 +38,7 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.ros2_robot import build_ros2_robot
     from gazelle.simulator.control_ports import make_ports, offer_manager
-    from gazelle.simulator.plugins.ros2_control_sensors import ModelSensors
+    from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
     host, resources, engine = context.host, context.resources, context.host.engine
     namespace = join_names("/", parameters.ros.namespace or context.default_namespace)
@@ -84,17 +84,25 @@ def _source(
 ) -> FileSource:
     from gazelle.control.sources.files import FileSource
 
+    controls = context.host.controls
     files = []
     for text in parameters.texts("parameters"):
         path = _resolved(context, text.strip())
         if path is not None:
             files.append(path)
-    if not any(text.strip() for text in parameters.texts("parameters")):
+    given = (*parameters.texts("parameters"), *map(str, controls.files), *controls.overrides)
+    if not any(text.strip() for text in given):
         message = f"plug-in '{context.plugin.name}' names no <parameters> file: controllers have"
         message += " no types and no parameters (No parameter file provided. Configuration might"
         message += " be wrong)"
         context.report("control.no-parameter-file", message)
-    return FileSource(files, namespace, context.host.diagnostics, manager=manager)
+    return FileSource(
+        [*files, *controls.files],
+        namespace,
+        context.host.diagnostics,
+        manager=manager,
+        overrides=controls.overrides,
+    )
 
 
 def _resolved(context: PluginContext, text: str) -> Path | None:

@@ -65,11 +65,12 @@ def _namespace(context: PluginContext, parameters: ParameterReader) -> str:
 
 def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) -> Robot:
     from gazelle.control.hardware.ros1_robot import build_ros1_robot
+    from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
     plugin = parameters.text("robotSimType")
     if plugin != DEFAULT_ROBOT_SIM:
         text = f"<robotSimType> '{plugin}' is compiled code that Gazelle does not have;"
-        text += f" '{DEFAULT_ROBOT_SIM}' is used: one command interface a joint, no sensors"
+        text += f" '{DEFAULT_ROBOT_SIM}' is used: one command interface a joint"
         context.report("control.robot-sim-type", text)
     return build_ros1_robot(
         context.host,
@@ -79,6 +80,7 @@ def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) 
         namespace=namespace,
         gains_namespace=_gains_namespace(context, parameters, namespace),
         description=_description(context, parameters, namespace),
+        sensors=ModelSensors(context.host, context.model),
         plugin=plugin,
     )
 

@@ -36,6 +36,8 @@ TABLE = PluginTable(
         "Joints that a configured controller names hold where they were spawned until a controller "
         "claims them, continuous joints excepted; Gazebo lets them fall.",
         "Stopped controllers leave their last command behind, as in Gazebo.",
+        "IMUs and force-torque sensors of the model are there for controllers; DefaultRobotHWSim "
+        "has none.",
         "A joint that is not in the model is reported and left out; Gazebo would start nothing.",
         "`gazebo_ros_controller_manager` of 2011 (PR2) means the same.",
     ),

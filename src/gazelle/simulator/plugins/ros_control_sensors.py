@@ -1,4 +1,4 @@
-"""Sensors of a simulated model as ``<ros2_control>`` hardware reads them."""
+"""Sensors of a simulated model as hardware of controllers reads them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ModelSensors:
     def __init__(self, host: Host, model: Model) -> None:
         self._host = host
         self._places = {
-            place.sensor.name: replace(place, name=f"{place.name} of ros2_control")
+            place.sensor.name: replace(place, name=f"{place.name} of its controllers")
             for place in reversed(tuple(sensor_places(model)))
             if isinstance(place.sensor.spec, ImuSpec | ForceTorqueSpec)
         }
