@@ -27,7 +27,8 @@ def give_parameters(
     Args:
         parameters: a mapping, a YAML file's path, or a list of such. What has a
             ``ros__parameters`` level is ROS 2's and read as a parameter file is; the rest goes
-            into the ROS 1 store, by names that start at the root.
+            into the ROS 1 store, by names that start at the root. A path as a value of a
+            mapping is a file whose values lie below that name.
         store: the ROS 1 store.
         controls: receives ROS 2's.
 
@@ -37,12 +38,8 @@ def give_parameters(
     if isinstance(parameters, Mapping):
         _give(parameters, store, controls)
     elif isinstance(parameters, str | os.PathLike):
-        path = Path(parameters)
-        tree = _read(path)
-        if _is_ros2(tree):
-            controls.files.append(path)
-        else:
-            _give(tree, store, controls)
+        tree = _tree_of(Path(parameters), controls)
+        _give(tree, store, controls)
     else:
         for one in parameters:
             give_parameters(one, store, controls)
@@ -50,7 +47,11 @@ def give_parameters(
 
 def _give(tree: Mapping[str, Any], store: ParameterPort, controls: ControlRegistry) -> None:
     for name, value in tree.items():
-        if isinstance(value, Mapping) and _is_ros2(value):
+        if isinstance(value, os.PathLike):
+            found = _tree_of(Path(value), controls)
+            if found:
+                store.set(f"/{str(name).strip('/')}", dict(found))
+        elif isinstance(value, Mapping) and _is_ros2(value):
             _give_nodes(str(name), value, controls)
         else:
             store.set(f"/{str(name).strip('/')}", value)
@@ -64,6 +65,15 @@ def _give_nodes(name: str, tree: Mapping[str, Any], controls: ControlRegistry) -
             known.update(value or {})
         elif isinstance(value, Mapping):
             _give_nodes(str(key), value, controls)
+
+
+def _tree_of(path: Path, controls: ControlRegistry) -> Mapping[str, Any]:
+    """Return a file's values; nothing for ROS 2's, which are read by whoever has a namespace."""
+    tree = _read(path)
+    if not _is_ros2(tree):
+        return tree
+    controls.files.append(path)
+    return {}
 
 
 def _is_ros2(tree: Mapping[str, Any]) -> bool:
