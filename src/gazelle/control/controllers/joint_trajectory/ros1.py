@@ -61,8 +61,7 @@ class Ros1JointTrajectoryController(Controller):
         self.commands = self._output.commands
         self.states = tuple(f"{name}/{word}" for word in ("position", "velocity") for name in names)
         self._places = context.state_places(self.states)
-        self._period_ns = round(_NANO / context.update_rate_hz)
-        self._time_ns = 0
+        self._time_ns, self._period_ns = 0, 0
         self._is_running = False
         self._goal: GoalPort | None = None
         self._reached = np.zeros(len(names), dtype=np.bool_)
@@ -84,7 +83,8 @@ class Ros1JointTrajectoryController(Controller):
 
     def start(self, time_ns: int) -> None:
         """Hold the present position, or come to rest within stop_trajectory_duration."""
-        self._time_ns = time_ns
+        # What comes before the first update begins with it.
+        self._time_ns, self._period_ns = time_ns, 0
         self._is_running = True
         self._measure()
         self._following.state[:2] = self._actual
