@@ -35,7 +35,7 @@ def world(filename: str, keys: str = "", kind: str = "ray", x: float = 2.1) -> s
     return WORLD.format(kind=kind, spec=spec, filename=filename, keys=keys, x=x)
 
 
-KEYS = "<topicName>ir</topicName><frameName>eye</frameName><fov>0.3</fov>"
+KEYS = "<topicName>ir</topicName><frameName>/eye</frameName><fov>0.3</fov>"
 
 
 @pytest.mark.parametrize("kind", ["ray", "sonar"])
@@ -68,6 +68,7 @@ def test_infrared_and_field_of_view_are_as_the_keys_say(load: Load, listen: List
     messages = listen(sim, "/ir")
     sim.run(seconds=0.2)
     assert messages[-1].radiation_type == 1
+    assert messages[-1].header.frame_id == "eye"
     assert messages[-1].field_of_view == pytest.approx(0.3)
 
 

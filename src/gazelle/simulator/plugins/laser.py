@@ -12,6 +12,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.stream import prefixed_frame
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
 from gazelle.simulator.scheduler import ORDER_SENSOR, sensor_period_in_steps
 
@@ -75,7 +76,7 @@ def load(context: PluginContext) -> None:
     place = lidar_place(context)
     if place is not None:
         topic = context.topic(parameters, parameters.text("topicName"))
-        frame = _prefixed_frame(context, parameters)
+        frame = prefixed_frame(context, parameters, "frameName")
         start_scans(context, place, topic, "sensor_msgs/LaserScan", scan_builder(place, frame))
     parameters.report_unread()
 
@@ -127,12 +128,6 @@ def start_scans(
     context.resources.task(
         place.name, period, publish, order=ORDER_SENSOR, wanted=lambda: publisher.matched
     )
-
-
-def _prefixed_frame(context: PluginContext, parameters: ParameterReader) -> str:
-    prefix = context.tf_prefix(context.namespace(parameters)).strip("/")
-    frame = parameters.text("frameName")
-    return f"{prefix}/{frame}" if prefix and not frame.startswith("/") else frame
 
 
 def _output_kind(context: PluginContext, parameters: ParameterReader) -> str:

@@ -99,7 +99,12 @@ def throttled_period(context: PluginContext, place: SensorPlace, rate_hz: float)
 
 
 def prefixed_frame(context: PluginContext, parameters: ParameterReader, key: str) -> str:
-    """Return the frame of a key with the namespace's ``tf_prefix``, as tf::resolve joins them."""
-    prefix = context.tf_prefix(context.namespace(parameters)).strip("/")
+    """Return the frame of a key as tf::resolve does since ROS Hydro.
+
+    The namespace's ``tf_prefix`` goes before it; an absolute name has none and loses its slash.
+    """
     frame = parameters.text(key)
-    return f"{prefix}/{frame}" if prefix and not frame.startswith("/") else frame
+    if frame.startswith("/"):
+        return frame.removeprefix("/")
+    prefix = context.tf_prefix(context.namespace(parameters)).strip("/")
+    return f"{prefix}/{frame}" if prefix else frame

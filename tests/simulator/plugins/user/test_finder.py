@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -29,7 +30,7 @@ def test_a_librarys_name_is_its_files(filename: str, wanted: tuple[str, ...]) ->
 )
 def test_gazebos_plug_in_paths_are_searched(tmp_path: Path, variable: str) -> None:
     (tmp_path / "mine.py").write_text("")
-    environ = {variable: f"/nowhere:{tmp_path}"}
+    environ = {variable: os.pathsep.join(["/nowhere", str(tmp_path)])}
     found = python_plugin("libmine.so", None, None, environ)
     assert found is not None
     assert found.path == tmp_path / "mine.py"
@@ -60,19 +61,23 @@ def test_built_folders_are_not_searched(tmp_path: Path) -> None:
     assert python_plugin("libmine.so", workspace, None, {}) is None
 
 
-def test_a_sources_macro_tells_the_role(tmp_path: Path) -> None:
+def test_the_line_and_source_of_a_library_are_found(tmp_path: Path) -> None:
     package = tmp_path / "src" / "pkg"
     package.mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>pkg</name></package>")
     (package / "CMakeLists.txt").write_text(
         "add_library(\n  lamp\n  SHARED\n  lamp.cc)\nadd_library(lamp_tools tools.cc)\n"
     )
-    (package / "lamp.cc").write_text("GZ_REGISTER_WORLD_PLUGIN(Lamp)\n")
+    (package / "lamp.cc").write_text("")
     workspace = Workspace.discover(environ={"ROS_PACKAGE_PATH": str(tmp_path / "src")}, cwd="/")
     found = compiled_plugin("liblamp.so", workspace)
     assert found is not None
-    assert (found.line, found.source, found.role) == (1, package / "lamp.cc", "World")
+    assert (found.line, found.source) == (1, package / "lamp.cc")
     tools = compiled_plugin("lamp_tools", workspace)
     assert tools is not None
-    assert (tools.line, tools.source, tools.role) == (5, None, "")
+    assert (tools.line, tools.source) == (5, None)
     assert compiled_plugin("liblam.so", workspace) is None
+    (package / "CMakeLists.txt").write_text("project(lamp)\nadd_library(${PROJECT_NAME} lamp.cc)\n")
+    named = compiled_plugin("liblamp.so", workspace)
+    assert named is not None
+    assert (named.line, named.source) == (2, package / "lamp.cc")

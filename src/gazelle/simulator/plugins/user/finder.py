@@ -17,8 +17,7 @@ _VARIABLES = ("GAZEBO_PLUGIN_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYS
 _LIBRARY_ENDINGS = (".so", ".dylib", ".dll")
 _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
 _SOURCE_ENDINGS = (".cpp", ".cc", ".cxx", ".c")
-# GZ_REGISTER_MODEL_PLUGIN and its kin, and what the class is derived from.
-_ROLE = re.compile(r"GZ_REGISTER_(WORLD|MODEL|SENSOR)_PLUGIN|\b(World|Model|Sensor)Plugin\b")
+_PROJECT = re.compile(r"\bproject\s*\(\s*([\w-]+)")
 
 
 class PythonPlugin(NamedTuple):
@@ -36,14 +35,12 @@ class CompiledPlugin(NamedTuple):
         lists: the CMakeLists.txt.
         line: of its ``add_library``.
         source: the first source file, None when the list names none that exists.
-        role: ``World``, ``Model`` or ``Sensor`` as far as the source says, else empty.
     """
 
     package: Package
     lists: Path
     line: int
     source: Path | None
-    role: str
 
 
 def stems(filename: str) -> tuple[str, ...]:
@@ -78,7 +75,7 @@ def python_plugin(
     names = [f"{stem}.py" for stem in stems(filename) if stem]
     variables = os.environ if environ is None else environ
     folders = [
-        Path(part) for key in _VARIABLES for part in variables.get(key, "").split(":") if part
+        Path(part) for key in _VARIABLES for part in variables.get(key, "").split(os.pathsep) if part
     ]
     folders += [] if beside is None else [beside.parent]
     for folder in folders:
@@ -101,11 +98,14 @@ def compiled_plugin(filename: str, workspace: Workspace | None) -> CompiledPlugi
     for package in _own_packages(workspace):
         for lists in _files(package.path, ("CMakeLists.txt",)):
             text = lists.read_text(encoding="utf-8", errors="replace")
+            project = _PROJECT.search(text)
+            if project is not None:
+                text = text.replace("${PROJECT_NAME}", project[1])
             match = wanted.search(text)
             if match is not None:
                 line = text.count("\n", 0, match.start()) + 1
                 source = _first_source(lists.parent, match[2])
-                return CompiledPlugin(package, lists, line, source, _role(source))
+                return CompiledPlugin(package, lists, line, source)
     return None
 
 
@@ -126,12 +126,3 @@ def _first_source(folder: Path, words: str) -> Path | None:
         if path.suffix in _SOURCE_ENDINGS and path.is_file():
             return path
     return None
-
-
-def _role(source: Path | None) -> str:
-    if source is None:
-        return ""
-    text = source.read_text(encoding="utf-8", errors="replace")
-    roles = [(match[1] or match[2]).capitalize() for match in _ROLE.finditer(text)]
-    # The macro is the last word; bases may be named on the way.
-    return roles[-1] if roles else ""

@@ -57,7 +57,7 @@ def report_compiled(context: PluginContext) -> bool:
     found = compiled_plugin(filename, context.host.workspace)
     if found is None:
         return False
-    role = found.role or _role(context)
+    role = _role(context)
     stem = stems(filename)[0]
     source = f"{found.source}:1, " if found.source is not None else ""
     text = f"plug-in '{filename}' (name '{context.plugin.name}') is compiled code of package "
