@@ -18,12 +18,8 @@ _MISSING = {
     "joint with a position controller",
     "gazebo_ros_harness": "the model is not held by a harness; pause the world until it is to fall",
     "HarnessPlugin": "the model is not held by a harness; pause the world until it is to fall",
-    "gazebo_ros_hand_of_god": "the link does not follow a tf frame; move the model with "
-    "/gazebo/set_model_state",
     "gazebo_ros_video": "no pictures are shown on the visual; cameras see its material",
     "gazebo_ros_projector": "no picture is projected; cameras see the scene without it",
-    "gazebo_ros_joint_pose_trajectory": "joints do not follow trajectory_msgs on set_joint_"
-    "trajectory; use a joint_trajectory_controller",
     "gazebo_ros_triggered_multicamera": "pictures are not taken on a trigger; use "
     "gazebo_ros_multicamera, which publishes at the sensor's rate",
     "ActorPlugin": "actors do not walk around obstacles",

@@ -1,0 +1,186 @@
+"""The gz-sim system ``AckermannSteering``."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Any
+
+from gazelle.geometry import Pose, quat_xyzw_from_rpy
+from gazelle.simulator.messages import (
+    header,
+    message_class,
+    pose_message,
+    transform_stamped,
+    twist_message,
+)
+from gazelle.simulator.plugins.ackermann import steering_angles
+from gazelle.simulator.plugins.ackermann_table import GZ_TABLE
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.scheduler import period_in_steps
+
+__all__ = ["load"]
+
+# gz-sim commands joint velocities outright; the engine needs some bound on the torque.
+_TORQUE_NM = 1e3
+_STRAIGHT_M = 1e9
+_NO_TURN_RAD_S = 1e-3
+
+
+def load(context: PluginContext) -> None:
+    """Start a car; one diagnostic and nothing else when a joint is missing."""
+    parameters = context.reader(GZ_TABLE)
+    keys = ["left_steering_joint", "right_steering_joint"]
+    if not parameters.flag("steering_only"):
+        keys += ["left_joint", "right_joint"]
+    names: dict[str, list[str]] = {}
+    for key in keys:
+        found = [context.joint_name(name) for name in parameters.texts(key)]
+        names[key] = [name for name in found if name is not None]
+        if not found:
+            text = f"plug-in '{context.plugin.name}' names no <{key}>; it is left out"
+            context.report("plugin.missing-joint", text)
+    if all(names[key] and len(names[key]) == len(parameters.texts(key)) for key in keys):
+        _GzCar(context, parameters, names)
+    parameters.report_unread()
+
+
+class _GzCar:
+    """One running car."""
+
+    def __init__(
+        self, context: PluginContext, parameters: ParameterReader, names: dict[str, list[str]]
+    ) -> None:
+        self._context = context
+        self._engine = context.host.engine
+        self._joints = {
+            key: [self._engine.joint(name) for name in some] for key, some in names.items()
+        }
+        number = parameters.number
+        self._separation_m, self._base_m = number("wheel_separation"), number("wheel_base")
+        self._kingpin_m, self._radius_m = number("kingpin_width"), number("wheel_radius")
+        self._limit, self._gain = number("steering_limit"), number("steer_p_gain")
+        self._bounds = (number("min_velocity"), number("max_velocity"))
+        self._rates = (number("min_acceleration"), number("max_acceleration"))
+        self._only_steers = parameters.flag("steering_only")
+        self._command, self._followed = (0.0, 0.0), (0.0, 0.0)
+        self._odometry = (0.0, 0.0, 0.0)
+        self._last_roll = self._roll()
+        self._offer(parameters)
+
+    def _offer(self, parameters: ParameterReader) -> None:
+        context, resources = self._context, self._context.resources
+        model, name = context.model, context.plugin.name
+
+        def named(key: str) -> str:
+            text = parameters.text(key)
+            return text.replace("{model}", model.name).replace("{link}", model.canonical_link)
+
+        own = parameters.text("sub_topic") or ("steer_angle" if self._only_steers else "cmd_vel")
+        topic = parameters.text("topic") or f"/model/{model.name}/{own}"
+        kind = "std_msgs/msg/Float64" if self._only_steers else "geometry_msgs/msg/Twist"
+        resources.subscription(join_names("/", topic), None, self._take, announced=kind)
+        resources.task(f"{name} drive", Fraction(1), self._control)
+        resources.on_reset(self._reset)
+        resources.on_close(self._release)
+        if self._only_steers:
+            return
+        self._frames = (named("frame_id"), named("child_frame_id"))
+        topics = [join_names("/", named(key)) for key in ("odom_topic", "tf_topic")]
+        self._odom_publisher = resources.publisher(topics[0], "nav_msgs/Odometry")
+        self._tf_publisher = resources.publisher(topics[1], "tf2_msgs/TFMessage")
+        rate = parameters.number("odom_publish_frequency")
+        period = period_in_steps(rate, self._engine.step_ns)
+        self._publish_period_s = max(1.0, float(period)) * self._engine.step_ns * 1e-9
+        resources.task(f"{name} odometry", period, self._publish)
+
+    def _take(self, message: Any) -> None:
+        if self._only_steers:
+            self._command = (0.0, float(message.data))
+            return
+        twist = getattr(message, "twist", message)
+        self._command = (float(twist.linear.x), float(twist.angular.z))
+
+    def _control(self) -> None:
+        period_s = self._engine.step_ns * 1e-9
+        speed, turn = (
+            self._limited(wanted, now, period_s)
+            for wanted, now in zip(self._command, self._followed, strict=True)
+        )
+        self._followed = (speed, turn)
+        if self._only_steers:
+            angle = min(max(turn, -self._limit), self._limit)
+            self._steer(*steering_angles(angle, self._separation_m, self._base_m))
+            return
+        radius = self._turning_radius(speed, turn)
+        self._steer(
+            math.atan(self._base_m / (radius - self._kingpin_m / 2)),
+            math.atan(self._base_m / (radius + self._kingpin_m / 2)),
+        )
+        for key, side in (("left_joint", -1.0), ("right_joint", 1.0)):
+            rim = speed * (1.0 + side * self._separation_m / (2.0 * radius))
+            for joint in self._joints[key]:
+                joint.set_velocity_target(rim / self._radius_m, _TORQUE_NM)
+
+    def _limited(self, wanted: float, now: float, period_s: float) -> float:
+        wanted = min(max(wanted, self._bounds[0]), self._bounds[1])
+        return min(max(wanted, now + self._rates[0] * period_s), now + self._rates[1] * period_s)
+
+    def _turning_radius(self, speed: float, turn: float) -> float:
+        if abs(turn) < _NO_TURN_RAD_S:
+            return _STRAIGHT_M
+        least = self._base_m / math.sin(self._limit)
+        if speed == 0.0:
+            return math.copysign(least, turn)
+        radius = speed / turn
+        return math.copysign(max(abs(radius), least), radius)
+
+    def _steer(self, left: float, right: float) -> None:
+        for key, angle in (("left_steering_joint", left), ("right_steering_joint", right)):
+            rate = self._gain * (angle - self._joints[key][0].position)
+            for joint in self._joints[key]:
+                joint.set_velocity_target(rate, _TORQUE_NM)
+
+    def _publish(self) -> None:
+        moved, turned = self._reckon()
+        time_ns, (frame, child) = self._engine.time_ns, self._frames
+        x, y, yaw = self._odometry
+        pose = Pose((x, y, 0.0), quat_xyzw_from_rpy((0.0, 0.0, yaw)))
+        if self._odom_publisher.matched:
+            message = message_class("nav_msgs/Odometry")(
+                header=header(time_ns, frame), child_frame_id=child
+            )
+            message.pose.pose = pose_message(pose)
+            speeds = (moved / self._publish_period_s, turned / self._publish_period_s)
+            message.twist.twist = twist_message((speeds[0], 0.0, 0.0), (0.0, 0.0, speeds[1]))
+            self._odom_publisher.publish(message)
+        if self._tf_publisher.matched:
+            transform = transform_stamped(time_ns, frame, child, pose)
+            self._tf_publisher.publish(message_class("tf2_msgs/TFMessage")(transforms=[transform]))
+
+    def _reckon(self) -> tuple[float, float]:
+        """Go on by what wheels rolled since the last time; returns distance and turn."""
+        roll, last = self._roll(), self._last_roll
+        self._last_roll = roll
+        moved = (roll - last) * self._radius_m
+        sides = ("left_steering_joint", "right_steering_joint")
+        steer = sum(self._joints[key][0].position for key in sides) / 2
+        turned = moved * math.tan(steer) / self._base_m
+        x, y, yaw = self._odometry
+        yaw += turned
+        self._odometry = (x + moved * math.cos(yaw), y + moved * math.sin(yaw), yaw)
+        return moved, turned
+
+    def _roll(self) -> float:
+        if self._only_steers:
+            return 0.0
+        return sum(self._joints[key][0].position for key in ("left_joint", "right_joint")) / 2
+
+    def _reset(self) -> None:
+        self._command = self._followed = (0.0, 0.0)
+        self._odometry, self._last_roll = (0.0, 0.0, 0.0), self._roll()
+
+    def _release(self) -> None:
+        for joint in (joint for some in self._joints.values() for joint in some):
+            joint.release()

@@ -1,0 +1,100 @@
+"""Names, keys and topics of the gz-sim systems that drive single joints."""
+
+from __future__ import annotations
+
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+
+__all__ = ["FORCE_TABLE", "POSITION_TABLE", "VELOCITY_TABLE"]
+
+_SAME_TOPICS = (
+    "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to."
+)
+_ACTUATORS = (
+    Parameter("use_actuator_msg", "none", "", "there is no actuators message in ROS"),
+    Parameter("actuator_number", "none", "", "there is no actuators message in ROS"),
+)
+_TOPICS = (
+    Parameter("topic", "text", "", "commands, by default below the joint"),
+    Parameter("sub_topic", "text", "", "the same, below /model/M"),
+)
+
+
+def _names(word: str, system: str) -> tuple[str, ...]:
+    return (
+        f"gz-sim-{word}-system",
+        f"ignition-gazebo-{word}-system",
+        f"gz::sim::systems::{system}",
+        f"ignition::gazebo::systems::{system}",
+    )
+
+
+def _gains(p: float, i: float, d: float) -> tuple[Parameter, ...]:
+    return (
+        Parameter("p_gain", "number", p, "proportional"),
+        Parameter("i_gain", "number", i, "integral"),
+        Parameter("d_gain", "number", d, "derivative"),
+        Parameter("i_max", "number", 1.0, "upper bound of the integral's term", "N·m, N"),
+        Parameter("i_min", "number", -1.0, "lower bound of the integral's term", "N·m, N"),
+        Parameter("cmd_max", "number", 1000.0, "upper bound of the command", "N·m, N"),
+        Parameter("cmd_min", "number", -1000.0, "lower bound of the command", "N·m, N"),
+        Parameter("cmd_offset", "number", 0.0, "added to the command", "N·m, N"),
+    )
+
+
+FORCE_TABLE = PluginTable(
+    family="gz-sim apply joint force",
+    summary="Applies the last effort of a topic to a joint.",
+    filenames=_names("apply-joint-force", "ApplyJointForce"),
+    behaviour=(_SAME_TOPICS,),
+    topics=(Topic("/model/M/joint/J/cmd_force", "std_msgs/msg/Float64", "", "", publishes=False),),
+    parameters=(Parameter("joint_name", "text", "", "the joint"),),
+)
+
+VELOCITY_TABLE = PluginTable(
+    family="gz-sim joint controller",
+    summary="Drives joints at the velocity of a topic, outright or by a PID.",
+    filenames=_names("joint-controller", "JointController"),
+    behaviour=(
+        "Without `use_force_commands` the velocity is reached within a step, with as much effort"
+        " as the joint's limit allows.",
+        "The PID is Gazebo's own (`gz::math::PID`) and runs at every step.",
+        _SAME_TOPICS,
+    ),
+    topics=(Topic("/model/M/joint/J/cmd_vel", "std_msgs/msg/Float64", "", "", publishes=False),),
+    parameters=(
+        Parameter("joint_name", "text", "", "a joint, repeatable"),
+        Parameter("initial_velocity", "number", 0.0, "at the start", "rad/s, m/s"),
+        Parameter("use_force_commands", "flag", False, "use the PID"),
+        Parameter("disable_braking", "flag", False, "the PID never slows the joint down"),
+        *_gains(1.0, 0.0, 0.0),
+        *_TOPICS,
+        *_ACTUATORS,
+    ),
+)
+
+POSITION_TABLE = PluginTable(
+    family="gz-sim joint position controller",
+    summary="Drives joints to the position of a topic by a PID, or by velocity.",
+    filenames=_names("joint-position-controller", "JointPositionController"),
+    behaviour=(
+        "With `use_velocity_commands` the joint goes to the position within a step, at most at"
+        " `cmd_max` where it is given.",
+        "The PID is Gazebo's own (`gz::math::PID`) and runs at every step.",
+        _SAME_TOPICS,
+    ),
+    topics=(
+        Topic(
+            "/model/M/joint/J/{joint_index}/cmd_pos", "std_msgs/msg/Float64", "", "",
+            publishes=False,
+        ),
+    ),
+    parameters=(
+        Parameter("joint_name", "text", "", "a joint, repeatable"),
+        Parameter("joint_index", "number", 0.0, "part of the topic's name; axis 0 is driven"),
+        Parameter("initial_position", "number", 0.0, "at the start", "rad, m"),
+        Parameter("use_velocity_commands", "flag", False, "go there by velocity"),
+        *_gains(1.0, 0.1, 0.01),
+        *_TOPICS,
+        *_ACTUATORS,
+    ),
+)  # fmt: skip

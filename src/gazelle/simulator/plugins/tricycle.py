@@ -1,0 +1,209 @@
+"""``libgazebo_ros_tricycle_drive``: one steered and driven wheel in front, ROS 1 and 2."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gazelle.engine import JointHandle
+from gazelle.geometry import Pose, quat_xyzw_from_rpy
+from gazelle.simulator.messages import header, message_class, transform_stamped
+from gazelle.simulator.plugins.body_odometry import (
+    BodyOdometry,
+    OdometrySetup,
+    frame_prefix,
+    planar_covariance,
+)
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.tricycle_table import TABLE
+from gazelle.simulator.scheduler import period_in_steps
+
+__all__ = ["TABLE", "load"]
+
+_JOINTS = ("steeringJoint", "actuatedWheelJoint", "encoderWheelLeftJoint", "encoderWheelRightJoint")
+# What the ROS 2 plug-in takes where none is given; ROS 1's is the table's.
+_ROS2_TORQUE_NM = 0.15
+_ENCODER = frozenset({"encoder", "0"})
+
+
+def load(context: PluginContext) -> None:
+    """Start a drive; one diagnostic and nothing else when a joint is missing."""
+    parameters = context.reader(TABLE)
+    found = [context.joint_name(parameters.text(key)) for key in _JOINTS]
+    names = [name for name in found if name is not None]
+    if len(names) == len(_JOINTS):
+        _Tricycle(context, parameters, names)
+    parameters.report_unread()
+
+
+class _Tricycle:
+    """One running drive."""
+
+    def __init__(
+        self, context: PluginContext, parameters: ParameterReader, names: list[str]
+    ) -> None:
+        self._context = context
+        self._engine = context.host.engine
+        self._joints = [self._engine.joint(name) for name in names]
+        self._steering, self._wheel, *self._encoders = self._joints
+        self._read(parameters)
+        self._command = (0.0, 0.0)
+        self._place = (0.0, 0.0, 0.0)
+        self._motion = (0.0, 0.0, 0.0)
+        self._last_angles = self._angles()
+        self._offer(parameters)
+        self._start(parameters)
+
+    def _read(self, parameters: ParameterReader) -> None:
+        number = parameters.number
+        self._is_ros2 = parameters.ros.present or parameters.has("publish_odom")
+        self._radius_m = number("actuatedWheelDiameter") / 2
+        self._encoder_radius_m = number("encoderWheelDiameter") / 2
+        self._separation_m = number("encoderWheelSeparation")
+        torque = _ROS2_TORQUE_NM if self._is_ros2 else None
+        self._torque_nm = number("wheelTorque", torque)
+        self._acceleration = number("wheelAcceleration")
+        self._deceleration = number("wheelDeceleration", self._acceleration)
+        self._speed_tolerance = number("wheelSpeedTolerance")
+        self._steering_rate = number("steeringSpeed")
+        self._angle_tolerance = number("steeringAngleTolerance")
+        self._by_encoder = parameters.text("odometrySource").lower() in _ENCODER
+
+    def _offer(self, parameters: ParameterReader) -> None:
+        context, resources = self._context, self._context.resources
+        self._prefix = "" if self._is_ros2 else frame_prefix(context, parameters)
+        topic = context.topic(parameters, parameters.text("odometryTopic"))
+        shown = parameters.flag("publish_odom") if self._is_ros2 else True
+        setup = OdometrySetup(
+            topic if shown else "",
+            shown,
+            self._prefix + parameters.text("odometryFrame"),
+            self._prefix + parameters.text("robotBaseFrame"),
+            planar_covariance(1e-5, 1e-5, 1e-3),
+            np.zeros(36),
+        )
+        self._odometry = BodyOdometry(context, setup)
+        command = context.topic(parameters, parameters.text("commandTopic"))
+        # Twist and TwistStamped are both taken.
+        resources.subscription(command, None, self._take, announced="geometry_msgs/msg/Twist")
+        self._tf = self._states = None
+        if parameters.flag("publishWheelTF"):
+            self._tf = resources.publisher("/tf", "tf2_msgs/TFMessage")
+        if parameters.flag("publishWheelJointState"):
+            name = parameters.ros.remapped("joint_states")
+            topic = join_names(context.namespace(parameters), name)
+            self._states = resources.publisher(topic, "sensor_msgs/JointState")
+
+    def _start(self, parameters: ParameterReader) -> None:
+        resources, step_ns = self._context.resources, self._engine.step_ns
+        period = period_in_steps(parameters.number("updateRate"), step_ns)
+        self._steps = max(1, round(float(period)))
+        self._period_s = max(1.0, float(period)) * step_ns * 1e-9
+        self._drive()
+        resources.task(f"{self._context.plugin.name} drive", period, self._update)
+        resources.on_reset(self._reset)
+        resources.on_close(self._release)
+
+    def _take(self, message: Any) -> None:
+        twist = getattr(message, "twist", message)
+        self._command = (float(twist.linear.x), float(twist.angular.z))
+
+    def _update(self) -> None:
+        if self._by_encoder:
+            self._reckon()
+            x, y, yaw = self._place
+            pose = Pose((x, y, 0.0), quat_xyzw_from_rpy((0.0, 0.0, yaw)))
+            self._odometry.publish(pose, self._motion)
+        else:
+            self._odometry.publish()
+        self._publish_wheels()
+        self._publish_states()
+        self._drive()
+
+    def _drive(self) -> None:
+        speed, angle = self._command
+        rate = self._ramped(speed / self._radius_m, self._wheel.velocity)
+        self._wheel.set_velocity_target(rate, self._torque_nm)
+        angle = min(max(angle, -math.pi / 2), math.pi / 2)
+        if self._steering_rate <= 0:
+            limit = np.clip(angle, self._steering.lower, self._steering.upper)
+            group = self._engine.joint_group((self._steering.name,))
+            group.lock_position(np.array([limit]), steps=self._steps)
+            return
+        gap = angle - self._steering.position
+        turn = 0.0 if abs(gap) < self._angle_tolerance else math.copysign(self._steering_rate, gap)
+        self._steering.set_velocity_target(turn, self._torque_nm)
+
+    def _ramped(self, target: float, now: float) -> float:
+        """Return the wheel's rate within its acceleration, from the rate it has."""
+        if self._acceleration <= 0:
+            return target
+        if abs(target - now) < self._speed_tolerance:
+            return now
+        most = self._acceleration * self._period_s
+        least = -self._deceleration * self._period_s
+        return now + min(max(target - now, least), most)
+
+    def _reckon(self) -> None:
+        """Dead reckoning (Siegwart 2011, p. 337) with left minus right, as the originals have it.
+
+        So the yaw has the right sign where positive speeds of the wheels drive backwards.
+        """
+        angles, last = self._angles(), self._last_angles
+        self._last_angles = angles
+        left, right = (
+            (new - old) * self._encoder_radius_m for new, old in zip(angles, last, strict=True)
+        )
+        x, y, yaw = self._place
+        moved, turned = (left + right) / 2, (left - right) / self._separation_m
+        dx = moved * math.cos(yaw + turned / 2)
+        dy = moved * math.sin(yaw + turned / 2)
+        self._place = (x + dx, y + dy, yaw + turned)
+        self._motion = (dx / self._period_s, dy / self._period_s, turned / self._period_s)
+
+    def _publish_wheels(self) -> None:
+        if self._tf is None or not self._tf.matched:
+            return
+        transforms = [self._wheel_transform(joint) for joint in self._joints]
+        self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
+
+    def _wheel_transform(self, joint: JointHandle) -> Any:
+        described, model = joint.joint, self._context.model.name
+        poses = [
+            self._engine.link(f"{model}::{link}").T_world_link()
+            for link in (described.parent, described.child)
+        ]
+        # ROS 1 names the frame after the joint, ROS 2 after the link.
+        child = described.child if self._is_ros2 else described.name
+        parent = self._prefix + described.parent
+        pose = poses[0].inverse() @ poses[1]
+        return transform_stamped(self._engine.time_ns, parent, self._prefix + child, pose)
+
+    def _publish_states(self) -> None:
+        if self._states is None or not self._states.matched:
+            return
+        message = message_class("sensor_msgs/JointState")(
+            header=header(self._engine.time_ns, ""),
+            name=[joint.joint.name for joint in self._joints],
+            position=np.array([joint.position for joint in self._joints]),
+            velocity=np.array([joint.velocity for joint in self._joints]),
+            effort=np.array([joint.effort for joint in self._joints]),
+        )
+        self._states.publish(message)
+
+    def _angles(self) -> tuple[float, float]:
+        left, right = self._encoders
+        return left.position, right.position
+
+    def _reset(self) -> None:
+        self._command = (0.0, 0.0)
+        self._place = self._motion = (0.0, 0.0, 0.0)
+        self._last_angles = self._angles()
+        self._drive()
+
+    def _release(self) -> None:
+        for joint in self._joints:
+            joint.release()

@@ -1,0 +1,72 @@
+"""Names and keys of the wheel slip plug-ins."""
+
+from __future__ import annotations
+
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+
+__all__ = ["GAZEBO_TABLE", "GZ_TABLE", "TABLE"]
+
+_LAW = (
+    "A wheel slides at slip · F under the friction force F, with slip = compliance · r |ω| /"
+    " `wheel_normal_force`: the slip ratio is the compliance times the force ratio, up to the"
+    " friction coefficient (docs/contact.md).",
+    "The rate is looked at 100 times a second; a wheel that does not turn does not slip.",
+    "`fdir1` is not needed: the directions are those of the wheel's joint.",
+)
+_WHEEL = Parameter(
+    "wheel",
+    "group",
+    "",
+    "a wheel by its `link_name`, with slip_compliance_lateral, slip_compliance_longitudinal,"
+    " wheel_normal_force in N and wheel_radius in m (else that of its collision); repeatable",
+)
+
+TABLE = PluginTable(
+    family="wheel_slip",
+    summary="Lets wheels slip in proportion to force, with parameters that can be changed live.",
+    filenames=("gazebo_ros_wheel_slip",),
+    behaviour=(
+        *_LAW,
+        "ROS 1 takes `slip_compliance_unitless_lateral` and `_longitudinal` by"
+        " dynamic_reconfigure, for all wheels.",
+        "ROS 2 has them as parameters of its node, for all wheels or `/link` for one. The"
+        " parameters `friction_coefficient_…` are not offered: friction is that of the surface.",
+    ),
+    topics=(
+        Topic("wheel_slip", "gazebo_msgs/msg/WheelSlip", "`publisher_update_rate` (ROS 2)"),
+        Topic(
+            "/M/wheel_slip/parameter_updates", "dynamic_reconfigure/msg/Config", "changes (ROS 1)"
+        ),
+    ),
+    services=(
+        Service("/M/wheel_slip/set_parameters (ROS 1)", "dynamic_reconfigure/srv/Reconfigure"),
+        Service("set_parameters … (ROS 2)", "rcl_interfaces/srv/SetParameters …"),
+    ),
+    parameters=(
+        _WHEEL,
+        Parameter("robotNamespace", "text", "wheel_slip", "below the model's name (ROS 1)"),
+        Parameter("wheel_spin_tolerance", "number", 1e-3, "rim speed below which slip is 0", "m/s"),
+        Parameter("publisher_update_rate", "number", 100.0, "rate of `wheel_slip`", "Hz"),
+    ),
+)
+
+GAZEBO_TABLE = PluginTable(
+    family="WheelSlipPlugin",
+    summary="Gazebo Classic's wheel slip without ROS.",
+    filenames=("WheelSlipPlugin",),
+    behaviour=_LAW,
+    parameters=(_WHEEL,),
+)
+
+GZ_TABLE = PluginTable(
+    family="gz-sim wheel slip",
+    summary="The gz-sim system of the same purpose.",
+    filenames=(
+        "gz-sim-wheel-slip-system",
+        "ignition-gazebo-wheel-slip-system",
+        "gz::sim::systems::WheelSlip",
+        "ignition::gazebo::systems::WheelSlip",
+    ),
+    behaviour=_LAW,
+    parameters=(_WHEEL,),
+)
