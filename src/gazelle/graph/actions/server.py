@@ -183,6 +183,10 @@ class ActionServer:
         """Tell the periodic status when it is due; cheap enough for every step."""
         self._timer.tick()
 
+    def publish_status(self) -> None:
+        """Tell the status of all goals now."""
+        self._send_status()
+
     def close(self) -> None:
         """Stop offering the action; goals that run are aborted. Twice does nothing."""
         with self.lock:
