@@ -83,3 +83,38 @@ def test_the_loops_own_thread_acts_at_once(through: str) -> None:
     getattr(queue, through)(lambda: done.append(1))
     assert done == [1]
     queue.disown()
+
+
+def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None:
+    """A spawner calls while a robot is being spawned, before the world's loop has begun."""
+    queue, done = CommandQueue(), []
+    acting, go_on, end = threading.Event(), threading.Event(), threading.Event()
+
+    def spawn() -> None:
+        acting.set()
+        go_on.wait(5.0)
+
+    def loop() -> None:
+        queue.own()
+        while not end.is_set():
+            queue.wait(0.05)
+            queue.apply()
+        queue.disown()
+
+    def late_call() -> None:
+        done.append(queue.call(lambda: "taken"))
+
+    threads = [threading.Thread(target=lambda: queue.call(spawn)), threading.Thread(target=loop)]
+    threads[0].start()
+    assert acting.wait(5.0)
+    threads[1].start()
+    late = threading.Thread(target=late_call)
+    late.start()
+    late.join(0.1)
+    go_on.set()
+    late.join(2.0)
+    answered = list(done)
+    end.set()
+    for thread in threads:
+        thread.join(5.0)
+    assert answered == ["taken"]

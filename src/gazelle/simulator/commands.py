@@ -12,6 +12,7 @@ from gazelle.errors import GazelleError
 __all__ = ["CommandQueue"]
 
 _Result = TypeVar("_Result")
+_LOOK_S = 0.005
 
 
 class _Call:
@@ -48,11 +49,13 @@ class CommandQueue:
 
     def post(self, command: Callable[[], Any]) -> None:
         """Have a command applied between steps; does not wait."""
-        if self._acts_now():
-            with self._lock:
-                command()
+        if not self._take_world():
+            self._enqueue(command)
             return
-        self._enqueue(command)
+        try:
+            command()
+        finally:
+            self._lock.release()
 
     def call(self, command: Callable[[], _Result], *, timeout_s: float = 60.0) -> _Result:
         """Have a command applied between steps, wait for it and return its result.
@@ -61,9 +64,11 @@ class CommandQueue:
             GazelleError: the world server was closed or did not answer in time.
             Exception: whatever `command` raised.
         """
-        if self._acts_now():
-            with self._lock:
+        if self._take_world():
+            try:
                 return command()
+            finally:
+                self._lock.release()
         waiting = _Call(command)
         self._enqueue(waiting)
         if not waiting.done.wait(timeout_s):
@@ -111,6 +116,19 @@ class CommandQueue:
         if self._owner is None:  # the loop ended between the question and the answer
             with self._lock:
                 self.apply()
+
+    def _take_world(self) -> bool:
+        """Take the lock if this thread may act at once; the caller releases it.
+
+        A loop that begins while another thread's command acts takes the lock next and keeps it,
+        so whoever waits here asks again.
+        """
+        while self._acts_now():
+            if self._lock.acquire(timeout=_LOOK_S):
+                if self._acts_now():
+                    return True
+                self._lock.release()
+        return False
 
     def _acts_now(self) -> bool:
         return self._owner is None or self._owner == threading.get_ident()
