@@ -240,9 +240,14 @@ class ControllerPorts:
             for row in parameters
         ]
         namespace = join_names(self._node_name, group)
-        store = self._host.node.parameters
         served = DynamicParameters(
-            self._resources, store, namespace, rows, changed=lambda values: on_change(dict(values))
+            self._resources,
+            self._host,
+            namespace,
+            rows,
+            changed=lambda values: on_change(dict(values)),
+            # The controller has read the store already, by rules of its own.
+            reads_store=False,
         )
         return _Reconfigured(served)
 

@@ -23,7 +23,7 @@ class PhysicsParameters:
         self._server = server
         self._dynamic = DynamicParameters(
             resources,
-            server.node.parameters,
+            server,
             "/gazebo",
             _rows(server),
             changed=self._apply,

@@ -180,9 +180,7 @@ class CameraStream:
             period = self._period(float(values["imager_rate"]))
             self._host.scheduler.change_period(self._task, period)
 
-        DynamicParameters(
-            self._resources, self._host.node.parameters, namespace, (rate,), changed=change
-        )
+        DynamicParameters(self._resources, self._host, namespace, (rate,), changed=change)
 
     def _period(self, sensor_rate_hz: float) -> Fraction:
         step_ns = self._host.engine.step_ns

@@ -72,9 +72,9 @@ def add_transports(
 def _parameters(
     context: PluginContext, topic: str, kind: str, rows: tuple[DynamicParameter, ...]
 ) -> DynamicParameters:
-    store, namespace = context.host.node.parameters, join_names(topic, kind)
+    host, namespace = context.host, join_names(topic, kind)
     # Values are looked up at each picture: nothing to do when they change.
-    return DynamicParameters(context.resources, store, namespace, rows, changed=lambda values: None)
+    return DynamicParameters(context.resources, host, namespace, rows, changed=lambda values: None)
 
 
 def _compressed(frame: str, settings: DynamicParameters) -> Build:
