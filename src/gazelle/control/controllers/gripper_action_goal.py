@@ -81,7 +81,8 @@ class GripperGoal:
     def end(self) -> None:
         """End a goal that is not pursued any more."""
         goal, self.goal = self.goal, None
-        if goal is None:
+        # Its server may have been closed before, and has ended it then.
+        if goal is None or not goal.is_active:
             return
         if self._is_ros1:
             goal.cancel()

@@ -222,7 +222,8 @@ class Ros1JointTrajectoryController(Controller):
 
     def _preempt(self) -> None:
         goal, self._goal = self._goal, None
-        if goal is not None:
+        # Its server may have been closed before, and has ended it then.
+        if goal is not None and goal.is_active:
             goal.cancel()
 
     def _on_command(self, message: Any) -> None:

@@ -216,7 +216,8 @@ class Ros2JointTrajectoryController(Controller):
 
     def _abort(self, code: ErrorCode, text: str) -> None:
         goal, self._goal = self._goal, None
-        if goal is not None:
+        # Its server may have been closed before, and has ended it then.
+        if goal is not None and goal.is_active:
             goal.abort(result(code, text), text)
 
     def _points(self, following: PointTrajectory) -> tuple[Any, Any, Any]:
