@@ -63,6 +63,8 @@ _FAMILIES = (
     ("vacuum_gripper", "TABLE", "load"),
     ("hand_of_god", "TABLE", "load"),
     ("joint_pose_trajectory", "TABLE", "load"),
+    ("gz_odometry", "TABLE", "load"),
+    ("gz_odometry", "POSE_TABLE", "load_poses"),
     ("named", "TABLE", "load"),
     ("named", "NOTHING_TABLE", "load_nothing"),
 )
