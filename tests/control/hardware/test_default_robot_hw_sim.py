@@ -74,6 +74,16 @@ def test_a_position_joint_follows_no_faster_than_its_velocity_limit() -> None:
     assert positions[-1] == pytest.approx(1.0, abs=1e-7)
 
 
+def test_a_position_joint_turns_back_to_where_it_came_from() -> None:
+    rig = ros1_rig(rotor("j"), transmission("j", "Position"))
+    rig.claim("j/position")
+    rig.run(300, j_position=1.0)
+    rig.run(100, j_position=-1.0)
+    positions = rig.run(300, j_position=1.0)[:, 0]
+    assert np.diff(positions[:90]) == pytest.approx(4.0 * STEP_S, abs=1e-7)
+    assert positions[-1] == pytest.approx(1.0, abs=1e-7)
+
+
 def test_a_position_joint_carries_any_load() -> None:
     arm = rotor("j", limit='lower="-3" upper="3" effort="0.001" velocity="100"', axis="0 1 0")
     arm = arm.replace('<mass value="1"/>', '<origin xyz="1 0 0"/><mass value="50"/>')

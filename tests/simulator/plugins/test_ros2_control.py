@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -107,7 +108,8 @@ def test_namespace_name_and_remappings_of_the_plugin_count(load: Load, tmp_path:
     path.write_text(
         YAML.replace("controller_manager:", "/left/boss:").replace("\nforward:", "\n/**/forward:")
     )
-    keys = f"""<parameters>{path}</parameters><controller_manager_name>boss</controller_manager_name>
+    keys = f"""<parameters>{path}</parameters>
+      <controller_manager_name>boss</controller_manager_name>
       <ros><namespace>/left</namespace><remapping>forward/commands:=targets</remapping></ros>"""
     sim = load(robot(keys=keys))
     assert "/left/boss/list_controllers" in sim.server.node.services
@@ -139,7 +141,7 @@ def test_the_gain_of_gz_is_the_plugins(load: Load, yaml_file: Path) -> None:
     for _ in range(6):
         sim.step(5)
         errors.append(0.3 - sim.joint("j").position)
-    ratios = [after / before for before, after in zip(errors, errors[1:], strict=False)]
+    ratios = [after / before for before, after in itertools.pairwise(errors)]
     assert ratios == pytest.approx([0.5] * 5, abs=0.02)
 
 

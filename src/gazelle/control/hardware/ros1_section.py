@@ -73,6 +73,10 @@ class Ros1Section:
         self._mine = mine
         self._stand: Array | None = None
         self._stopped = False
+        # A position that is allowed once is allowed again: the joints' state does not matter.
+        is_soft = any(item.has_soft_limits for item in limits)
+        self._can_settle = self._interface == "position" and pids is None and not is_soft
+        self._settled = b""
         self.writer = self._writer(engine, [f"{model}::{name}" for name in self.names])
 
     def write(self, states: JointStates, step_s: float, steps: int, *, is_new: bool) -> None:
@@ -87,8 +91,13 @@ class Ros1Section:
         commands = self._bank.commands[self._commands]
         if self._stand is not None:
             commands[:] = self._stand
+        before = commands.tobytes()
+        if before == self._settled:
+            return
         position, velocity = states.position[self._places], states.velocity[self._places]
         commands[:] = self._limits.enforce(commands, position, velocity, step_s)
+        settles = self._can_settle and commands.tobytes() == before
+        self._settled = before if settles else b""
         if self.pids is not None:
             if is_new:
                 self._run_pids(self.pids, commands, position, velocity, step_s)
@@ -100,6 +109,7 @@ class Ros1Section:
     def hold(self, names: Collection[str], position: Array) -> None:
         """Keep joints where they are, of all positions (N,) of the hardware, until `free`."""
         places = [place for place, name in enumerate(self.names) if name in names]
+        self._settled = b""
         if places:
             self.writer.hold(places, position[self._places[places]])
 
@@ -107,6 +117,7 @@ class Ros1Section:
         """Let go of those of the joints that are held."""
         held = self.writer.held
         places = [place for place, name in enumerate(self.names) if name in names and held[place]]
+        self._settled = b""
         if places:
             self.writer.free(places)
             self._limits.reset()
@@ -122,6 +133,7 @@ class Ros1Section:
     def reset(self) -> None:
         """Start over: the engine has forgotten every command."""
         self._stand, self._stopped = None, False
+        self._settled = b""
         self._bank.commands[self._commands] = 0.0
         self.writer.forget()
         self._limits.reset()
