@@ -35,6 +35,9 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.controller_manager", "list, load, start, stop, spawn, kill controllers"
     ),
     "ros2": Command("gazelle.cli.ros2", "commands of ROS 2: control, param"),
+    "dynparam": Command(
+        "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
+    ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
 }

@@ -19,6 +19,7 @@ __all__ = ["Executable", "find_executable", "script_command"]
 # Commands that launch files and rosrun name as nodes.
 _COMMANDS = {
     **{(name, name): name for name in ("rosmsg", "rosnode", "rosparam", "rosservice", "rostopic")},
+    ("dynamic_reconfigure", "dynparam"): "dynparam",
     ("tf", "tf_echo"): "tf_echo",
     ("tf2_ros", "tf2_echo"): "tf_echo",
     ("xacro", "xacro"): "xacro",

@@ -53,6 +53,7 @@ _VIEWS = (
     ("rqt_image_view", "rqt_image_view"),
     ("rqt_robot_steering", "rqt_robot_steering"),
     ("rqt_reconfigure", "rqt_reconfigure"),
+    ("dynamic_reconfigure", "reconfigure_gui"),
     ("rqt_console", "rqt_console"),
     ("rqt_tf_tree", "rqt_tf_tree"),
     ("image_view", "image_view"),

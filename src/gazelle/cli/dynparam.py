@@ -1,0 +1,279 @@
+"""``dynparam``: the parameters of nodes that dynamic_reconfigure can change."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from optparse import OptionParser
+from pathlib import Path
+from typing import Any
+
+from gazelle.cli.tool import Tool, ToolError, hint, joined, run_tool
+from gazelle.graph import (
+    Graph,
+    Node,
+    ServiceCallError,
+    ServiceTimeoutError,
+    ServiceUnavailableError,
+)
+from gazelle.graph.names import CommandLine, parse_command_line
+from gazelle.graph.reconfigure import ReconfigureClient, ReconfigureError
+from gazelle.graph.reconfigure.trees import config_tree, group_states
+
+__all__ = ["main", "server_names"]
+
+_USAGE = """dynparam is a command-line tool for getting, setting, and
+deleting parameters of a dynamically configurable node.
+
+Commands:
+\tdynparam set                  configure node
+\tdynparam set_from_parameters  copy configuration from parameter server
+\tdynparam get                  get node configuration
+\tdynparam load                 load configuration from file
+\tdynparam dump                 dump configuration to file
+\tdynparam list                 list configurable nodes
+
+Type dynparam <command> -h for more detailed usage, e.g. 'dynparam get -h'
+"""
+_TAG = "tag:yaml.org,2002:python/object/new:dynamic_reconfigure.encoding.Config"
+_SUFFIX = "/set_parameters"
+_FIRST_S = 1.0
+_NO_NODE = "invalid arguments. Please specify a node name"
+_NO_VALUES = (
+    "invalid arguments. Please specify either a node name, parameter name and parameter value, or"
+    " a node name and a YAML dictionary"
+)
+
+
+def main(argv: list[str]) -> int:
+    """Run a subcommand of ``dynparam``."""
+    line = parse_command_line(argv)
+    commands: dict[str, str | Callable[[list[str]], int]] = {
+        "list": partial(_list, line),
+        "get": partial(_get, line),
+        "set": partial(_set, line),
+        "set_from_parameters": partial(_set_from_parameters, line),
+        "dump": partial(_dump, line),
+        "load": partial(_load, line),
+    }
+    return run_tool(Tool("dynparam", commands, _USAGE, usage_code=1), line.rest)
+
+
+def server_names(graph: Graph) -> list[str]:
+    """Return the names of all reconfigurable nodes and node handles.
+
+    ROS 2's parameter services have the same name and another type; they are left out.
+    """
+    return sorted(
+        service.name.removesuffix(_SUFFIX)
+        for service in graph.services()
+        if service.name.endswith(_SUFFIX) and "dynamic_reconfigure" in service.type_name
+    )
+
+
+def _list(line: CommandLine, words: list[str]) -> int:
+    del words
+    with _node(line) as (graph, _):
+        for name in server_names(graph):
+            print(name)
+    return 0
+
+
+def _get(line: CommandLine, words: list[str]) -> int:
+    timeout_s, (name,) = _arguments(words, "get [options] node", (_NO_NODE,))
+    with _node(line) as (graph, node):
+        found = _configuration(graph, node, name, timeout_s)
+        if found is not None:
+            print(found)
+    return 0
+
+
+def _set(line: CommandLine, words: list[str]) -> int:
+    import yaml
+
+    usage = "set [options] node parameter value\n   or: %prog set [options] node values"
+    # Negative numbers are values, not options.
+    values = [word for word in words if not word.startswith("-") or word[1:2].isdigit()]
+    parser = _parser(usage)
+    options, _ = parser.parse_args([word for word in words if word not in values])
+    if len(values) > 3:
+        parser.error("too many arguments")
+    if len(values) < 2:
+        parser.error(_NO_VALUES)
+    name = values[0]
+    changes: Any = {values[1]: values[2]} if len(values) == 3 else yaml.safe_load(values[1])
+    if not isinstance(changes, dict):
+        parser.error(_NO_VALUES)
+    with _node(line) as (graph, node):
+        try:
+            _change(graph, node, name, changes, options.timeout)
+        except (ToolError, ServiceCallError, ServiceTimeoutError, ServiceUnavailableError):
+            print(f"couldn't set parameters at node {name}")
+    return 0
+
+
+def _set_from_parameters(line: CommandLine, words: list[str]) -> int:
+    timeout_s, (name,) = _arguments(words, "set_from_parameters [options] node", (_NO_NODE,))
+    with _node(line) as (graph, node):
+        found = node.parameters.get("~", None)
+        if not isinstance(found, dict):
+            text = "error updating parameters: no parameters found on parameter server"
+            print(text, file=sys.stderr)
+            return 0
+        _change(graph, node, name, found, timeout_s)
+    return 0
+
+
+def _dump(line: CommandLine, words: list[str]) -> int:
+    problems = (_NO_NODE, "invalid arguments. Please specify an output file")
+    timeout_s, (name, path) = _arguments(words, "dump [options] node file", problems)
+    with _node(line) as (graph, node):
+        found = _configuration(graph, node, name, timeout_s)
+    if found is None:
+        print(f"couldn't get parameters from node {name}")
+        return 0
+    try:
+        Path(path).write_text(_as_yaml(found), encoding="utf-8")
+    except OSError as error:
+        raise ToolError(f"cannot write '{path}': {error.strerror}") from None
+    return 0
+
+
+def _load(line: CommandLine, words: list[str]) -> int:
+    problems = (_NO_NODE, "invalid arguments. Please specify an input file")
+    timeout_s, (name, path) = _arguments(words, "load [options] node file", problems)
+    changes = _from_yaml(path)
+    with _node(line) as (graph, node):
+        _change(graph, node, name, changes, timeout_s)
+    return 0
+
+
+def _arguments(
+    words: list[str], usage: str, problems: tuple[str, ...]
+) -> tuple[float | None, list[str]]:
+    """Return the timeout and the words, as many as there are texts for their absence."""
+    parser = _parser(usage)
+    options, rest = parser.parse_args(words)
+    if len(rest) < len(problems):
+        parser.error(problems[len(rest)])
+    if len(rest) > len(problems):
+        parser.error("too many arguments")
+    return options.timeout, rest
+
+
+def _parser(usage: str) -> OptionParser:
+    parser = OptionParser(usage=f"Usage: %prog {usage}", prog="dynparam")
+    parser.add_option(
+        "-t", "--timeout", action="store", type="float", default=None, help="timeout in secs"
+    )
+    return parser
+
+
+@contextmanager
+def _node(line: CommandLine) -> Iterator[tuple[Graph, Node]]:
+    """Join the graph as the node that a launch file names, or as an anonymous one."""
+    with joined() as graph:
+        node = graph.create_node(
+            line.name or "dynparam",
+            namespace=line.namespace,
+            remappings=line.remappings,
+            anonymous=line.name is None,
+        )
+        for key, value in line.params.items():
+            node.parameters.set(f"~{key}", value)
+        yield graph, node
+
+
+def _client(graph: Graph, node: Node, name: str, timeout_s: float | None) -> ReconfigureClient:
+    """Return the client of a server that is there.
+
+    Raises:
+        ToolError: it did not come in time.
+    """
+    client = ReconfigureClient(node, name)
+    service = f"{client.name}{_SUFFIX}"
+    if timeout_s:
+        if not client.wait_for_server(timeout_s):
+            near = hint(client.name, server_names(graph))
+            raise ToolError(f"timeout exceeded while waiting for service {service}{near}")
+    elif not client.wait_for_server(_FIRST_S):
+        near = hint(client.name, server_names(graph))
+        print(f"Waiting for service {service}...{near}", file=sys.stderr)
+        client.wait_for_server()
+    return client
+
+
+def _configuration(
+    graph: Graph, node: Node, name: str, timeout_s: float | None
+) -> dict[str, Any] | None:
+    client = _client(graph, node, name, timeout_s)
+    if timeout_s:
+        client.wait_for_values(timeout_s)
+    elif client.wait_for_values(_FIRST_S) is None:
+        print("Waiting for configuration...", file=sys.stderr)
+        client.wait_for_values()
+    return None if client.config is None else config_tree(client.config, client.description)
+
+
+def _change(
+    graph: Graph, node: Node, name: str, changes: Mapping[str, Any], timeout_s: float | None
+) -> None:
+    client = _client(graph, node, name, timeout_s)
+    group = client.wait_for_description(timeout_s or None)
+    states = None if group is None else group_states(group, changes.get("groups"))
+    values = {key: value for key, value in changes.items() if key != "groups"}
+    try:
+        client.set(values, states=states or None, timeout_s=timeout_s or None)
+    except ReconfigureError as error:
+        print(f"error updating parameters: {error}")
+
+
+class _Tagged(dict[str, Any]):
+    """A dictionary that is written as the original writes its class ``Config``."""
+
+
+def _as_yaml(found: dict[str, Any]) -> str:
+    """Return the file that the original's ``yaml.dump`` writes, with the tags of its class."""
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        pass
+
+    def represent(dumper: yaml.SafeDumper, value: _Tagged) -> yaml.Node:
+        items = {"dictitems": dict(value)} if value else {}
+        return dumper.represent_mapping(_TAG, {**items, "state": []})
+
+    Dumper.add_representer(_Tagged, represent)
+    return yaml.dump(_tagged(found), Dumper=Dumper)
+
+
+def _tagged(tree: dict[str, Any]) -> _Tagged:
+    return _Tagged({k: _tagged(v) if isinstance(v, dict) else v for k, v in tree.items()})
+
+
+def _from_yaml(path: str) -> dict[str, Any]:
+    """Return what a file of ``dynparam dump`` or a plain YAML file says; it runs no code.
+
+    Raises:
+        ToolError: the file cannot be read, or is no YAML dictionary.
+    """
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        pass
+
+    def construct(loader: yaml.SafeLoader, node: yaml.MappingNode) -> Any:
+        return loader.construct_mapping(node, deep=True).get("dictitems", {})
+
+    Loader.add_constructor(_TAG, construct)
+    found: dict[str, Any] = {}
+    try:
+        for document in yaml.load_all(Path(path).read_text(encoding="utf-8"), Loader=Loader):
+            found.update(document)
+    except OSError as error:
+        raise ToolError(f"cannot read '{path}': {error.strerror}") from None
+    except (yaml.YAMLError, UnicodeDecodeError, TypeError, ValueError) as error:
+        raise ToolError(f"'{path}' is not a YAML dictionary of parameters: {error}") from None
+    return found
