@@ -315,3 +315,38 @@ def test_attachments_survive_recompiles_and_end_with_their_models(build):
     engine.step(1)
     with pytest.raises(EngineError, match="cannot be attached to itself"):
         engine.attach("a::link", "a::link")
+
+
+def test_same_velocity_is_sent_again_after_a_reset_or_release(build):
+    engine = build.engine(chain())
+    group = group_of(engine)
+    for end in (engine.reset, engine.joint("chain::j0").release):
+        group.set_velocity(np.full(3, 0.5), np.full(3, 1e3))
+        engine.step(5)
+        end()
+        group.set_velocity(np.full(3, 0.5), np.full(3, 1e3))
+        engine.step(5)
+        assert state(group)[1] == pytest.approx(np.full(3, 0.5), abs=1e-2)
+
+
+def test_empty_group_does_nothing(build):
+    engine = build.engine(chain())
+    group = engine.joint_group([])
+    group.lock_position(np.zeros(0))
+    group.set_effort(np.zeros(0))
+    group.set_velocity(np.zeros(0), np.zeros(0))
+    engine.step(5)
+    assert [len(values) for values in state(group)] == [0, 0]
+    assert len(effort(group)) == 0
+
+
+def test_sleeping_arm_still_weighs_on_its_joint(build):
+    engine = build.engine(build.arm(mass=2.0))
+    joint = engine.joint("arm::joint")
+    joint.lock_position(math.pi / 2)
+    engine.step(2000)
+    assert engine.is_asleep(engine.body_id("arm::rod"))
+    wrench = joint.reaction_wrench()
+    assert wrench.force_n == pytest.approx([0.0, 0.0, 2 * G], abs=1e-3)
+    assert abs(wrench.torque_nm[1]) == pytest.approx(2 * G, rel=1e-3)
+    assert engine.link("arm::rod").acceleration_world().linear_m_s2.tolist() == [0.0, 0.0, 0.0]

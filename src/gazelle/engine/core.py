@@ -66,7 +66,7 @@ class EngineCore:
         self._wrenches = WrenchTable()
         self._must_compile = False
         self._fresh = 0
-        self._accelerated = False
+        self._accelerated = [False, False]
         self._contacts: tuple[Contact, ...] | None = None
         self._everyone: Any = None
         self._adopt(self._compile(world), None)
@@ -177,12 +177,22 @@ class EngineCore:
             self._fresh = 2
         return self._data
 
-    def data_with_accelerations(self) -> Any:
-        """Return MuJoCo's data with accelerations and joint reactions of the last step."""
+    def data_with_accelerations(self, body: int) -> Any:
+        """Return MuJoCo's data with a body's acceleration and joint reaction of the last step.
+
+        MuJoCo leaves the accelerations of sleepers as if nothing held them, so theirs are those
+        of the data in which everyone is awake.
+        """
+        if self.is_asleep(body):
+            data = self.data_of_everyone()
+            if not self._accelerated[1]:
+                mujoco.mj_rnePostConstraint(self.model, data)
+                self._accelerated[1] = True
+            return data
         self.data_with_velocities()
-        if not self._accelerated:
+        if not self._accelerated[0]:
             mujoco.mj_rnePostConstraint(self.model, self._data)
-            self._accelerated = True
+            self._accelerated[0] = True
         return self._data
 
     def data_of_everyone(self) -> Any:
@@ -193,7 +203,7 @@ class EngineCore:
 
     def state_changed(self) -> None:
         """Forget what was computed from the state: someone changed it."""
-        self._fresh, self._accelerated = 0, False
+        self._fresh, self._accelerated = 0, [False, False]
         self._contacts, self._everyone = None, None
 
     def body_id(self, name: str) -> int:
@@ -252,13 +262,12 @@ class EngineCore:
         """Return what a joint transmits; see `JointHandle.reaction_wrench`."""
         joint = self.description_of_joint(name)
         child = self.link(scoped(name.partition("::")[0], joint.child))
-        data = self.data_with_accelerations()
+        body = self.body_id(child.name)
+        data = self.data_with_accelerations(body)
         T_world_joint = (
             child.T_world_link() @ child.link.T_model_link.inverse() @ (joint.T_model_joint)
         )
-        return joint_reaction(
-            self.model, data, self.body_id(child.name), np.asarray(T_world_joint.position_m)
-        )
+        return joint_reaction(self.model, data, body, np.asarray(T_world_joint.position_m))
 
     def add_wrench(
         self, link: str, force_n: Array, torque_nm: Array, duration_ns: int | None

@@ -106,7 +106,7 @@ class Engine(EngineCore):
             self.time_ns = 0
             self.iteration = 0
         self._wrenches.clear()
-        self.motors.commands.clear()
+        self.motors.release()
         self.locks.release()
         self._welds.release()
         if poses:

@@ -41,6 +41,7 @@ class JointGroup:
         self._revision = -1
         self._locks: Indices | None = None
         self._velocities: Array | None = None
+        self._changes = -1
         self._resting_effort: Array | None = None
         self._read_limits()
         self._index()
@@ -130,7 +131,9 @@ class JointGroup:
             EngineError: a velocity is infinite.
         """
         wanted = np.stack((values, np.broadcast_to(max_effort, values.shape)))
-        if self._velocities is not None and np.array_equal(wanted, self._velocities):
+        self._index()
+        unchanged = self._changes == self._engine.motors.changes
+        if unchanged and self._velocities is not None and np.array_equal(wanted, self._velocities):
             return
         chosen = np.flatnonzero(~np.isnan(wanted).any(axis=0))
         self._check_finite(wanted[0, chosen], chosen)
@@ -142,6 +145,7 @@ class JointGroup:
             command = MotorCommand("velocity", velocity, limit)
             self._engine.command_motor(handle.element, command)
         self._velocities = wanted if len(chosen) == len(self.names) else None
+        self._changes = self._engine.motors.changes
 
     def release(self, places: Sequence[int] | None = None) -> None:
         """Let joints move freely: motor and lock off, effort 0; all of them by default."""
@@ -210,8 +214,8 @@ class JointGroup:
         if self._revision == engine.revision:
             return
         engine.ensure_compiled()
-        qpos, dofs = zip(*[handle.addresses() for handle in self._handles], strict=True)
-        self._qpos, self._dofs = np.array(qpos, dtype=np.intp), np.array(dofs, dtype=np.intp)
+        found = [handle.addresses() for handle in self._handles]
+        self._qpos, self._dofs = np.array(found, dtype=np.intp).reshape(-1, 2).T
         self._bodies = engine.model.dof_bodyid[self._dofs]
         data = engine.data
         self._positions, self._speeds, self._applied = data.qpos, data.qvel, data.qfrc_applied
@@ -219,5 +223,5 @@ class JointGroup:
         installed = set(engine.locks.installed)
         self._locks = engine.locks.places(elements) if installed.issuperset(elements) else None
         self._tendons = engine.motors.tendons(elements)
-        self._resting_effort = None
+        self._resting_effort = self._velocities = None
         self._revision = engine.revision

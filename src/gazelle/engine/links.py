@@ -80,10 +80,10 @@ class LinkHandle:
         measures it minus gravity.
         """
         body = self._index()
-        data = self._engine.data_with_accelerations()
         result = np.zeros(6)
         if self.is_static or self._engine.is_asleep(body):
             return Acceleration(result[:3], result[3:])
+        data = self._engine.data_with_accelerations(body)
         model = self._engine.model
         mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 0)
         return Acceleration(result[3:] + model.opt.gravity, result[:3].copy())

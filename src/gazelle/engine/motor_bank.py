@@ -38,10 +38,12 @@ class MotorBank:
     Attributes:
         commands: by joint; survives recompiles.
         installed: joints with a motor, in the order of their first command.
+        changes: grows with every command, so that others see when theirs may be gone.
     """
 
     commands: dict[str, MotorCommand] = field(default_factory=dict)
     installed: list[str] = field(default_factory=list)
+    changes: int = 0
     _slots: dict[str, _Slot] = field(default_factory=dict)
     _changed: bool = False
 
@@ -53,6 +55,7 @@ class MotorBank:
     def command(self, joint: str, command: MotorCommand | None) -> bool:
         """Set or release a motor; returns whether the joint needs one built first."""
         self._changed = True
+        self.changes += 1
         if command is None or command.max_effort <= 0:
             self.commands.pop(joint, None)
             return False
@@ -61,6 +64,11 @@ class MotorBank:
             return False
         self.installed.append(joint)
         return True
+
+    def release(self) -> None:
+        """End all commands; the motors stay installed."""
+        self.commands.clear()
+        self.changes += 1
 
     def forget(self, prefix: str) -> None:
         """Drop the motors of a deleted model."""
