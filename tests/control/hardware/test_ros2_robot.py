@@ -114,6 +114,16 @@ def test_a_model_without_a_block_is_reported() -> None:
     assert "no ros2_control tag" in message(rig, "control.ros2-control-missing")
 
 
+def test_transmissions_of_a_block_and_a_wrong_type_are_reported() -> None:
+    gear = '<transmission name="t"><plugin>SimpleTransmission</plugin></transmission>'
+    rig = ros2_rig(rotor("j"), block(joint("j"), gear).replace('type="system"', 'type="sytem"'))
+    assert "have no effect on simulated joints" in message(rig, "control.transmission-idle")
+    text = message(rig, "control.ros2-control-value")
+    assert "is of type 'sytem'" in text
+    assert "did you mean 'system'?" in text
+    assert list(rig.robot.joints) == ["j"]
+
+
 class OneImu:
     names = ("imu",)
 

@@ -56,6 +56,34 @@ def test_a_command_on_a_topic_accelerates_the_joint(load: Load) -> None:
     assert sim.joint("j").velocity == pytest.approx(2.0 / 0.5 * 0.499, rel=1e-9)
 
 
+def test_a_pid_under_the_limits_of_mira_moves_as_an_independent_integration(load: Load) -> None:
+    inertia, max_effort, max_velocity, step_s, target = 0.002, 0.1, 0.005, 0.001, 0.1
+    part = joint("j").replace('effort="10" velocity="4"', 'effort="0.1" velocity="0.005"')
+    part = part.replace('"0.5"', f'"{inertia}"')
+    go = {"type": "effort_controllers/JointPositionController", "joint": "j"}
+    sim = load(
+        robot(part), parameters={"bot": {"go": {**go, "pid": {"p": 1.0, "i": 1.0, "d": 0.0}}}}
+    )
+    manager = sim.controller_manager()
+    manager.load("go")
+    manager.start("go")
+    say(sim, "/bot/go/command", target)
+    position, velocity, effort = 0.0, 0.0, 0.0
+    measured, expected = [], []
+    for _ in range(3000):
+        sim.step()
+        measured.append(sim.joint("j").position)
+        velocity += effort / inertia * step_s
+        position += velocity * step_s
+        expected.append(position)
+        # i without i_clamp has no effect; efforts stop where the velocity limit is passed.
+        low = 0.0 if velocity < -max_velocity else -max_effort
+        high = 0.0 if velocity > max_velocity else max_effort
+        effort = min(max(target - position, low), high)
+    assert measured == pytest.approx(expected, abs=1e-9)
+    assert max(measured) > target
+
+
 @pytest.mark.parametrize(
     ("keys", "namespace"),
     [
@@ -70,6 +98,12 @@ def test_namespace_is_the_plugins_or_the_models_name(load: Load, keys: str, name
     assert list(sim.server.controls.managers) == [namespace]
     services = sim.server.node.services
     assert f"{namespace.rstrip('/')}/controller_manager/list_controllers" in services
+
+
+def test_the_plugin_of_2011_is_in_the_root_namespace(load: Load) -> None:
+    old = robot(joint("j"), keys="<alwaysOn>true</alwaysOn><updateRate>1000.0</updateRate>")
+    sim = load(old.replace("libgazebo_ros_control.so", "libgazebo_ros_controller_manager.so"))
+    assert list(sim.server.controls.managers) == ["/"]
 
 
 def test_the_description_in_the_parameter_store_counts(load: Load) -> None:

@@ -10,11 +10,12 @@ from gazelle.description.model import Model, Ros2ControlTag
 from gazelle.description.urdf.attributes import check_vocabulary
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 
 __all__ = ["HardwareTag", "InterfaceTag", "PartTag", "read_hardware_tags"]
 
 _PARTS = ("joint", "sensor", "gpio")
+_TYPES = ("system", "actuator", "sensor")
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +85,14 @@ def _read_block(block: Ros2ControlTag, diagnostics: Diagnostics) -> HardwareTag:
         children=("hardware", "joint", "sensor", "gpio", "transmission", "limits", "group"),
         once=("hardware",),
     )
+    if block.type not in _TYPES:
+        text = f"hardware '{block.name}' is of type '{block.type}'; it is taken as a system"
+        hint = did_you_mean(block.type, _TYPES)
+        diagnostics.report("control.ros2-control-value", text, tag.span, fix=hint)
+    if tag.find("transmission") is not None:
+        text = f"transmissions of hardware '{block.name}' have no effect on simulated joints, as in"
+        text += " Gazebo: controllers drive the joints themselves"
+        diagnostics.report("control.transmission-idle", text, tag.span)
     hardware = tag.find("hardware")
     plugin, parameters = "", {}
     if hardware is not None:

@@ -12,7 +12,7 @@ from gazelle.simulator.plugins.ros_control_loop import (
     control_period,
     run_control_loop,
 )
-from gazelle.simulator.plugins.ros_control_table import DEFAULT_ROBOT_SIM, TABLE
+from gazelle.simulator.plugins.ros_control_table import DEFAULT_ROBOT_SIM, OF_2011, TABLE
 
 if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
@@ -58,8 +58,12 @@ def _make(context: PluginContext, parameters: ParameterReader) -> ControllerMana
 
 
 def _namespace(context: PluginContext, parameters: ParameterReader) -> str:
-    """Return the robot's namespace; without any word on it Gazebo takes the model's name."""
-    fallback = context.default_namespace or context.model.name
+    """Return the robot's namespace.
+
+    Without any word on it Gazebo takes the model's name; in 2011, on the PR2, it was the root.
+    """
+    is_old = OF_2011 in context.plugin.filename
+    fallback = context.default_namespace or ("/" if is_old else context.model.name)
     return join_names("/", parameters.text("robotNamespace", fallback))
 
 

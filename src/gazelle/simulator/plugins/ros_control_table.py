@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
 
-__all__ = ["DEFAULT_ROBOT_SIM", "TABLE"]
+__all__ = ["DEFAULT_ROBOT_SIM", "OF_2011", "TABLE"]
+
+OF_2011 = "gazebo_ros_controller_manager"
+"""The library of the PR2's time."""
 
 DEFAULT_ROBOT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 
@@ -14,7 +17,7 @@ TABLE = PluginTable(
     family="ros_control",
     summary="Simulated hardware and the controller manager of ROS 1. Joints come from the "
     "`<transmission>` elements; controllers and their parameters are on the controllers page.",
-    filenames=("gazebo_ros_control", "gazebo_ros_controller_manager"),
+    filenames=("gazebo_ros_control", OF_2011),
     behaviour=(
         "The description is read from the parameter `robotParam`, searched upwards from "
         "`robotNamespace`; without that parameter the model's own is used (Gazebo would wait for "
@@ -39,7 +42,7 @@ TABLE = PluginTable(
         "IMUs and force-torque sensors of the model are there for controllers; DefaultRobotHWSim "
         "has none.",
         "A joint that is not in the model is reported and left out; Gazebo would start nothing.",
-        "`gazebo_ros_controller_manager` of 2011 (PR2) means the same.",
+        "`gazebo_ros_controller_manager` of 2011 (PR2) means the same; its namespace is the root.",
     ),
     parameters=(
         Parameter(
