@@ -144,6 +144,18 @@ def test_without_commands_it_stops_within_timeout_and_deceleration(
     assert np.linalg.norm(np.subtract(after, before)) < 1e-3
 
 
+@pytest.mark.tutorial
+def test_a_reset_world_gives_the_same_drive_again(courier: Courier) -> None:
+    ends = []
+    for _ in range(2):
+        courier.sim.reset()
+        courier.drive(0.3, 0.4, 2.0)
+        place = courier.odometry[-1].pose.pose.position
+        ends.append((place.x, place.y, courier.sim.state_hash()))
+    assert ends[0] == ends[1]
+    assert ends[0][0] > 0.2
+
+
 def test_all_its_controllers_run_without_a_warning() -> None:
     workspace = Workspace.discover(extra=[EXAMPLE])
     urdf = PACKAGE / "urdf" / "courier.urdf.xacro"

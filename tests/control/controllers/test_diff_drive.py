@@ -391,6 +391,23 @@ def test_odometry_starts_at_zero_wherever_the_wheels_stand():
     assert bench.pose() == (0.0, 0.0, 0.0)
 
 
+def test_odometry_begins_anew_after_a_reset_and_goes_on_after_a_stop():
+    bench = _bench()
+    bench.run(1.0, "~/cmd_vel", twist(0.4))
+    there = bench.pose()
+    bench.controller.stop(bench.time_ns)
+    bench.plant.position[:] += 5.0
+    bench.controller.start(bench.time_ns)
+    bench.run(0.01)
+    assert bench.pose() == pytest.approx(there, abs=1e-3)
+    bench.controller.stop(bench.time_ns)
+    bench.plant.reset()
+    bench.time_ns = 0
+    bench.controller.start(0)
+    bench.run(0.01)
+    assert bench.pose() == (0.0, 0.0, 0.0)
+
+
 def _model(left_y=0.3, shape=None):
     def wheel(name, y):
         joint = Joint(

@@ -75,8 +75,8 @@ class Ros1AckermannDrive:
         for limiter in self._limiters:
             limiter.reset()
         self._input.open(time_ns)
-        self._output.rate.start(time_ns)
-        self._odometry.forget_velocities()
+        self._output.start(time_ns, self._odometry)
+        self._travel.clear()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheel, then command it."""

@@ -60,8 +60,8 @@ class DiffDriveController(Controller):
         for limiter in self._limiters:
             limiter.reset()
         self._input.open(time_ns)
-        self._output.rate.start(time_ns)
-        self._odometry.forget_velocities()
+        self._output.start(time_ns, self._odometry)
+        self._travel.clear()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheels, then command them."""

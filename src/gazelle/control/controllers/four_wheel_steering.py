@@ -76,7 +76,7 @@ class FourWheelSteeringController(Controller):
         for limiter in self._limiters:
             limiter.reset()
         self._input.open(time_ns)
-        self._output.rate.start(time_ns)
+        self._output.start(time_ns, self._odometry)
         self._state_rate.start(time_ns)
         self._rates.clear()
 

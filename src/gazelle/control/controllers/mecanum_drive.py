@@ -53,6 +53,7 @@ class MecanumDriveController(Controller):
         """Wait for a reference."""
         self._active = True
         self._input.open(time_ns)
+        self._output.start(time_ns, self._odometry)
         for limiter in self._limiters:
             limiter.reset()
 

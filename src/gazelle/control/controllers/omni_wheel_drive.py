@@ -91,6 +91,8 @@ class OmniWheelDriveController(Controller):
         """Wait for a command."""
         self._active = True
         self._input.open(time_ns)
+        self._output.start(time_ns, self._odometry)
+        self._travel.clear()
         self.robot.bank.commands[self._command_places] = 0.0
 
     def update(self, time_ns: int, period_ns: int) -> None:

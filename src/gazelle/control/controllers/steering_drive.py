@@ -63,7 +63,8 @@ class SteeringDrive:
         """Wait for a reference."""
         self._active = True
         self._input.open(time_ns)
-        self._odometry.forget_velocities()
+        self._output.start(time_ns, self._odometry)
+        self._travel.clear()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheels, then command them."""

@@ -49,7 +49,7 @@ class TricycleController(Controller):
         self._traction.reset()
         self._steering.reset()
         self._input.open(time_ns)
-        self._odometry.forget_velocities()
+        self._output.start(time_ns, self._odometry)
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheel, then command it."""

@@ -77,8 +77,9 @@ class RollingMean:
 class WheelTravel:
     """Differences of wheel angles; the first angles are the start and count as no travel.
 
-    ros_controllers measure the first difference from angle 0, so odometry jumps where wheels
-    stand elsewhere; here it starts where they stand.
+    ros_controllers measure the first difference from angle 0, and after a stop from where the
+    wheels were, so odometry jumps when wheels stand elsewhere or the world was reset; here every
+    start begins where they stand.
     """
 
     def __init__(self) -> None:

@@ -12,7 +12,7 @@ from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.messages import header, message_class
 from gazelle.control.parameters import ControllerParameters
-from gazelle.control.wheels.odometry import PlanarOdometry
+from gazelle.control.wheels.odometry import PlanarOdometry, PlanarPose
 
 __all__ = ["Frames", "OdometryOutput", "PublishRate", "read_covariance", "read_frames"]
 
@@ -130,6 +130,7 @@ class OdometryOutput:
         self.sends_tf = parameters.flag("enable_odom_tf")
         self.sends_pose = True
         self.rate = PublishRate(rate_hz)
+        self._last_ns = 0
         default = () if context.generation == 1 else (0.0,) * 6
         self._covariances = covariances or (
             read_covariance(parameters, "pose_covariance_diagonal", default),
@@ -138,8 +139,17 @@ class OdometryOutput:
         self._odom = context.ports.publisher(odom_topic, "nav_msgs/Odometry")
         self._tf = context.ports.publisher(tf_topic, "tf2_msgs/TFMessage")
 
+    def start(self, time_ns: int, odometry: PlanarOdometry) -> None:
+        """Begin new means; after time went back, as a reset makes it, at the origin."""
+        odometry.forget_velocities()
+        if time_ns < self._last_ns:
+            odometry.put(PlanarPose())
+        self._last_ns = time_ns
+        self.rate.start(time_ns)
+
     def publish(self, time_ns: int, odometry: PlanarOdometry) -> None:
         """Publish when it is due and somebody listens."""
+        self._last_ns = time_ns
         if not self.rate.is_due(time_ns):
             return
         if self._odom.matched:
