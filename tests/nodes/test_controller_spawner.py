@@ -153,6 +153,7 @@ def test_a_paused_simulation_never_times_out(graph, monkeypatch, lines):
     graph.parameters.set("/use_sim_time", True)
     graph.create_node("other")
     monkeypatch.setattr(controller_spawner, "_PATIENCE_S", 0.05)
+    monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
     spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
     # Time is asked for: whoever holds it back lets it go on.
     assert spawner.is_ready.wait(10)

@@ -46,7 +46,8 @@ _ROS2_WORDS = frozenset(
 _SHUTDOWN_CALL_S = 1.0
 _HEAR_S = 30.0
 _LOOK_S = 3.0
-_PATIENCE_S = 5.0
+_PATIENCE_S = 2.0
+_QUIET_TIMES = 3
 
 
 class _Parser(ArgumentParser):
@@ -137,6 +138,7 @@ class _Spawner:
         )
         self._client = ManagerClient(node, self._manager, stop)
         self._loaded: list[str] = []
+        self._late = 0
 
     def run(self) -> int:
         if self._options.shutdown_timeout is not None:
@@ -156,7 +158,7 @@ class _Spawner:
             return 1
         self._arguments.ready()
         self._stop.wait()
-        self._unload()
+        self._take_down()
         return 0
 
     def _find_services(self) -> bool:
@@ -175,13 +177,16 @@ class _Spawner:
         return True
 
     def _say_late(self) -> None:
+        # Whoever holds time back for this node must not wait for ever.
+        self._arguments.ready()
+        self._late += 1
+        if self._late % _QUIET_TIMES != 0:
+            return
         clock = self._node.clock
         if clock.use_sim_time and clock.now_ns() == 0:
             self._say("info", "Waiting for /clock to be available...")
         text = f"{self._client.name} is not there yet; {self._client.elsewhere()}"
         self._node.log("warn" if clock.now_ns() else "info", f"Controller Spawner: {text}")
-        # Whoever holds time back for this node must not wait for ever.
-        self._arguments.ready()
 
     def _wait_for_topic(self, topic: str) -> bool:
         """Wait until a topic says True; False when told to stop before."""
@@ -238,26 +243,33 @@ class _Spawner:
         else:
             self._say("error", f"Failed to start controllers: {listed}")
 
-    def _unload(self) -> None:
+    def _take_down(self) -> None:
+        """Stop and unload what was loaded; at the end of a launch the simulator may be faster."""
         self._say("info", "Shutting down spawner. Stopping and unloading controllers...")
-        client, limit = self._client, _SHUTDOWN_CALL_S
+        graph = self._node.graph
         try:
-            self._say("info", "Stopping all controllers...")
-            running = {one.name for one in client.controllers() if one.state == "running"}
-            stopping = [name for name in self._loaded if name in running]
-            client.switch(stop=stopping, strictness=STRICT, timeout_s=limit)
-            self._say("info", "Unloading all loaded controllers...")
-            for name in reversed(self._loaded):
-                self._say("info", f"Trying to unload {name}")
-                client.unload(name, timeout_s=limit)
-                self._say("info", f"Succeeded in unloading {name}")
+            # After `rosnode kill` the node itself cannot call any more.
+            caller = graph.create_node("spawner", anonymous=True, rosout=False)
+            self._unload(ManagerClient(caller, self._client.name))
+            caller.shutdown()
         except GraphError as error:
-            if not self._node.graph.has_service(f"{client.name}/switch_controller"):
-                # At the end of a launch the simulator may be faster.
+            if not graph.has_service(f"{self._client.name}/switch_controller"):
                 self._say("info", "the controller manager has ended, and its controllers with it")
                 return
             text = "Controller Spawner error while taking down controllers"
             self._say("warn", f"{text}: {error}")
+
+    def _unload(self, client: ManagerClient) -> None:
+        limit = _SHUTDOWN_CALL_S
+        self._say("info", "Stopping all controllers...")
+        running = {one.name for one in client.controllers() if one.state == "running"}
+        stopping = [name for name in self._loaded if name in running]
+        client.switch(stop=stopping, strictness=STRICT, timeout_s=limit)
+        self._say("info", "Unloading all loaded controllers...")
+        for name in reversed(self._loaded):
+            self._say("info", f"Trying to unload {name}")
+            client.unload(name, timeout_s=limit)
+            self._say("info", f"Succeeded in unloading {name}")
 
     def _say(self, level: str, text: str) -> None:
         self._node.log(level, text, padded=False)
