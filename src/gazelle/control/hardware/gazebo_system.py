@@ -131,7 +131,7 @@ class GazeboSystem:
         self._written_ns = time_ns
         if is_new and self.writes_every_step:
             # These look at the joints themselves, not at what controllers were told.
-            self._states.refresh()
+            self._states.group.read(self._states.position, self._states.velocity)
         steps = max(1, period_ns // step_ns)
         for section in self._sections:
             section.write(self._states, step_ns * 1e-9, steps, is_new=is_new)
@@ -158,7 +158,7 @@ class GazeboSystem:
     def reset(self) -> None:
         """Start over after the world was reset."""
         self._written_ns = -1
-        self._states.release()
+        self._states.group.release()
         for joint in self._own:
             for interface in joint.commands:
                 place = self._bank.command_index[f"{joint.name}/{interface}"]
@@ -196,7 +196,7 @@ class GazeboSystem:
         self._stand([place for place in changed if methods[place] == "hold"])
         leaving = [place for place in changed if methods[place] == "free" and self._methods[place]]
         if leaving:
-            self._states.release(leaving)
+            self._states.group.release(leaving)
         if not changed:
             return
         self._methods = methods
@@ -238,10 +238,10 @@ class GazeboSystem:
         if self.options.is_gz:
             values[list(places)] = 0.0
             limits = self._motor_limits(range(len(self._own)))
-            self._states.drive(values, limits)
+            self._states.group.set_velocity(values, limits)
         else:
             values[list(places)] = self._states.position[list(places)]
-            self._states.lock(values)
+            self._states.group.lock_position(values)
 
     def _place(self, row: Ros2Mimic) -> None:
         """Put a following joint where its leader wants it."""
@@ -257,6 +257,6 @@ class GazeboSystem:
             values[self._index[row.joint]] = target
         if self.options.is_gz:
             speed = (values - states.position) * self.options.update_rate_hz
-            states.drive(speed, self._motor_limits(range(len(values))))
+            states.group.set_velocity(speed, self._motor_limits(range(len(values))))
         else:
-            states.lock(values)
+            states.group.lock_position(values)

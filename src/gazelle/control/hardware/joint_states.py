@@ -27,6 +27,8 @@ class JointStates:
         joints: name and state interfaces of each joint.
 
     Attributes:
+        names: of the joints.
+        group: the joints in the engine.
         position, velocity, effort: of all joints (N,), as last read.
     """
 
@@ -38,9 +40,7 @@ class JointStates:
         joints: Sequence[tuple[str, Sequence[str]]],
     ) -> None:
         self.names = tuple(name for name, _ in joints)
-        # Hardware may have sensors only.
-        full = [f"{model}::{name}" for name in self.names]
-        self._group = engine.joint_group(full) if full else None
+        self.group = engine.joint_group([f"{model}::{name}" for name in self.names])
         self.position: Array = np.zeros(len(joints))
         self.velocity: Array = np.zeros(len(joints))
         self.effort: Array = np.zeros(len(joints))
@@ -51,9 +51,7 @@ class JointStates:
 
     def read(self) -> None:
         """Measure. Efforts cost more: they are read once a controller has asked for one."""
-        if self._group is None:
-            return
-        self.refresh()
+        self.group.read(self.position, self.velocity)
         states = self._bank.states
         if self._looked_up != len(self._bank.looked_up):
             self._looked_up = len(self._bank.looked_up)
@@ -61,28 +59,8 @@ class JointStates:
         self._blocks[0].write(states, self.position)
         self._blocks[1].write(states, self.velocity)
         if self._wants_effort:
-            self._group.effort(self.effort)
+            self.group.effort(self.effort)
             self._blocks[2].write(states, self.effort)
-
-    def refresh(self) -> None:
-        """Measure positions and velocities without telling the controllers."""
-        if self._group is not None:
-            self._group.read(self.position, self.velocity)
-
-    def release(self, places: Sequence[int] | None = None) -> None:
-        """Let joints move freely, all of them by default."""
-        if self._group is not None:
-            self._group.release(places)
-
-    def lock(self, values: Array) -> None:
-        """Hold joints at positions (N,); NaN leaves one as it is."""
-        if self._group is not None:
-            self._group.lock_position(values)
-
-    def drive(self, values: Array, max_effort: Array) -> None:
-        """Move joints at velocities (N,) with at most these efforts; NaN leaves one as it is."""
-        if self._group is not None:
-            self._group.set_velocity(values, max_effort)
 
 
 class _Block:

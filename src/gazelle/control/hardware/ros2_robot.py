@@ -16,18 +16,12 @@ from gazelle.control.robot import Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
 
-__all__ = ["CLASSIC_PLUGINS", "GZ_PLUGINS", "MOCK_PLUGINS", "build_ros2_robot"]
+__all__ = ["build_ros2_robot"]
 
-CLASSIC_PLUGINS = ("gazebo_ros2_control/GazeboSystem",)
-"""Hardware of Gazebo Classic."""
-
-GZ_PLUGINS = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem")
-"""Hardware of gz-sim."""
-
-MOCK_PLUGINS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
-"""Hardware without hardware."""
-
-_KNOWN = (*CLASSIC_PLUGINS, *GZ_PLUGINS, *MOCK_PLUGINS)
+_CLASSIC = ("gazebo_ros2_control/GazeboSystem",)
+_GZ = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem")
+_MOCK = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+_KNOWN = (*_CLASSIC, *_GZ, *_MOCK)
 
 
 def build_ros2_robot(
@@ -79,11 +73,11 @@ class _Builder:
         plugin = tag.plugin.replace("::", "/")
         if plugin not in _KNOWN:
             self._report_unknown(tag)
-        elif plugin in MOCK_PLUGINS:
+        elif plugin in _MOCK:
             self._report_elsewhere(tag, "it mirrors commands and moves nothing")
             self._add_mock(tag)
         else:
-            is_gz = plugin in GZ_PLUGINS
+            is_gz = plugin in _GZ
             if is_gz is not self._options.is_gz:
                 self._report_elsewhere(tag, "it works here all the same")
             self._add_simulated(tag, self._options._replace(is_gz=is_gz))
@@ -135,12 +129,12 @@ class _Builder:
         text += " exist.)"
         hint = did_you_mean(tag.plugin, _KNOWN)
         if not hint:
-            best = GZ_PLUGINS[0] if self._options.is_gz else CLASSIC_PLUGINS[0]
+            best = _GZ[0] if self._options.is_gz else _CLASSIC[0]
             hint = f"for the simulation, write <plugin>{best}</plugin>"
         self._host.diagnostics.report("control.hardware-plugin", text, tag.span, fix=hint)
 
     def _report_elsewhere(self, tag: HardwareTag, what: str) -> None:
-        best = GZ_PLUGINS[0] if self._options.is_gz else CLASSIC_PLUGINS[0]
+        best = _GZ[0] if self._options.is_gz else _CLASSIC[0]
         text = f"hardware '{tag.name}' is {tag.plugin}, which the model's Gazebo plug-in would not"
         text += f" load; {what}"
         fix = f"for the simulation, write <plugin>{best}</plugin>"

@@ -14,16 +14,16 @@ from gazelle.control.transmissions.transmission import (
 from gazelle.description.model import ActuatorTag, TransmissionJoint, TransmissionTag
 from gazelle.diagnostics import Diagnostics, did_you_mean
 
-__all__ = ["TRANSMISSION_TYPES", "read_transmission", "transmission_kind"]
+__all__ = ["read_transmission"]
 
-TRANSMISSION_TYPES = {
+# What the last word of a type means; packages in front of it differ over the years.
+_TYPES = {
     "SimpleTransmission": "simple",
     "DifferentialTransmission": "differential",
     "FourBarLinkageTransmission": "four_bar_linkage",
     # The PR2's wrist is a differential, rolled by the sum of both motors.
     "WristTransmission": "differential",
 }
-"""What the last word of a type means; packages in front of it differ over the years."""
 
 _Part = TypeVar("_Part", TransmissionJoint, ActuatorTag)
 _Make = Callable[[Sequence[float], Sequence[float], Sequence[float]], Transmission]
@@ -33,19 +33,19 @@ _PAIRS: dict[str, _Make] = {
 }
 
 
-def transmission_kind(type_name: str) -> str:
+def _kind(type_name: str) -> str:
     """Return ``simple``, ``differential``, ``four_bar_linkage``, or empty for another type."""
     last = type_name.replace("::", "/").rpartition("/")[2]
-    return TRANSMISSION_TYPES.get(last, "")
+    return _TYPES.get(last, "")
 
 
 def read_transmission(tag: TransmissionTag, diagnostics: Diagnostics) -> Transmission | None:
     """Return the transmission that a tag describes; None (reported) when it makes no sense."""
-    kind = transmission_kind(tag.type)
+    kind = _kind(tag.type)
     if not kind:
         text = f"transmission '{tag.name}' is of type '{tag.type}', which is not known; its joints"
         text += " are driven directly"
-        hint = did_you_mean(tag.type.rpartition("/")[2], TRANSMISSION_TYPES)
+        hint = did_you_mean(tag.type.rpartition("/")[2], _TYPES)
         diagnostics.report("control.transmission-type", text, tag.span, fix=hint)
         return None
     count = 1 if kind == "simple" else 2
