@@ -44,6 +44,7 @@ class PointTrajectory:
         start_ns: when it starts, known once it is begun.
         state: (3, N), position, velocity and acceleration of the last `sample`.
         effort: (N,) of the last `sample`, zeros without efforts.
+        has_effort: whether a waypoint has efforts.
     """
 
     waypoints: Waypoints
@@ -52,10 +53,10 @@ class PointTrajectory:
     start_ns: int = 0
     state: Array = field(init=False)
     effort: Array = field(init=False)
+    has_effort: bool = field(init=False)
     _times_ns: list[int] = field(init=False, default_factory=list)
     _points: list[JointState] = field(init=False, default_factory=list)
     _pieces: list[Array] = field(init=False, default_factory=list)
-    _has_effort: bool = field(init=False, default=False)
     _sampler: PieceSampler = field(init=False)
     _is_at_end: bool = field(init=False, default=False)
 
@@ -64,7 +65,7 @@ class PointTrajectory:
         self._sampler = PieceSampler(n)
         self.state = self._sampler.state
         self.effort = np.zeros(n)
-        self._has_effort = any(state.effort is not None for state in self.waypoints.states)
+        self.has_effort = any(state.effort is not None for state in self.waypoints.states)
 
     def begin(self, time_ns: int, before: JointState, wraps: NDArray[np.bool_]) -> None:
         """Fix the start, from the state before the first waypoint.
@@ -132,7 +133,7 @@ class PointTrajectory:
             return True
         since_s = (time_ns - self._times_ns[place]) * _SECONDS
         self._sampler.sample(self._pieces[place], max(since_s, 0.0))
-        if self._has_effort:
+        if self.has_effort:
             self._take_effort(place, since_s)
         return True
 

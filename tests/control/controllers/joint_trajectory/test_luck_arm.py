@@ -170,6 +170,18 @@ def test_goals_are_preempted_and_cancelled(arm: Arm) -> None:
     assert held[0] > 0.05
 
 
+def test_a_reset_ends_the_goal_and_the_next_one_runs(arm: Arm) -> None:
+    first = arm.send(point(1.0, TARGET, REST, REST))
+    arm.sim.run(seconds=0.5)
+    arm.sim.reset()
+    assert first.status.name == "ABORTED"
+    arm.sim.run(seconds=0.1)
+    np.testing.assert_allclose(arm.position, 0.0, atol=1e-5)
+    second = arm.send(point(0.5, TARGET, REST, REST))
+    arm.sim.run(seconds=0.6)
+    assert second.status.name == "SUCCEEDED"
+
+
 def test_bad_goals_are_rejected_with_their_reason(arm: Arm) -> None:
     for message, code in (
         (trajectory(JOINTS[:5], point(1.0, REST[:5])), ErrorCode.INVALID_JOINTS),

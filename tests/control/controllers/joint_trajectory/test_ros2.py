@@ -14,6 +14,7 @@ from tests.control.trajectory_messages import goal, point, trajectory
 from gazelle.control.errors import ControllerError
 from gazelle.control.robot import JointLimits
 from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.interfaces import message_type
 
 TOPIC = "~/joint_trajectory"
 SLOW = {"gains": {name: {"p": 20.0} for name in JOINTS}}
@@ -467,6 +468,30 @@ def test_passive_joints_may_be_followed_without_a_command() -> None:
     bench.run(200)
     assert bench.commanded()[-1, 1] == pytest.approx(2.0)
     assert bench.plant.position.tolist() == pytest.approx([0.0, 2.0])
+
+
+def test_trajectories_may_run_slower_than_planned() -> None:
+    bench = Bench(ROS2, {"speed_scaling": {"initial_scaling_factor": 0.5}})
+    factor = message_type("control_msgs/SpeedScalingFactor")
+    sent = bench.send(goal(to(1.0, 1.0, 1.0)))
+    bench.run(1001)
+    assert bench.commanded()[1000, 0] == pytest.approx(0.5)
+    bench.ports.send("~/speed_scaling_input", factor(factor=-1.0))
+    bench.ports.send("~/speed_scaling_input", factor(factor=0.0))
+    bench.run(500)
+    assert bench.commanded()[-1, 0] == pytest.approx(0.5)
+    assert bench.ports.publishers["~/controller_state"].last.speed_scaling_factor == 0.0
+    bench.ports.send("~/speed_scaling_input", factor(factor=1.0))
+    bench.run(502)
+    assert sent.state == "succeeded"
+    assert any("Scaling factor has to be greater" in text for _, text in bench.ports.lines)
+
+
+def test_only_positions_may_be_scaled() -> None:
+    scaling = {"speed_scaling": {"initial_scaling_factor": 0.5}}
+    bench = Bench(ROS2, commands("velocity") | SLOW | scaling)
+    assert [found.code for found in bench.diagnostics] == ["control.bad-value"]
+    assert "~/speed_scaling_input" not in bench.ports.subscriptions
 
 
 # What is published ----------------------------------------------------------------------------

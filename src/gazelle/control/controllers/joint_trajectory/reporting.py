@@ -71,13 +71,20 @@ class StateReport:
         return any(publisher.matched for publisher in self._publishers)
 
     def publish(
-        self, time_ns: int, desired: Any, actual: Any, error: Any, output: Any = None
+        self,
+        time_ns: int,
+        desired: Any,
+        actual: Any,
+        error: Any,
+        output: Any = None,
+        *,
+        scaling: float = 1.0,
     ) -> None:
-        """Send a message of four points."""
+        """Send a message of up to four points; `scaling` is how fast trajectories run."""
         message = stamped(_STATE, time_ns)
         message.joint_names = list(self._names)
         message.reference, message.feedback, message.error = desired, actual, error
-        message.speed_scaling_factor = 1.0
+        message.speed_scaling_factor = scaling
         if output is not None:
             message.output = output
         for publisher in self._publishers:

@@ -62,6 +62,8 @@ class Ros2JointTrajectoryController(Controller):
         self._time_ns, self._period_ns = 0, round(1e9 / context.update_rate_hz)
         self._is_active = False
         self._is_holding = True
+        self._scaling = setup.scaling
+        self._delay_ns = 0
         self._goal: GoalPort | None = None
         self._following = PointTrajectory(holding(JointState(np.zeros(n))))
         topics = ["~/controller_state", "~/state"]
@@ -70,6 +72,9 @@ class Ros2JointTrajectoryController(Controller):
         ports.subscription(
             "~/joint_trajectory", "trajectory_msgs/JointTrajectory", self._on_trajectory
         )
+        if setup.may_scale:
+            scaling = "control_msgs/SpeedScalingFactor"
+            ports.subscription("~/speed_scaling_input", scaling, self._on_scaling)
         ports.service("~/query_state", "control_msgs/QueryTrajectoryState", self._on_query)
         ports.action_server(
             "~/follow_joint_trajectory",
@@ -95,20 +100,24 @@ class Ros2JointTrajectoryController(Controller):
         is_first = not following.is_begun
         if is_first:
             self._begin(following, time_ns)
-        moves = following.sample(time_ns)
+        elif self._scaling != 1.0:
+            self._delay_ns += round(period_ns * (1.0 - self._scaling))
+        trajectory_ns = time_ns - self._delay_ns
+        moves = following.sample(trajectory_ns)
         is_due = self._report.is_due(time_ns)
         if not (moves or is_due or output.is_closed_loop or not self._is_holding):
             return
         self._measure()
         self._compare(following)
-        is_followed = self._is_holding or self._judge(following, time_ns, is_first)
+        is_followed = self._is_holding or self._judge(following, trajectory_ns, is_first)
         if is_followed and (moves or output.is_closed_loop):
             output.write(following.state, self._effort(following), self._error, period_ns)
         if self._goal is not None:
             self._feedback.tell(self._goal, time_ns, lambda: self._points(following))
         if is_due:
             now = self._points(following)
-            self._report.publish(time_ns, *now, self._setup.output_point())
+            output = self._setup.output_point()
+            self._report.publish(time_ns, *now, output, scaling=self._scaling)
 
     def stop(self, time_ns: int) -> None:
         """Abort a goal; positions stay commanded, the rest becomes 0."""
@@ -133,6 +142,7 @@ class Ros2JointTrajectoryController(Controller):
         before = self._setup.state_of(self._actual)
         if self._setup.is_open_loop:
             before = self._last
+        self._delay_ns = 0
         following.begin(time_ns, before, self._setup.joints.wraps)
 
     def _measure(self) -> None:
@@ -144,7 +154,9 @@ class Ros2JointTrajectoryController(Controller):
             self._error[row] = 0.0
 
     def _effort(self, following: PointTrajectory) -> Array | None:
-        return following.effort if self._setup.has_effort else None
+        # Added to a PID's command only when a waypoint has some; commanded alone in any case.
+        needs = following.has_effort or not self._setup.output.is_closed_loop
+        return following.effort if needs and self._setup.has_effort else None
 
     def _judge(self, following: PointTrajectory, time_ns: int, is_first: bool) -> bool:
         """End what violates a tolerance or is reached; False when nothing may be commanded."""
@@ -224,10 +236,17 @@ class Ros2JointTrajectoryController(Controller):
         since_ns = self._time_ns - following.start_ns
         setup = self._setup
         return (
-            point(following.state, since_ns),
+            point(following.state, since_ns - self._delay_ns),
             point(setup.measured(self._actual), since_ns),
             point(setup.measured(self._error), 0),
         )
+
+    def _on_scaling(self, message: Any) -> None:
+        if message.factor >= 0.0:
+            self._scaling = float(message.factor)
+            return
+        text = "Scaling factor has to be greater or equal to 0.0 - Ignoring input!"
+        self.context.ports.log("warn", text)
 
     def _on_trajectory(self, message: Any) -> None:
         if not self._is_active:

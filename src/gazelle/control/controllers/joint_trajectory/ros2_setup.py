@@ -42,6 +42,8 @@ class Ros2Setup:
         is_open_loop: trajectories begin where the joints were told to be, not where they are.
         has_effort: waypoints may have efforts.
         rows_without_error: which rows of errors (3, N) are not computed.
+        may_scale: whether trajectories may run slower or faster than planned.
+        scaling: how fast they run at first, 1 for as planned.
         deceleration: (N,) for stopping, None to hold at once.
         allow_partial_joints_goal: take trajectories of some joints.
         allow_integration_in_goal_trajectories: take waypoints without positions.
@@ -86,6 +88,8 @@ class Ros2Setup:
         )
         self.interpolation = _interpolation(context)
         self.deceleration = _deceleration(context, names, 1 in self._rows)
+        self.may_scale = commands == ("position",)
+        self.scaling = _scaling(context, self.may_scale)
         self._read_flags()
 
     def read(self, actual: Array) -> None:
@@ -266,6 +270,17 @@ def _interpolation(context: ControllerContext) -> Interpolation:
         known = ", ".join(one.value for one in Interpolation)
         text = f"'interpolation_method' is '{word}', it may be {known}"
         raise ControllerError(f"controller '{context.name}': {text}") from None
+
+
+def _scaling(context: ControllerContext, may_scale: bool) -> float:
+    parameters, key = context.parameters, "speed_scaling.initial_scaling_factor"
+    factor = parameters.number(key)
+    if factor == 1.0 or (may_scale and factor >= 0.0):
+        return factor
+    text = f"'{key}' {factor:g} has no effect: "
+    text += "it must not be negative" if may_scale else "only positions may be commanded with it"
+    parameters.report("control.bad-value", text, key=key)
+    return 1.0
 
 
 def _deceleration(

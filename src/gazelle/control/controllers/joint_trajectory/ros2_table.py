@@ -62,6 +62,24 @@ _PARAMETERS = (
         "hold the last command when it starts, not the measured position",
     ),
     _row("interpolation_method", "text", "splines", "splines, or none to jump to waypoints"),
+    _row(
+        "speed_scaling.initial_scaling_factor",
+        "number",
+        1.0,
+        "how fast trajectories run before `~/speed_scaling_input` says it (positions, Jazzy)",
+    ),
+    _row(
+        "speed_scaling.state_interface",
+        "none",
+        None,
+        "no simulated hardware has an interface for it",
+    ),
+    _row(
+        "speed_scaling.command_interface",
+        "none",
+        None,
+        "no simulated hardware has an interface for it",
+    ),
     _row("action_monitor_rate", "number", 20.0, "rate of feedback", "Hz"),
     _row(
         "state_publish_rate",
@@ -154,6 +172,12 @@ ROS2_TABLE = ControllerTable(
     topics=(
         Topic(
             "~/joint_trajectory", "trajectory_msgs/JointTrajectory", "listens", generations=_ROS2
+        ),
+        Topic(
+            "~/speed_scaling_input",
+            "control_msgs/SpeedScalingFactor",
+            "listens",
+            generations=_ROS2,
         ),
         Topic("~/controller_state", _STATE, rate="state_publish_rate", generations=_ROS2),
         Topic("~/state", _STATE, rate="state_publish_rate (Foxy to Humble)", generations=_ROS2),
