@@ -182,3 +182,29 @@ def test_a_fixed_joint_of_a_urdf_is_measured(load: Load, listen: Listen) -> None
     messages = listen(sim, "/ft")
     sim.run(seconds=0.01)
     assert vector(messages[-1].wrench.force) == pytest.approx([0, 0, -2 * 9.8])
+
+
+def test_the_foot_of_a_held_arm_carries_all_of_it(load: Load) -> None:
+    arm = """<sdf version="1.6"><world name="w"><model name="m"><pose>0 0 2 0 0 0</pose>
+      <link name="base"><inertial><mass>1</mass></inertial></link>
+      <joint name="a" type="fixed"><parent>world</parent><child>base</child></joint>
+      <link name="mount"><pose>.2 0 0 0 0 0</pose><inertial><mass>2</mass></inertial></link>
+      <joint name="b" type="fixed"><parent>base</parent><child>mount</child>
+        <pose>-.2 0 0 0 0 0</pose><sensor name="ft" type="force_torque"/></joint>
+      <link name="arm"><pose>.2 0 0 0 0 0</pose><inertial><pose>.5 0 0 0 0 0</pose><mass>3</mass>
+        <inertia><ixx>.1</ixx><iyy>.1</iyy><izz>.1</izz></inertia></inertial></link>
+      <joint name="c" type="revolute"><parent>mount</parent><child>arm</child>
+        <axis><xyz>0 1 0</xyz></axis></joint></model></world></sdf>"""
+    sim = load(arm)
+    sim.joint("c").handle.lock_position(0.0)
+    for _ in range(3):
+        # Awake at first, asleep in the end.
+        sim.run(seconds=1.0)
+        force, torque = sim.sensor("ft").read()
+        assert force == pytest.approx([0, 0, -5 * 9.8], rel=1e-4, abs=1e-4)
+        assert torque == pytest.approx([0, (0.2 * 2 + 0.7 * 3) * 9.8, 0], rel=1e-4, abs=1e-4)
+    sim.joint("c").release()
+    sim.step()
+    # Let go, it falls about its end: m g I / (I + m r²) is what is left to hold.
+    left = 3 * 9.8 * 0.1 / (0.1 + 3 * 0.25)
+    assert sim.sensor("ft").read().force_n[2] == pytest.approx(-(2 * 9.8 + left), rel=1e-3)
