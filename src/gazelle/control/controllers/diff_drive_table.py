@@ -123,6 +123,7 @@ TABLE = ControllerTable(
             rate="every update",
             generations=(1,),
         ),
+        Topic("~/set_parameters", "dynamic_reconfigure/Reconfigure", "service", generations=(1,)),
         Topic("~/set_odometry", "control_msgs/SetOdometry", "service", generations=(2,)),
     ),
     behaviour=(
