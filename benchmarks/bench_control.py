@@ -11,11 +11,13 @@ import statistics
 import time
 from collections.abc import Callable
 
+import mujoco
 import numpy as np
 
 from gazelle.description.model import Inertial, Joint, JointAxis, JointType, Link, Model, World
 from gazelle.engine import Engine
 from gazelle.geometry import Pose
+from gazelle.simulator import Simulation
 
 RUNS = 7
 DOFS = 6
@@ -88,6 +90,72 @@ def call_us(action: Callable[[], object], calls: int = 20_000) -> float:
     return median_time(run) / calls * 1e6
 
 
+def described_arm() -> str:
+    """Return the same arm as a ROS 1 robot under gazebo_ros_control."""
+    parts = ['<robot name="arm"><link name="world"/>']
+    parent = "world"
+    for index, axis in enumerate(AXES):
+        mass = 3.0 - 0.4 * index
+        bend, spin = mass * 0.3**2 / 12, mass * 0.05**2 / 2
+        parts.append(
+            f"""<link name="link{index}"><inertial><origin xyz="0 0 0.15"/><mass value="{mass}"/>
+            <inertia ixx="{bend}" iyy="{bend}" izz="{spin}" ixy="0" ixz="0" iyz="0"/></inertial>
+            </link><joint name="joint{index}" type="revolute"><parent link="{parent}"/>
+            <child link="link{index}"/><origin xyz="0 0 {0.3 if index else 0}"/>
+            <axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><dynamics damping="0.1"/>
+            <limit lower="-3" upper="3" effort="200" velocity="3"/></joint>
+            <transmission name="t{index}"><type>transmission_interface/SimpleTransmission</type>
+            <joint name="joint{index}">
+            <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+            <actuator name="m{index}"/></transmission>"""
+        )
+        parent = f"link{index}"
+    parts.append(
+        '<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo></robot>'
+    )
+    return "".join(parts)
+
+
+def controllers(word: str) -> dict[str, dict[str, object]]:
+    """Return the parameters of a stack: one controller a joint, or one for all."""
+    pid = {"p": 600.0, "i": 0.0, "d": 40.0}
+    names = [f"joint{index}" for index in range(DOFS)]
+    states: dict[str, dict[str, object]] = {
+        "states": {"type": "joint_state_controller/JointStateController", "publish_rate": 50}
+    }
+    if word == "one a joint":
+        kind = "effort_controllers/JointPositionController"
+        return {**states, **{f"c_{n}": {"type": kind, "joint": n, "pid": pid} for n in names}}
+    kind = "effort_controllers/JointGroupPositionController"
+    group = {"type": kind, "joints": names, **{name: {"pid": pid} for name in names}}
+    return {**states, "group": group}
+
+
+def stack_factor(word: str, seconds: float) -> float:
+    """Real-time factor, of CPU time, of a whole simulation with its controllers at 1 kHz."""
+    stack = controllers(word)
+    sim = Simulation.load(described_arm(), parameters={"arm": stack})
+    manager = sim.controller_manager()
+    for name in stack:
+        manager.load(name)
+    manager.start(*stack)
+    for index in range(DOFS):
+        sim.server.engine.joint(f"arm::joint{index}").set_state(0.1 * (index + 1))
+    # Swinging joints keep the arm awake.
+    sim.server.engine.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    try:
+        return seconds / median_time(lambda: sim.run(seconds=seconds))
+    finally:
+        sim.close()
+
+
+def print_stacks(seconds: float) -> None:
+    print()
+    for word in ("one a joint", "one for all"):
+        factor = stack_factor(word, seconds)
+        print(f"effort PID at 1 kHz, {word}: {factor:.1f} times real time on one CPU (goal 15)")
+
+
 def median_time(run: Callable[[], object]) -> float:
     run()
     times = []
@@ -128,6 +196,7 @@ def main() -> None:
     print(f"6-DOF arm, steps of 1 ms, median of {RUNS} runs of {steps}\n")
     print_servos(steps)
     print_calls()
+    print_stacks(steps / 4000)
 
 
 if __name__ == "__main__":
