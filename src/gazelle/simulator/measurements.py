@@ -98,11 +98,8 @@ class Measurements:
         noises = (*spec.force_noise, *spec.torque_noise)
         dt_s = self._elapsed_s(place.name)
         noise = self._noise(place.name, noises)
-        load, T_joint_sensor = (
-            joint_load(self._engine, place.joint_name),
-            place.sensor.T_link_sensor,
-        )
-        return force_torque_reading(load, spec, T_joint_sensor, noise=noise, dt_s=dt_s)
+        load = joint_load(self._engine, place.joint_name)
+        return force_torque_reading(load, spec, place.sensor.T_link_sensor, noise=noise, dt_s=dt_s)
 
     def gps(self, place: SensorPlace) -> GpsRecord:
         """Return a fix of a ``gps`` or ``navsat`` sensor."""

@@ -38,9 +38,9 @@ def check_sensor(place: SensorPlace, model: Model, world: World, diagnostics: Di
 def _report_misplaced(place: SensorPlace, model: Model, diagnostics: Diagnostics) -> None:
     kind, name = place.sensor.type, place.sensor.name
     if place.joint_name:
-        wanted, joint = "a link", place.joint_name.split("::", 1)[1]
+        joint = place.joint_name.split("::", 1)[1]
         fix = f"move it to a link, such as '{place.link_name.split('::', 1)[1]}'"
-        text = f"sensor '{name}' of type '{kind}' sits in joint '{joint}' and needs {wanted}"
+        text = f"sensor '{name}' of type '{kind}' sits in joint '{joint}' and needs a link"
     else:
         link = place.link_name.split("::", 1)[1]
         held = [joint.name for joint in model.joints if joint.child == link]
