@@ -74,9 +74,8 @@ def python_plugin(
     """
     names = [f"{stem}.py" for stem in stems(filename) if stem]
     variables = os.environ if environ is None else environ
-    folders = [
-        Path(part) for key in _VARIABLES for part in variables.get(key, "").split(os.pathsep) if part
-    ]
+    paths = [variables.get(key, "").split(os.pathsep) for key in _VARIABLES]
+    folders = [Path(part) for path in paths for part in path if part]
     folders += [] if beside is None else [beside.parent]
     for folder in folders:
         found = next((folder / name for name in names if (folder / name).is_file()), None)
