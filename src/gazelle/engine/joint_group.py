@@ -64,18 +64,21 @@ class JointGroup:
         """
         self._index()
         self._applied.take(self._dofs, out=out, mode="clip")
-        if self._tendons is None and self._locks is None:
+        engine = self._engine
+        held = self._locks is not None and engine.locks.is_holding
+        driven = self._tendons is not None and bool(engine.motors.commands)
+        if not held and not driven:
             return
         asleep = self._is_asleep()
         if asleep and self._resting_effort is not None:
             out[:] = self._resting_effort
             return
-        data = self._engine.data_of_everyone()
-        if self._locks is not None:
-            out += self._engine.locks.efforts(data)[self._locks]
-        if self._tendons is not None:
+        data = engine.data_of_everyone()
+        if held:
+            out += engine.locks.efforts(data)[self._locks]
+        if driven and self._tendons is not None:
             kind = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON)
-            forces = constraint_forces(data, kind, self._engine.model.ntendon)
+            forces = constraint_forces(data, kind, engine.model.ntendon)
             out += np.where(self._tendons >= 0, forces[self._tendons], 0.0)
         self._resting_effort = out.copy() if asleep else None
 

@@ -66,10 +66,16 @@ class LockBank:
         self._equalities: Indices = np.zeros(0, dtype=np.intp)
         self._dofs: Indices = np.zeros(0, dtype=np.intp)
         self._fastest = 0.0
+        self._holding = False
         self._model: Any = None
         self._data: Any = None
         self._column: Array = np.zeros(0)
         self._speeds: Array = np.zeros(0)
+
+    @property
+    def is_holding(self) -> bool:
+        """Whether any joint is held."""
+        return self._holding
 
     # --- which joints --------------------------------------------------------------------
 
@@ -222,6 +228,7 @@ class LockBank:
         self.steps_left = int(moving.min()) if len(moving) else 0
 
     def _write_active(self) -> None:
+        self._holding = bool(self.active.any())
         if self._data is not None and len(self._equalities):
             self._data.eq_active[self._equalities] = self.active
 
