@@ -19,10 +19,10 @@ from gazelle.graph import (
     ServiceUnavailableError,
 )
 from gazelle.graph.names import CommandLine, parse_command_line
-from gazelle.graph.reconfigure import ReconfigureClient, ReconfigureError
+from gazelle.graph.reconfigure import ReconfigureClient, ReconfigureError, server_names
 from gazelle.graph.reconfigure.trees import config_tree, group_states
 
-__all__ = ["main", "server_names"]
+__all__ = ["main"]
 
 _USAGE = """dynparam is a command-line tool for getting, setting, and
 deleting parameters of a dynamically configurable node.
@@ -38,7 +38,6 @@ Commands:
 Type dynparam <command> -h for more detailed usage, e.g. 'dynparam get -h'
 """
 _TAG = "tag:yaml.org,2002:python/object/new:dynamic_reconfigure.encoding.Config"
-_SUFFIX = "/set_parameters"
 _FIRST_S = 1.0
 _NO_NODE = "invalid arguments. Please specify a node name"
 _NO_VALUES = (
@@ -59,18 +58,6 @@ def main(argv: list[str]) -> int:
         "load": partial(_load, line),
     }
     return run_tool(Tool("dynparam", commands, _USAGE, usage_code=1), line.rest)
-
-
-def server_names(graph: Graph) -> list[str]:
-    """Return the names of all reconfigurable nodes and node handles.
-
-    ROS 2's parameter services have the same name and another type; they are left out.
-    """
-    return sorted(
-        service.name.removesuffix(_SUFFIX)
-        for service in graph.services()
-        if service.name.endswith(_SUFFIX) and "dynamic_reconfigure" in service.type_name
-    )
 
 
 def _list(line: CommandLine, words: list[str]) -> int:
@@ -193,7 +180,7 @@ def _client(graph: Graph, node: Node, name: str, timeout_s: float | None) -> Rec
         ToolError: it did not come in time.
     """
     client = ReconfigureClient(node, name)
-    service = f"{client.name}{_SUFFIX}"
+    service = f"{client.name}/set_parameters"
     if timeout_s:
         if not client.wait_for_server(timeout_s):
             near = hint(client.name, server_names(graph))

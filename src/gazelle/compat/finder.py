@@ -24,8 +24,11 @@ _PARTS = ("msg", "srv", "action")
 def install() -> None:
     """Put the finders behind Python's own, once."""
     if not any(isinstance(item, _WorkspaceFinder) for item in sys.meta_path):
+        from gazelle.compat.dynamic_reconfigure.config_finder import ConfigFinder
+
         workspace = _WorkspaceFinder()
-        sys.meta_path += [workspace, _InterfaceFinder(workspace)]
+        configs = ConfigFinder(workspace.folder)
+        sys.meta_path += [workspace, _InterfaceFinder(workspace), configs]
 
 
 class _WorkspaceFinder(MetaPathFinder):

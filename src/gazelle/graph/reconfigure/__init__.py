@@ -10,6 +10,7 @@ from gazelle.graph.reconfigure.description import (
     Value,
     enum_edit_method,
 )
+from gazelle.graph.reconfigure.listing import server_names
 from gazelle.graph.reconfigure.server import ReconfigureServer
 
 __all__ = [
@@ -21,4 +22,5 @@ __all__ = [
     "ReconfigureServer",
     "Value",
     "enum_edit_method",
+    "server_names",
 ]

@@ -93,6 +93,11 @@ class ReconfigureClient:
             self._arrived.wait_for(lambda: None not in (self.description, self.config), timeout_s)
         return self.values
 
+    def wait_for_change(self, timeout_s: float) -> None:
+        """Wait until a description or values come, or the time is over."""
+        with self._arrived:
+            self._arrived.wait(timeout_s)
+
     def set(
         self,
         changes: Mapping[str, Any],
