@@ -24,7 +24,7 @@ def sim() -> Iterator[gazelle.Simulation]:
         PACKAGE / "urdf" / "robot.xml",
         pose=Pose((0.0, 0.0, RADIUS_M), (0.0, 0.0, 0.0, 1.0)),
         workspace=Workspace.discover(extra=[EXAMPLE / "src"], environ={}),
-        parameters={"tandem": PACKAGE / "config" / "controller.yaml"},
+        parameters=PACKAGE / "config" / "controller.yaml",
     ) as sim:
         yield sim
 
@@ -41,7 +41,7 @@ def test_a_commanded_angle_rolls_the_robot_by_its_wheels(sim):
     sim.controller_manager().spawn("tandem_controller")
     sim.run(seconds=0.2)
     start = sim.model("tandem").pose.position_m[0]
-    sim.publish("/tandem/tandem_controller/command", message_type("std_msgs/Float64")(data=3.0))
+    sim.publish("/tandem_controller/command", message_type("std_msgs/Float64")(data=3.0))
     sim.run(seconds=3.0)
     for joint in ("joint_front", "joint_rear"):
         assert sim.joint(joint).position == pytest.approx(3.0, abs=0.01)
@@ -54,7 +54,7 @@ def test_without_its_controller_the_robot_does_not_answer(sim):
     controllers = sim.controller_manager()
     controllers.spawn("tandem_controller")
     controllers.stop("tandem_controller")
-    sim.publish("/tandem/tandem_controller/command", message_type("std_msgs/Float64")(data=3.0))
+    sim.publish("/tandem_controller/command", message_type("std_msgs/Float64")(data=3.0))
     sim.run(seconds=1.0)
     assert sim.joint("joint_front").position == pytest.approx(0.0, abs=0.01)
 
@@ -65,7 +65,7 @@ def test_its_gains_are_live(sim):
     request = kind.Request()
     double = message_type("dynamic_reconfigure/DoubleParameter")
     request.config.doubles = [double(name="p", value=20.0)]
-    sim.server.node.call("/tandem/tandem_controller/pid_steer/set_parameters", request)
+    sim.server.node.call("/tandem_controller/pid_steer/set_parameters", request)
     sim.run(seconds=0.01)
     found = sim.controller_manager().controllers["tandem_controller"].controller
     assert [pid.gains.p for pid in found.user.pids] == [20.0, 20.0]

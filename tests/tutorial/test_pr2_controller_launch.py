@@ -18,11 +18,18 @@ def test_the_old_launch_comes_up_and_says_what_has_no_effect(in_workspace: Calla
     )
     assert state.success
     assert {"base_link", "wheel1", "wheel2"} <= set(state.body_names)
-    # The two 2011-style <controller:…> tags: named, with their place, each once.
-    for name in ("libgazebo_ros_time.so", "libgazebo_ros_controller_manager.so"):
-        told = [line for line in robot.lines if f"'{name}'" in line and "warning:" in line]
-        assert len(told) == 1
-        assert re.match(r".*/tutorial_controller/robot\.xml:\d+:\d+: warning:", told[0])
+    # Of the two 2011-style <controller:…> tags one has no effect: named once, with its place.
+    told = [
+        line for line in robot.lines if "'libgazebo_ros_time.so'" in line and "warning:" in line
+    ]
+    assert len(told) == 1
+    assert re.match(r".*/tutorial_controller/robot\.xml:\d+:\d+: warning:", told[0])
+    # The other is the controller manager, which drives both wheels by efforts.
+    assert any("driven by efforts, as on the PR2" in line for line in robot.lines)
+    listed = robot.call(
+        "/controller_manager/list_controllers", "controller_manager_msgs/srv/ListControllers"
+    )
+    assert list(listed.controller) == []
     world = robot.call("/gazebo/get_world_properties", "gazebo_msgs/srv/GetWorldProperties")
     assert len(world.model_names) > 2, "the office has furniture"
     robot.messages({"/clock": 3})
