@@ -27,7 +27,7 @@ class Bench:
     """A controller, started, with its plant and ports; time goes on by 1 ms.
 
     Attributes:
-        desired: (T, 2) positions commanded or wanted, and times, of all steps so far.
+        commands: the commands of the robot's bank after each step.
     """
 
     def __init__(
@@ -38,10 +38,11 @@ class Bench:
         joints: Sequence[PlantJoint] = tuple(PlantJoint(name) for name in JOINTS),
         subscribed: bool = True,
         start: bool = True,
+        generation: int | None = None,
     ) -> None:
         is_ros2 = type_name == ROS2
         cls = Ros2JointTrajectoryController if is_ros2 else Ros1JointTrajectoryController
-        self.robot, self.plant = make_robot(joints, generation=2 if is_ros2 else 1)
+        self.robot, self.plant = make_robot(joints, generation=generation or (2 if is_ros2 else 1))
         self.diagnostics = Diagnostics()
         given: dict[str, Any] = {"joints": [joint.name for joint in joints]}
         if is_ros2:

@@ -437,3 +437,8 @@ def test_wrong_joints_are_named(parameters: dict[str, Any], text: str) -> None:
     with pytest.raises(ControllerError) as caught:
         Bench(POSITION, parameters)
     assert text in str(caught.value)
+
+
+def test_ros2_robots_are_told_their_type() -> None:
+    with pytest.raises(ControllerError, match="ROS 2 has joint_trajectory_controller/Joint"):
+        Bench(POSITION, generation=2)

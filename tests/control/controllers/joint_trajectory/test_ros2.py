@@ -167,6 +167,26 @@ def test_gains_and_feed_forward_change_live() -> None:
     assert bench.commanded("effort")[-1] == pytest.approx(expected)
 
 
+def test_the_clamp_of_the_integral_changes_live() -> None:
+    gains = {name: {"p": 0.0, "i": 100.0, "i_clamp": 1.0} for name in JOINTS}
+    bench = Bench(ROS2, commands("effort") | {"gains": gains})
+    bench.plant.position[:] = -1.0
+    bench.start()
+    bench.ports.send(TOPIC, to(0.001, 0.0, 0.0))
+    bench.run(200)
+    assert bench.commanded("effort")[-1].tolist() == pytest.approx([1.0, 1.0])
+    assert bench.controller.changed({"gains.elbow.i_clamp": 3.0}) == ""
+    bench.run(1)
+    assert bench.commanded("effort")[-1].tolist() == pytest.approx([1.0, 3.0])
+    assert bench.ports.live["gains.elbow"].values["i_clamp_max"] == 3.0
+
+
+def test_live_gains_without_a_loop_are_remarked_on() -> None:
+    bench = Bench(ROS2)
+    assert bench.controller.changed({"gains.elbow.p": 3.0}) == ""
+    assert any("'gains.elbow.p' has no effect" in text for _, text in bench.ports.lines)
+
+
 # Goals that end badly -------------------------------------------------------------------------
 
 
@@ -244,6 +264,7 @@ def test_constraints_change_live_for_the_next_goal() -> None:
         ({"constraints.goal_time": -1.0}, "must not be negative"),
         ({"constraints.elbow.goal": "far"}, "not a number"),
         ({"allow_partial_joints_goal": 1.0}, "not true or false"),
+        ({"gains.elbow.antiwindup_strategy": "best"}, "it may be legacy, none, back_calculation"),
     ],
 )
 def test_bad_live_values_are_refused(values: dict[str, Any], text: str) -> None:
@@ -569,3 +590,8 @@ def test_parameters_that_do_not_fit_are_named(parameters: dict[str, Any], text: 
     with pytest.raises(ControllerError) as caught:
         Bench(ROS2, parameters)
     assert text in str(caught.value)
+
+
+def test_ros1_robots_are_told_their_types() -> None:
+    with pytest.raises(ControllerError, match="ROS 1 has position_controllers/JointTrajectory"):
+        Bench(ROS2, generation=1)

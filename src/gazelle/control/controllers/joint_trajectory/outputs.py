@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from dataclasses import replace
+from typing import Any, Protocol
 
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.parameters import flattened
-from gazelle.control.pid import PidBank, PidGains, offer_live_gains, read_gains
+from gazelle.control.pid import AntiWindup, PidBank, PidGains, offer_live_gains, read_gains
 
 __all__ = ["Forwarding", "PidOutput", "TrajectoryOutput", "report_idle_gains"]
 
@@ -134,6 +135,7 @@ class PidOutput:
         self._columns = columns
         self.commands = _names(names, (interface,))
         self.set_feed_forward(feed_forward)
+        self._names = tuple(names)
         self._pids = PidBank([_gains(context, name) for name in names])
         separator = "/" if context.generation == 1 else "."
         self._live = [
@@ -144,6 +146,19 @@ class PidOutput:
     def set_feed_forward(self, feed_forward: Array) -> None:
         """Change what desired velocities are multiplied with, (N,)."""
         self._feed_forward, self._feeds = feed_forward, bool(feed_forward.any())
+
+    def set_gain(self, name: str, word: str, value: Any) -> None:
+        """Change what `offer_live_gains` does not: ``i_clamp`` and the newer strategies."""
+        if name not in self._names:
+            return
+        place = self._names.index(name)
+        changes: dict[str, Any] = {word: value}
+        if word == "i_clamp":
+            changes = {"i_max": abs(value), "i_min": -abs(value)}
+            self._live[place].update({"i_clamp_max": abs(value), "i_clamp_min": -abs(value)})
+        elif word == "antiwindup_strategy":
+            changes = {"strategy": AntiWindup(value)}
+        self._pids.set_gains(place, replace(self._pids.gains[place], **changes))
 
     def start(self, position: Array) -> None:
         """Forget errors and integrals, command 0."""

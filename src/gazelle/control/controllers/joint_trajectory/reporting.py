@@ -13,7 +13,7 @@ from gazelle.control.trajectory.errors import ErrorCode
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Feedback", "StateReport", "point", "result"]
+__all__ = ["Feedback", "StateReport", "point", "result", "violation"]
 
 _NANO = 1_000_000_000
 _STATE = "control_msgs/JointTrajectoryControllerState"
@@ -42,6 +42,16 @@ def point(rows: Iterable[Array | None], time_ns: int, effort: Array | None = Non
 def result(code: ErrorCode, text: str = "") -> dict[str, Any]:
     """Return a result of FollowJointTrajectory."""
     return {"error_code": int(code), "error_string": text}
+
+
+def violation(error: Array, limits: Array) -> str:
+    """Return what exceeds its limit: position, velocity and acceleration of one joint, (3,)."""
+    words = ("Position", "Velocity", "Acceleration")
+    return "; ".join(
+        f"{word} Error: {value:f}, {word} Tolerance: {limit:f}"
+        for word, value, limit in zip(words, error, limits, strict=True)
+        if abs(value) > limit
+    )
 
 
 class StateReport:

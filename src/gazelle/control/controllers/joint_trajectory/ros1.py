@@ -22,6 +22,7 @@ from gazelle.control.controllers.joint_trajectory.reporting import (
     result,
 )
 from gazelle.control.controllers.joint_trajectory.ros1_table import ROS1_TABLE
+from gazelle.control.controllers.joint_trajectory.ros2_table import ROS2_TABLE
 from gazelle.control.errors import ControllerError
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
@@ -50,6 +51,10 @@ class Ros1JointTrajectoryController(Controller):
     def __init__(self, context: ControllerContext) -> None:
         """Read the parameters and offer topics, service and action."""
         super().__init__(context)
+        if context.generation == 2:
+            text = f"controller '{context.name}': type '{context.type}' is ROS 1's; ROS 2 has "
+            text += f"{ROS2_TABLE.types[0]}, and its 'command_interfaces' say what it commands"
+            raise ControllerError(text)
         parameters, ports = context.parameters, context.ports
         self._joints = joints = TrackedJoints.of_ros1(context)
         names = joints.names

@@ -14,10 +14,13 @@ from gazelle.control.controllers.joint_trajectory.reporting import (
     StateReport,
     point,
     result,
+    violation,
 )
+from gazelle.control.controllers.joint_trajectory.ros1_table import ROS1_TABLE
 from gazelle.control.controllers.joint_trajectory.ros2_acceptance import accepted
 from gazelle.control.controllers.joint_trajectory.ros2_setup import Ros2Setup, live_problem
 from gazelle.control.controllers.joint_trajectory.ros2_table import ROS2_TABLE
+from gazelle.control.errors import ControllerError
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
@@ -49,6 +52,9 @@ class Ros2JointTrajectoryController(Controller):
     def __init__(self, context: ControllerContext) -> None:
         """Read the parameters and offer topics, service and action."""
         super().__init__(context)
+        if context.generation == 1:
+            text = f"controller '{context.name}': type '{context.type}' is ROS 2's; ROS 1 has "
+            raise ControllerError(f"{text}{', '.join(ROS1_TABLE.types)}")
         self._setup = setup = Ros2Setup(context)
         names, ports, parameters = setup.joints.names, context.ports, context.parameters
         self.commands = setup.output.commands
@@ -116,8 +122,8 @@ class Ros2JointTrajectoryController(Controller):
             self._feedback.tell(self._goal, time_ns, lambda: self._points(following))
         if is_due:
             now = self._points(following)
-            output = self._setup.output_point()
-            self._report.publish(time_ns, *now, output, scaling=self._scaling)
+            commanded = self._setup.output_point()
+            self._report.publish(time_ns, *now, commanded, scaling=self._scaling)
 
     def stop(self, time_ns: int) -> None:
         """Abort a goal; positions stay commanded, the rest becomes 0."""
@@ -193,17 +199,11 @@ class Ros2JointTrajectoryController(Controller):
         return True
 
     def _tell_violation(self, what: str, joint: int) -> None:
-        error, tolerance = self._error[:, joint], self._tolerances
-        limits = (tolerance.path if what == "State" else tolerance.goal)[:, joint]
+        tolerances = self._tolerances
+        limits = tolerances.path if what == "State" else tolerances.goal
+        text = violation(self._error[:, joint], limits[:, joint])
         name = self._setup.joints.names[joint]
-        parts = [
-            f"{word} Error: {value:f}, {word} Tolerance: {limit:f}"
-            for word, value, limit in zip(
-                ("Position", "Velocity", "Acceleration"), error, limits, strict=True
-            )
-            if abs(value) > limit
-        ]
-        text = f"{what} tolerances failed for joint {joint} ('{name}'): {'; '.join(parts)}"
+        text = f"{what} tolerances failed for joint {joint} ('{name}'): {text}"
         self.context.ports.log("error", text)
 
     def _stay(self, state: JointState) -> None:

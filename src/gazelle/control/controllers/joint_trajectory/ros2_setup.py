@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
+from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.controllers.joint_trajectory.joints import TrackedJoints, joint_names
+from gazelle.control.controllers.joint_trajectory.joints import TrackedJoints
 from gazelle.control.controllers.joint_trajectory.outputs import (
     Forwarding,
     PidOutput,
@@ -17,18 +17,27 @@ from gazelle.control.controllers.joint_trajectory.outputs import (
     report_idle_gains,
 )
 from gazelle.control.controllers.joint_trajectory.reporting import point
+from gazelle.control.controllers.joint_trajectory.ros2_interfaces import (
+    INTERFACES,
+    check_interfaces,
+    columns_of,
+    command_joints,
+    read_interfaces,
+)
 from gazelle.control.errors import ControllerError
+from gazelle.control.pid import AntiWindup
 from gazelle.control.trajectory.replacing import Interpolation
 from gazelle.control.trajectory.splines import JointState
 
 __all__ = ["Ros2Setup", "live_problem"]
 
-_ORDER = ("position", "velocity", "acceleration", "effort")
 _FLAGS = (
     "allow_partial_joints_goal",
     "allow_integration_in_goal_trajectories",
     "allow_nonzero_velocity_at_trajectory_end",
 )
+# Gains that can be set live beside those that `offer_live_gains` offers.
+_GAINS = ("i_clamp", "antiwindup_strategy", "tracking_time_constant", "error_deadband")
 
 
 class Ros2Setup:
@@ -64,9 +73,9 @@ class Ros2Setup:
         self._context = context
         self.joints = TrackedJoints.of_ros2(context)
         names = self.joints.names
-        commands = _interfaces(context, "command_interfaces")
-        states = _interfaces(context, "state_interfaces")
-        _check_interfaces(context, commands, states)
+        commands = read_interfaces(context, "command_interfaces")
+        states = read_interfaces(context, "state_interfaces")
+        check_interfaces(context, commands, states)
         closes = commands == ("effort",) or (
             commands == ("velocity",) and not parameters.flag("open_loop_control")
         )
@@ -74,11 +83,11 @@ class Ros2Setup:
         self.is_open_loop = parameters.flag("open_loop_control") or parameters.flag(
             "interpolate_from_desired_state"
         )
-        self._commanded = _command_joints(context, names)
-        self._columns = _columns(context, self._commanded, names)
+        self._commanded = command_joints(context, names)
+        self._columns = columns_of(context, self._commanded, names)
         self.output = self._make_output(commands, closes)
-        self._rows = tuple(row for row, word in enumerate(_ORDER[:3]) if word in states)
-        self.states = tuple(f"{name}/{_ORDER[row]}" for row in self._rows for name in names)
+        self._rows = tuple(row for row, word in enumerate(INTERFACES[:3]) if word in states)
+        self.states = tuple(f"{name}/{INTERFACES[row]}" for row in self._rows for name in names)
         self._places = context.state_places(self.states)
         has_rate_error = 1 in self._rows and ("velocity" in commands or self.has_effort)
         has_bend_error = 2 in self._rows and "acceleration" in commands
@@ -128,7 +137,7 @@ class Ros2Setup:
     def output_point(self) -> Any:
         """Return a JointTrajectoryPoint of the present commands."""
         now = self.output.commanded()
-        return point([now.get(word) for word in _ORDER[:3]], 0, now.get("effort"))
+        return point([now.get(word) for word in INTERFACES[:3]], 0, now.get("effort"))
 
     def timeout_s(self, goal_time_s: float) -> float:
         """Return ``cmd_timeout``, 0 when it is not longer than the goal's time."""
@@ -149,8 +158,16 @@ class Ros2Setup:
                 branch = branch.setdefault(word, {})
             branch[last] = value
         self._read_flags()
+        gains = [key for key in values if key.startswith("gains.")]
         if isinstance(self.output, PidOutput):
             self.output.set_feed_forward(self._feed_forward())
+            for key in gains:
+                name, word = key.removeprefix("gains.").rsplit(".", 1)
+                if word in _GAINS:
+                    self.output.set_gain(name, word, values[key])
+        elif gains:
+            text = f"'{gains[0]}' has no effect: positions are commanded as they are, without a PID"
+            self._context.ports.log("warn", text)
 
     def _read_flags(self) -> None:
         for name in _FLAGS:
@@ -178,7 +195,11 @@ class Ros2Setup:
 def live_problem(values: Mapping[str, Any]) -> str:
     """Return why live values cannot be taken, empty when they can."""
     for key, value in values.items():
-        if key in _FLAGS:
+        if key.endswith(".antiwindup_strategy"):
+            known = [strategy.value for strategy in AntiWindup]
+            if value not in known:
+                return f"'{key}' is {value!r}, it may be {', '.join(known)}"
+        elif key in _FLAGS or key.endswith(".antiwindup"):
             if not isinstance(value, bool):
                 return f"'{key}' is {value!r}, not true or false"
         elif isinstance(value, bool) or not isinstance(value, int | float):
@@ -186,80 +207,6 @@ def live_problem(values: Mapping[str, Any]) -> str:
         elif key.startswith("constraints.") and value < 0.0:
             return f"'{key}' is {value}, but must not be negative"
     return ""
-
-
-def _interfaces(context: ControllerContext, key: str) -> tuple[str, ...]:
-    context.parameters.require(key)
-    names = context.parameters.texts(key)
-    where = f"controller '{context.name}': '{context.parameters.full_name(key)}'"
-    if not names:
-        raise ControllerError(f"{where} parameter is empty")
-    known = _ORDER if key == "command_interfaces" else _ORDER[:3]
-    for name in names:
-        if name not in known:
-            raise ControllerError(f"{where} has '{name}', it may have {', '.join(known)}")
-    return tuple(name for name in _ORDER if name in names)
-
-
-def _check_interfaces(
-    context: ControllerContext, commands: tuple[str, ...], states: tuple[str, ...]
-) -> None:
-    """Insist on the combinations that ros2_controllers takes."""
-    needs_states = commands in {("velocity",), ("effort",), ("position", "effort")}
-    rules = (
-        (
-            "velocity" in commands and len(commands) > 1 and "position" not in commands,
-            "'velocity' command interface can be used either alone or 'position' command "
-            "interface has to be present",
-        ),
-        (
-            "acceleration" in commands and not {"velocity", "position"} <= set(commands),
-            "'acceleration' command interface can only be used if 'velocity' and 'position' "
-            "command interfaces are present",
-        ),
-        (
-            "effort" in commands and commands not in {("effort",), ("position", "effort")},
-            "'effort' command interface has to be used alone or with a 'position' interface",
-        ),
-        (
-            "position" not in states,
-            "'velocity' state interface cannot be used if 'position' interface is missing.",
-        ),
-        (
-            "acceleration" in states and "velocity" not in states,
-            "'acceleration' state interface cannot be used if 'position' and 'velocity' "
-            "interfaces are not present.",
-        ),
-        (
-            needs_states and "velocity" not in states,
-            f"'{commands[-1]}' command interface can only be used alone if 'velocity' and "
-            "'position' state interfaces are present",
-        ),
-    )
-    for is_broken, text in rules:
-        if is_broken:
-            raise ControllerError(f"controller '{context.name}': {text}")
-
-
-def _command_joints(context: ControllerContext, names: tuple[str, ...]) -> tuple[str, ...]:
-    if not context.parameters.texts("command_joints"):
-        return names
-    commanded = joint_names(context, "command_joints")
-    if len(commanded) <= len(names):
-        return commanded
-    text = "The 'command_joints' parameter must not exceed the size of the 'joints' parameter."
-    raise ControllerError(f"controller '{context.name}': {text}")
-
-
-def _columns(
-    context: ControllerContext, commanded: tuple[str, ...], names: tuple[str, ...]
-) -> Indices | None:
-    if len(commanded) == len(names):
-        return None
-    if not set(commanded) <= set(names):
-        text = "'command_joints' parameter must be a subset of 'joints' parameter, if their size "
-        raise ControllerError(f"controller '{context.name}': {text}is not equal.")
-    return np.array([names.index(name) for name in commanded], dtype=np.intp)
 
 
 def _interpolation(context: ControllerContext) -> Interpolation:
