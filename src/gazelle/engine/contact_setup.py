@@ -273,8 +273,9 @@ def _report_unmapped(geom: BuiltGeom, diagnostics: Diagnostics) -> None:
         diagnostics.report(
             "engine.slip",
             f"collision '{geom.collision_name}' sets slip1 {surface.slip1 or 0:g} and slip2"
-            f" {surface.slip2 or 0:g}; the engine has no force-dependent slip, friction acts"
-            " without it",
+            f" {surface.slip2 or 0:g}; the engine has no force-dependent slip of"
+            " surfaces, friction acts without it; a wheel slip plug-in (libWheelSlipPlugin.so)"
+            " lets wheels slip",
             span,
         )
     if surface.max_contacts is not None and 0 < surface.max_contacts < 4:
