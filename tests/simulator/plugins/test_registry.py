@@ -69,11 +69,12 @@ def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Sim
     sim.run(seconds=0.1)
 
 
-def test_ros_control_says_what_its_absence_means(load: Callable[..., Simulation]) -> None:
-    plugin = "<gazebo><plugin name='c' filename='libgazebo_ros_control.so'/></gazebo>"
+def test_a_plug_in_that_is_not_needed_is_said_to_be_so(load: Callable[..., Simulation]) -> None:
+    library = "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so"
+    plugin = f"<gazebo><plugin name='c' filename='{library}'/></gazebo>"
     sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
     (found,) = sim.diagnostics.by_code("plugin.unknown")
-    assert "controllers of ros_control do not run; joints move freely" in found.message
+    assert "mimic joints are part of the physics: the plug-in is not needed" in found.message
 
 
 def test_systems_of_gz_sim_are_built_in(load: Callable[..., Simulation]) -> None:
