@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -9,13 +10,16 @@ from typing import Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
-from gazelle.graph import Node
+from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, ros1_service_type, service_type
 
 __all__ = ["ManagerClient"]
 
 _POLL_S = 0.1
 _CALL_S = 30.0
+_GONE_S = 3.0
+_LATE_S = 1.5
+_LOAD = "/load_controller"
 _PACKAGE = "controller_manager_msgs"
 BEST_EFFORT, STRICT = 1, 2
 
@@ -67,13 +71,17 @@ class ManagerClient:
 
         Returns:
             False when the time was up, or waiting was ended.
+
+        Raises:
+            GraphError: the graph itself is gone.
         """
         graph, clock = self._node.graph, self._node.clock
         start_ns, told_s = clock.now_ns(), time.monotonic()
-        used_sim_time = clock.use_sim_time
+        used_sim_time, alive = clock.use_sim_time, _Alive(graph)
         while not self._stop.is_set():
             if graph.wait_for_service(f"{self.name}/{service}", _POLL_S):
                 return True
+            alive.check()
             if clock.use_sim_time != used_sim_time or clock.now_ns() < start_ns:
                 # Another clock, or one that went back: count anew.
                 used_sim_time, start_ns = clock.use_sim_time, clock.now_ns()
@@ -86,17 +94,52 @@ class ManagerClient:
 
     def elsewhere(self) -> str:
         """Return a sentence about the controller managers that there are."""
-        ending = "/load_controller"
-        services = (one.name for one in self._node.graph.services())
-        found = [name.removesuffix(ending) for name in services if name.endswith(ending)]
+        found = self.managers()
         if not found:
             return (
                 "there is no controller manager at all: the robot's description needs the plug-in "
                 "libgazebo_ros_control.so or libgazebo_ros2_control.so, and the robot must be "
                 "spawned"
             )
-        nearest = nearest_names(self.name, found) or tuple(found)
+        nearest = nearest_names(self.name, found) or found
         return f"controller managers are: {', '.join(nearest)}"
+
+    def managers(self) -> tuple[str, ...]:
+        """Return the names of all controller managers of the graph."""
+        names = (one.name for one in self._node.graph.services())
+        return tuple(name.removesuffix(_LOAD) for name in names if name.endswith(_LOAD))
+
+    def find(self, *, may_be_another: bool, late: Callable[[], None] = lambda: None) -> bool:
+        """Wait for the manager, for commands that people type; what is waited for is said once.
+
+        Args:
+            may_be_another: take the only one there is when it has another name, and say so.
+            late: called when the manager lets itself be waited for.
+
+        Returns:
+            False when waiting was ended.
+
+        Raises:
+            GraphError: the graph is gone.
+        """
+        said, start_s = "", time.monotonic()
+        alive = _Alive(self._node.graph)
+        while not self._stop.is_set():
+            there = self.managers()
+            if self.name in there:
+                return True
+            if may_be_another and len(there) == 1:
+                _tell(f"there is no {self.name}; {there[0]}, the only one there is, is used")
+                self.name = there[0]
+                return True
+            text = f"waiting for {self.name}; {self.elsewhere()}"
+            if text != said and time.monotonic() - start_s > _LATE_S:
+                said = text
+                _tell(text)
+                late()
+            alive.check()
+            self._stop.wait(_POLL_S)
+        return False
 
     def call(self, service: str, kind: str, *, timeout_s: float = _CALL_S, **fields: Any) -> Any:
         """Call a service with the layout of the manager's generation and return its answer.
@@ -186,3 +229,28 @@ class ManagerClient:
             raise GraphError(f"Could not contact service {self.name}/set_parameters")
         answer = self.call("set_parameters", "rcl_interfaces/SetParameters", parameters=request)
         return next((one.reason or "refused" for one in answer.results if not one.successful), "")
+
+
+class _Alive:
+    """Watches that the graph has a hub."""
+
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
+        self._seen_s = time.monotonic()
+
+    def check(self) -> None:
+        """Look.
+
+        Raises:
+            GraphError: there has been no hub for some seconds.
+        """
+        now_s = time.monotonic()
+        if self._graph.is_hub or self._graph.session.info.routers_zid():
+            self._seen_s = now_s
+        elif now_s - self._seen_s > _GONE_S:
+            raise GraphError("the graph has ended: its launch or simulator is gone")
+
+
+def _tell(text: str) -> None:
+    sys.stderr.write(f"{text}\n")
+    sys.stderr.flush()

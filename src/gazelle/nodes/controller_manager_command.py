@@ -32,7 +32,6 @@ Options:
     --namespace <ns>     - namespace of the controller manager
     --restore            - reload-libraries: load and start again what was there"""
 _SHORT = {"lt": "list-types", "lc": "list", "sp": "spawn", "kl": "kill"}
-_LATE_S = 1.5
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -81,14 +80,10 @@ def command(
         return 2
     manager = f"{namespace.rstrip('/')}/controller_manager" if namespace else "controller_manager"
     client = ManagerClient(node, manager, stop)
-
-    def tell() -> None:
-        _complain(f"waiting for {client.name}; {client.elsewhere()}")
-        late()
-
-    if not client.wait(late=tell, late_s=_LATE_S):
-        return 1
     try:
+        anywhere = not namespace and node.namespace == "/"
+        if not client.find(may_be_another=anywhere, late=late):
+            return 1
         return 0 if action(client, names, restore) else 1
     except GraphError as error:
         _complain(f"ERROR: {error}")

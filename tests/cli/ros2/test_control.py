@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -10,7 +11,9 @@ from tests.control.manager_world import manager_world
 
 from gazelle.cli import controller_manager
 from gazelle.cli.ros2 import main as ros2
+from gazelle.errors import GraphError
 from gazelle.graph import Graph
+from gazelle.nodes import controller_manager_client
 
 Run = Callable[..., tuple[int, str]]
 
@@ -241,3 +244,40 @@ def test_controller_manager_names_the_nearest_command(ros1, capsys):
     code, text = _ros1(capsys, "spwan", "left")
     assert code == 2
     assert "no command 'spwan'; did you mean 'spawn'" in text
+
+
+def test_the_only_manager_is_used_and_named(ros1, capsys):
+    ros1.load("left")
+    code, text = _ros1(capsys, "list")
+    assert code == 0
+    assert "there is no /controller_manager; /mira/controller_manager, the only one there" in text
+    assert "'left' - 'hardware_interface::EffortJointInterface' ( initialized )" in text
+
+
+def test_a_manager_that_is_named_is_waited_for_and_said_once(ros1, capsys, monkeypatch, graph):
+    monkeypatch.setattr(controller_manager_client, "_LATE_S", 0.0)
+    node, stop = graph.create_node("asking"), threading.Event()
+    client = controller_manager_client.ManagerClient(node, "/leg/controller_manager", stop)
+    told = threading.Event()
+    asking = threading.Thread(
+        target=lambda: client.find(may_be_another=False, late=told.set), daemon=True
+    )
+    asking.start()
+    assert told.wait(5)
+    stop.wait(0.3)
+    stop.set()
+    asking.join(5)
+    line = "waiting for /leg/controller_manager; controller managers are: /mira/controller_manager"
+    assert capsys.readouterr().err.splitlines() == [line]
+
+
+def test_waiting_ends_with_the_graph(free_port, monkeypatch):
+    monkeypatch.setattr(controller_manager_client, "_GONE_S", 0.1)
+    hub = Graph.open(port=free_port, role="hub", environ={})
+    with Graph.open(port=free_port, role="client", environ={}) as graph:
+        client = controller_manager_client.ManagerClient(graph.create_node("asking"), "/cm")
+        hub.close()
+        with pytest.raises(GraphError, match="the graph has ended"):
+            client.find(may_be_another=True)
+        with pytest.raises(GraphError, match="the graph has ended"):
+            client.wait()

@@ -7,16 +7,17 @@ import sys
 
 from gazelle.cli.tool import ToolError, joined
 from gazelle.errors import GraphError
+from gazelle.nodes.controller_manager_client import ManagerClient
 
 __all__ = ["main"]
 
 _NAME = "Name of the controller"
+_MANAGER = "controller_manager"
 
 
 def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 control``."""
     from gazelle.cli.ros2.control import listing, verbs
-    from gazelle.nodes.controller_manager_client import ManagerClient
 
     options = _parser().parse_args(_own_words(argv))
     module = listing if hasattr(listing, options.verb) else verbs
@@ -24,25 +25,15 @@ def main(argv: list[str]) -> int:
         with joined() as graph:
             node = graph.create_node("ros2control", anonymous=True, rosout=False)
             client = ManagerClient(node, options.controller_manager)
-            _wait(client)
+            client.find(may_be_another=options.controller_manager == _MANAGER)
+            _refuse_ros1(client)
             return int(getattr(module, options.verb)(client, options))
     except (ToolError, GraphError) as error:
         print(error, file=sys.stderr)
         return 1
 
 
-def _wait(client: object) -> None:
-    """Wait for the manager; what there is instead is said while waiting."""
-    from gazelle.nodes.controller_manager_client import ManagerClient
-
-    assert isinstance(client, ManagerClient)
-    service = f"{client.name}/list_controllers"
-
-    def tell() -> None:
-        text = f"waiting for service {service} to become available... {client.elsewhere()}"
-        print(text, file=sys.stderr)
-
-    client.wait("list_controllers", late=tell, late_s=1.5)
+def _refuse_ros1(client: ManagerClient) -> None:
     if client.generation == 1:
         raise ToolError(
             f"{client.name} is a controller manager of ROS 1; use: controller_manager list | load "
@@ -73,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_listing(found)
     _add_changing(found)
     for verb in found.values():
-        verb.add_argument("-c", "--controller-manager", default="controller_manager")
+        verb.add_argument("-c", "--controller-manager", default=_MANAGER)
         verb.add_argument("--include-hidden-nodes", action="store_true", help=argparse.SUPPRESS)
         verb.add_argument("--spin-time", help=argparse.SUPPRESS)
         verb.add_argument("-s", "--use-sim-time", action="store_true", help=argparse.SUPPRESS)
