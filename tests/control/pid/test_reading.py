@@ -70,3 +70,15 @@ def test_texts_are_no_gains() -> None:
     gains, found = _read({"p": "much"})
     assert gains == PidGains(0.0)
     assert "not a number" in found.by_code("control.bad-value")[0].message
+
+
+def test_rows_are_live_where_ros2_s_are() -> None:
+    live = {row.key for row in gain_rows("g", (2,)) if row.live}
+    assert live == {
+        f"g.{name}"
+        for name in (
+            *("p", "i", "d", "i_clamp_max", "i_clamp_min", "antiwindup", "u_clamp_max"),
+            *("u_clamp_min", "tracking_time_constant", "error_deadband"),
+        )
+    }
+    assert not any(row.live for row in gain_rows("pid", (1,)))

@@ -114,7 +114,8 @@ class JointGroupCommandController(_ForwardController):
             raise ControllerError(f"{context.name}: {empty[context.generation - 1]}")
         for joint in joints:
             context.joint(joint)
-        interface = _INTERFACES.get(context.type.replace("::", "/"), "")
+        kind = context.type.replace("::", "/")
+        interface = _INTERFACES.get(kind, "")
         if not interface:
             parameters.require("interface_name")
             interface = parameters.text("interface_name")
@@ -126,7 +127,7 @@ class JointGroupCommandController(_ForwardController):
         if context.generation == 1 and interface == "position":
             self.states = self.commands
             self._state_places = context.state_places(self.states)
-        if context.generation == 2 and interface != "position" and context.type != _FORWARD:
+        if context.generation == 2 and interface != "position" and kind != _FORWARD:
             self.stop_value = 0.0
 
     def start(self, time_ns: int) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 __all__ = ["PublishRate"]
@@ -29,20 +30,23 @@ class PublishRate:
             self._period_ns = Fraction(_NS_PER_S) / Fraction(rate_hz).limit_denominator(1_000_000)
         self._at_once = at_once
         self._last_ns: Fraction | None = None
+        self._next_ns = 0
 
     def start(self, time_ns: int) -> None:
         """Begin to count; a second start goes on counting unless time went back."""
         if self._last_ns is not None and self._at_once and self._last_ns <= time_ns:
             return
         early = self._period_ns * 1001 / 1000 if self._at_once else Fraction(0)
-        self._last_ns = time_ns - early
+        self._advance_to(time_ns - early)
 
     def due(self, time_ns: int) -> bool:
         """Tell whether to publish now, and count it."""
-        if self._last_ns is None or not self._period_ns:
+        if time_ns <= self._next_ns or self._last_ns is None or not self._period_ns:
             return False
-        next_ns = self._last_ns + self._period_ns
-        if next_ns >= time_ns:
-            return False
-        self._last_ns = next_ns
+        self._advance_to(self._last_ns + self._period_ns)
         return True
+
+    def _advance_to(self, last_ns: Fraction) -> None:
+        self._last_ns = last_ns
+        # Times are whole: later than the exact one is later than the whole one below it.
+        self._next_ns = math.floor(last_ns + self._period_ns)

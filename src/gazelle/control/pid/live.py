@@ -92,4 +92,10 @@ def _ros2_rows(gains: PidGains) -> tuple[LiveParameter, ...]:
         LiveParameter("antiwindup", "bool", gains.antiwindup, "Bounds the integral itself."),
         LiveParameter("u_clamp_max", "double", gains.u_max, "Upper output clamp."),
         LiveParameter("u_clamp_min", "double", gains.u_min, "Lower output clamp."),
+        LiveParameter(
+            "tracking_time_constant", "double", gains.tracking_time_constant, "Of back_calculation."
+        ),
+        LiveParameter(
+            "error_deadband", "double", gains.error_deadband, "Errors that are not integrated."
+        ),
     )

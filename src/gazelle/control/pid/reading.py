@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid.gains import AntiWindup, PidGains
@@ -62,21 +63,25 @@ def read_gains(
 
 
 def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Parameter, ...]:
-    """Return the rows of a controller's table for gains below a key."""
-    live = generations == (2,)
+    """Return the rows of a controller's table for gains below a key.
 
-    def row(name: str, kind: str, default: object, meaning: str, newer: bool = False) -> Parameter:
-        known = (2,) if newer else generations
-        return Parameter(
-            f"{prefix}.{name}", kind, default, meaning, live=live or newer, generations=known
-        )
+    In ROS 2 all but i_clamp and the strategy can be set live; in ROS 1 dynamic_reconfigure does.
+    """
+
+    def row(name: str, kind: str, default: object, meaning: str, live: bool = True) -> Parameter:
+        is_live = live and 2 in generations
+        key = f"{prefix}.{name}"
+        return Parameter(key, kind, default, meaning, live=is_live, generations=generations)
+
+    def newer(name: str, kind: str, default: object, meaning: str, live: bool = True) -> Parameter:
+        return replace(row(name, kind, default, meaning, live), generations=(2,))
 
     no_clamp = "0 in ROS 1: without it i has no effect; unbounded in ROS 2"
     rows = (
         row("p", "number", 0.0, "gain of the error"),
         row("i", "number", 0.0, "gain of the error's integral"),
         row("d", "number", 0.0, "gain of the error's rate"),
-        row("i_clamp", "number", None, f"bound of the integral's part, both ways; {no_clamp}"),
+        row("i_clamp", "number", None, f"bound of i's part, both ways; {no_clamp}", live=False),
         row("i_clamp_max", "number", None, "upper bound of the integral's part; i_clamp"),
         row("i_clamp_min", "number", None, "lower bound of the integral's part; -i_clamp"),
         row("antiwindup", "flag", False, "bound the integral itself, not only its part"),
@@ -86,11 +91,11 @@ def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Param
     strategies = "legacy, none, back_calculation or conditional_integration"
     return (
         *rows,
-        row("u_clamp_max", "number", math.inf, "upper bound of the command", True),
-        row("u_clamp_min", "number", -math.inf, "lower bound of the command", True),
-        row("antiwindup_strategy", "text", "", strategies, True),
-        row("tracking_time_constant", "number", 0.0, "of back_calculation, s; 0: derived", True),
-        row("error_deadband", "number", 1e-16, "errors this small are not integrated", True),
+        newer("u_clamp_max", "number", math.inf, "upper bound of the command"),
+        newer("u_clamp_min", "number", -math.inf, "lower bound of the command"),
+        newer("antiwindup_strategy", "text", "", strategies, live=False),
+        newer("tracking_time_constant", "number", 0.0, "of back_calculation, s; 0: derived"),
+        newer("error_deadband", "number", 1e-16, "errors this small are not integrated"),
     )
 
 
