@@ -71,6 +71,7 @@ class Ros1JointTrajectoryController(Controller):
         self._goal: GoalPort | None = None
         self._reached = np.zeros(len(names), dtype=np.bool_)
         self._actual: Array = np.zeros((2, len(names)))
+        self._actual_flat = self._actual.reshape(-1)
         self._error: Array = np.zeros((3, len(names)))
         self._following: SegmentTrajectory = hold(self._actual[0], 0)
         self._report = StateReport(
@@ -122,7 +123,7 @@ class Ros1JointTrajectoryController(Controller):
         self._preempt()
 
     def _measure(self) -> None:
-        self._actual = self.robot.bank.states[self._places].reshape(2, -1)
+        self.robot.bank.states.take(self._places, out=self._actual_flat, mode="clip")
 
     def _points(self) -> tuple[Any, Any, Any]:
         track, _ = self._following.track_of(0)

@@ -103,9 +103,8 @@ class Ros2Setup:
 
     def read(self, actual: Array) -> None:
         """Put what is measured into rows of positions, velocities, accelerations (3, N)."""
-        values = self._context.robot.bank.states[self._places]
-        count = len(self._rows)
-        actual[:count] = values.reshape(count, -1)
+        states = self._context.robot.bank.states
+        states.take(self._places, out=actual.reshape(-1)[: len(self._places)], mode="clip")
 
     def state_of(self, actual: Array) -> JointState:
         """Return what is measured, without what is not."""
