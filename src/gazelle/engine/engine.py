@@ -25,7 +25,7 @@ from gazelle.engine.tyres import CENTRING_STEPS, Slip, TyreBank
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import WrenchTable
 from gazelle.errors import EngineError, SimulationDivergedError
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, cross
 
 __all__ = ["Engine", "EngineState"]
 
@@ -209,7 +209,7 @@ class Engine(EngineCore):
         linear, angular = handle.velocity_world()
         origin = np.asarray(self.model_pose(name).position_m)
         arm = origin - np.asarray(handle.T_world_link().position_m)
-        return linear + np.cross(angular, arm), angular
+        return linear + cross(angular, arm), angular
 
     def set_model_velocity(
         self,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.engine.library import mujoco
 from gazelle.engine.records import Acceleration, Velocity
 from gazelle.engine.wrenches import TimedWrench
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, cross
 
 if TYPE_CHECKING:
     from gazelle.description.model import Link
@@ -110,7 +110,7 @@ class LinkHandle:
         torque = np.array(torque_nm, dtype=np.float64)
         if point_link_m is not None:
             point = self.T_world_link().transform(np.asarray(point_link_m, dtype=np.float64))
-            torque = torque + np.cross(point - self.com_world(), force)
+            torque = torque + cross(point - self.com_world(), force)
         return self._engine.add_wrench(self.name, force, torque, duration_ns)
 
     def clear_wrenches(self) -> None:

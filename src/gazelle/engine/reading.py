@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.engine.library import mujoco
 from gazelle.engine.records import Wrench
+from gazelle.geometry import cross
 
 __all__ = ["constraint_forces", "joint_reaction", "waking_copy"]
 
@@ -38,7 +39,7 @@ def joint_reaction(model: Any, data: Any, body: int, point_m: NDArray[np.float64
     """
     torque, force = data.cfrc_int[body, :3], data.cfrc_int[body, 3:]
     origin = data.subtree_com[model.body_rootid[body]]
-    return Wrench(force.copy(), torque + np.cross(origin - point_m, force))
+    return Wrench(force.copy(), torque + cross(origin - point_m, force))
 
 
 def constraint_forces(data: Any, kind: int, count: int) -> NDArray[np.float64]:

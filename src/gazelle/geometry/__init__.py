@@ -48,6 +48,7 @@ from gazelle.geometry.solids import (
     spherical_shell_mass_properties,
 )
 from gazelle.geometry.terrain import heightmap_mesh, polyline_mesh
+from gazelle.geometry.vectors import cross
 
 __all__ = [
     "IDENTITY_POSE",
@@ -71,6 +72,7 @@ __all__ = [
     "cone_mesh",
     "convex_hull",
     "convex_parts",
+    "cross",
     "cylinder_mass_properties",
     "cylinder_mesh",
     "cylindrical_shell_mass_properties",

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
-from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_from_rpy
+from gazelle.geometry import IDENTITY_POSE, Pose, cross, quat_xyzw_from_rpy
 from gazelle.sensors.noise import NoiseSource
 
 __all__ = ["ImuNoise", "ImuRecord", "LinkMotion", "imu_reading"]
@@ -104,8 +104,8 @@ def imu_reading(
     omega = motion.angular_velocity_rad_s
     acceleration = (
         motion.linear_acceleration_m_s2
-        + np.cross(motion.angular_acceleration_rad_s2, arm)
-        + np.cross(omega, np.cross(omega, arm))
+        + cross(motion.angular_acceleration_rad_s2, arm)
+        + cross(omega, cross(omega, arm))
     )
     to_sensor = T_world_sensor.matrix()[:3, :3].T
     rate = to_sensor @ omega

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import Model
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, cross
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
@@ -67,7 +67,7 @@ def _static_load(
     force, torque = np.zeros(3), np.zeros(3)
     for place_m, pull_n, turn_nm in loads:
         force -= pull_n
-        torque -= turn_nm + np.cross(place_m - point_m, pull_n)
+        torque -= turn_nm + cross(place_m - point_m, pull_n)
     return force, torque
 
 

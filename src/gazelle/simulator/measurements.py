@@ -17,7 +17,7 @@ from gazelle.description.model import (
     SphericalCoordinates,
 )
 from gazelle.errors import GazelleError
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, cross
 from gazelle.simulator.joint_loads import joint_load
 from gazelle.simulator.plugins.context import SensorPlace
 
@@ -182,4 +182,4 @@ def _point_velocity(link: LinkHandle, pose: Pose) -> NDArray[np.float64]:
     """Return the velocity of a point that moves with a link, (3,), world frame."""
     linear, angular = link.velocity_world()
     arm = np.subtract(pose.position_m, link.T_world_link().position_m)
-    return np.asarray(linear + np.cross(angular, arm))
+    return np.asarray(linear + cross(angular, arm))

@@ -28,7 +28,9 @@ def joint_inertias(engine: Engine, names: Iterable[str]) -> dict[str, float]:
     """
     from gazelle.engine.library import mujoco
 
-    model, data = engine.model, engine.data_with_velocities()
+    # Asking for the data builds what was asked for since the last step.
+    data = engine.data_with_velocities()
+    model = engine.model
     mujoco.mj_makeM(model, data)
     M = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, M)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import ForceTorqueSpec
-from gazelle.geometry import IDENTITY_POSE, inertia_matrix
+from gazelle.geometry import IDENTITY_POSE, cross, inertia_matrix
 from gazelle.simulator.joint_loads import joint_load
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext
@@ -186,7 +186,7 @@ def _net_wrench(link: LinkHandle) -> tuple[Array, Array]:
     spin = link.velocity_world().angular_rad_s
     pose = link.T_world_link()
     arm = link.com_world() - np.array(pose.position_m)
-    at_com = linear + np.cross(angular, arm) + np.cross(spin, np.cross(spin, arm))
+    at_com = linear + cross(angular, arm) + cross(spin, cross(spin, arm))
     turn = (pose @ inertial.T_link_com).matrix()[:3, :3]
     inertia = turn @ inertia_matrix(inertial.inertia_kg_m2) @ turn.T
-    return link.mass_kg * at_com, inertia @ angular + np.cross(spin, inertia @ spin)
+    return link.mass_kg * at_com, inertia @ angular + cross(spin, inertia @ spin)
