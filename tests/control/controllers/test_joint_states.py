@@ -42,6 +42,14 @@ def test_states_of_all_joints_at_the_rate_with_the_first_update() -> None:
     assert first.header.frame_id == ""
 
 
+def test_rate_counts_from_the_first_update_however_long_the_world_stood() -> None:
+    robot, _ = make_robot(ROWS)
+    controller, ports = make_controller(JointStateController, robot, {"publish_rate": 50})
+    controller.start(0)
+    run(robot, controller, 60, time_ns=MS)
+    assert _times_ms(ports.publishers["joint_states"].messages) == [1, 21, 41]
+
+
 @pytest.mark.parametrize("rate_hz", [30.0, 50.0, 60.0, 333.0, 1000.0, 5000.0])
 def test_rate_is_exact_on_average(rate_hz: float) -> None:
     rate = PublishRate(rate_hz, at_once=True)

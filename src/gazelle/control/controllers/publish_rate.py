@@ -33,18 +33,29 @@ class PublishRate:
         self._next_ns = 0
 
     def start(self, time_ns: int) -> None:
-        """Begin to count; a second start goes on counting unless time went back."""
-        if self._last_ns is not None and self._at_once and self._last_ns <= time_ns:
-            return
-        early = self._period_ns * 1001 / 1000 if self._at_once else Fraction(0)
-        self._advance_to(time_ns - early)
+        """Begin to count with the next update.
+
+        With `at_once` a second start goes on counting, unless time went back. ROS calls
+        ``starting`` at the time of the first update; here a paused world may lie between.
+        """
+        if self._last_ns is None or not self._at_once or self._last_ns > time_ns:
+            self._last_ns, self._next_ns = None, 0
 
     def due(self, time_ns: int) -> bool:
         """Tell whether to publish now, and count it."""
-        if time_ns <= self._next_ns or self._last_ns is None or not self._period_ns:
+        if self._last_ns is None:
+            return self._begin(time_ns)
+        if time_ns <= self._next_ns:
             return False
         self._advance_to(self._last_ns + self._period_ns)
         return True
+
+    def _begin(self, time_ns: int) -> bool:
+        if not self._period_ns:
+            return False
+        early = self._period_ns * 1001 / 1000 if self._at_once else Fraction(0)
+        self._advance_to(time_ns - early)
+        return self._at_once and self.due(time_ns)
 
     def _advance_to(self, last_ns: Fraction) -> None:
         self._last_ns = last_ns
