@@ -25,7 +25,7 @@ WHEELS = {f"{x}{y}": (0.2 * (1 if x == "f" else -1), 0.15 * (1 if y == "l" else 
           for x in "fr" for y in "lr"}  # fmt: skip
 
 
-def cart(self_collide: bool = False, mu: float = 1.0) -> Model:
+def cart(self_collide: bool = False, mu: float = 1.0, **slip) -> Model:
     """Four wheels under a body, 10 kg together."""
     body = Inertial(6.0, inertia_kg_m2=(0.05, 0, 0, 0.1, 0, 0.15))
     disc = Inertial(1.0, inertia_kg_m2=(0.003, 0, 0, 0.005, 0, 0.003))
@@ -33,7 +33,9 @@ def cart(self_collide: bool = False, mu: float = 1.0) -> Model:
     lying = Pose.from_xyz_rpy((0, 0, 0), (math.pi / 2, 0, 0))
     for name, (x, y) in WHEELS.items():
         pose = Pose((x, y, RADIUS))
-        tread = Collision("tread", Cylinder(RADIUS, 0.05), lying, surface=Surface(mu1=mu, mu2=mu))
+        tread = Collision(
+            "tread", Cylinder(RADIUS, 0.05), lying, surface=Surface(mu1=mu, mu2=mu, **slip)
+        )
         links.append(Link(name, pose, inertial=disc, collisions=(tread,)))
         axis = JointAxis((0, 1, 0))
         joints.append(Joint(name, JointType.CONTINUOUS, "body", name, pose, axis=axis))
@@ -129,3 +131,25 @@ def test_only_turning_joints_carry_wheels(build):
     engine = build.engine(build.wheel())
     with pytest.raises(EngineError, match="positive numbers are needed"):
         engine.set_wheel_slip("wheel::joint", -0.1, 0.1, 0.1)
+
+
+def test_slip_of_a_wheels_surface_acts_along_its_axle(build):
+    model = cart(slip1=2e-3, slip2=0.0, fdir1=(0.0, 0.0, 1.0))
+    engine = build.engine(build.ground(), model)
+    assert "engine.slip" not in {item.code for item in engine.diagnostics}
+    engine.link("cart::body").apply_wrench((0.0, 20.0, 0.0), point_link_m=(0, 0, -RADIUS))
+    engine.step(1500)
+    speed = engine.link("cart::body").velocity_world().linear_m_s
+    assert speed[1] == pytest.approx(2e-3 * 5.0, rel=0.01)
+    engine.delete("cart")
+    engine.spawn(cart(), name="cart")
+    engine.link("cart::body").apply_wrench((0.0, 20.0, 0.0), point_link_m=(0, 0, -RADIUS))
+    engine.step(500)
+    speed = engine.link("cart::body").velocity_world().linear_m_s
+    assert speed[1] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_unequal_slip_without_a_direction_is_reported(build):
+    engine = build.engine(build.ground(), cart(slip1=2e-3, slip2=0.0))
+    (finding, *_) = engine.diagnostics.by_code("engine.slip")
+    assert "lets only wheels slip" in finding.message

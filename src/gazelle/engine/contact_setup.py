@@ -84,7 +84,8 @@ def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
         element.solref, element.solimp = list(spring.solref), list(HARD_SOLIMP)
         if geom.collision.surface.collide_without_contact:
             element.margin, element.gap = -_UNREACHABLE_M, _UNREACHABLE_M
-        _report_unmapped(geom, builder.diagnostics)
+        slips = geom.link_name in builder.tyres
+        _report_unmapped(geom, builder.diagnostics, slips=slips)
     _exclude(builder, crowded)
     return _explicit_pairs(builder, kinds)
 
@@ -258,7 +259,7 @@ def _add_pair(
     return ExplicitPair(pair.name, surface)
 
 
-def _report_unmapped(geom: BuiltGeom, diagnostics: Diagnostics) -> None:
+def _report_unmapped(geom: BuiltGeom, diagnostics: Diagnostics, *, slips: bool) -> None:
     surface = geom.collision.surface
     span = surface.span or geom.collision.span
     if surface.fdir1 is not None and surface.mu1 != surface.mu2:
@@ -269,13 +270,13 @@ def _report_unmapped(geom: BuiltGeom, diagnostics: Diagnostics) -> None:
             " ground: mu along the world's y, mu2 along x)",
             span,
         )
-    if (surface.slip1 or 0.0) > 0 or (surface.slip2 or 0.0) > 0:
+    if not slips and ((surface.slip1 or 0.0) > 0 or (surface.slip2 or 0.0) > 0):
         diagnostics.report(
             "engine.slip",
             f"collision '{geom.collision_name}' sets slip1 {surface.slip1 or 0:g} and slip2"
-            f" {surface.slip2 or 0:g}; the engine has no force-dependent slip of"
-            " surfaces, friction acts without it; a wheel slip plug-in (libWheelSlipPlugin.so)"
-            " lets wheels slip",
+            f" {surface.slip2 or 0:g}; the engine lets only wheels slip: cylinders"
+            " and spheres on a joint that turns, with fdir1 along its axis or slip1 = slip2;"
+            " friction acts without it",
             span,
         )
     if surface.max_contacts is not None and 0 < surface.max_contacts < 4:

@@ -346,7 +346,7 @@ class EngineCore:
                 tuple(self.motors.installed),
                 tuple(self.locks.installed),
                 tuple(self._welds.pairs),
-                frozenset(self._tyres.slips),
+                frozenset(self._tyres.slips_in(world)),
             ),
             step_s=self._step_ns / _NS,
             diagnostics=self.diagnostics,
@@ -368,7 +368,7 @@ class EngineCore:
         self.motors.bind(compiled)
         self.locks.bind(compiled.model, data, self._step_ns / _NS)
         self._welds.bind(compiled.model, data)
-        self._tyres.bind(compiled.model)
+        self._tyres.bind(compiled.model, self._world)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
 

@@ -16,13 +16,29 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import JointAxis
+from gazelle.description.model import (
+    Collision,
+    Cylinder,
+    Joint,
+    JointAxis,
+    JointType,
+    Link,
+    Sphere,
+    World,
+)
 from gazelle.engine.joints import implicit_damping
 from gazelle.engine.library import mujoco
-from gazelle.engine.names import joint_part, tyre
+from gazelle.engine.names import joint_part, scoped, tyre
 from gazelle.engine.tree import TreeLink
 
-__all__ = ["CENTRING_STEPS", "Slip", "TyreBank", "add_tyre", "correct_weights"]
+__all__ = [
+    "CENTRING_STEPS",
+    "Slip",
+    "TyreBank",
+    "add_tyre",
+    "correct_weights",
+    "described_slips",
+]
 
 CENTRING_STEPS = 10
 """Tyres are put back after at most so many steps."""
@@ -30,6 +46,8 @@ CENTRING_STEPS = 10
 _LEAST_SLIP = 1e-8
 """Stands for none, m/s per N: a wheel under 100 N creeps a micrometre a second."""
 
+_TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
+_ALONG = 0.99
 _MASS_KG = 1e-6
 _SPIN, _SLIDE = "tyre-spin", "tyre-slide"
 
@@ -73,6 +91,38 @@ def correct_weights(model: Any, link_of_tyre: Sequence[tuple[str, str]]) -> None
         model.body_invweight0[model.body(name).id] = model.body_invweight0[model.body(link).id]
 
 
+def described_slips(world: World) -> dict[str, Slip]:
+    """Return the slip that files give to the collisions of wheels, by wheel joint.
+
+    A wheel is a cylinder or sphere on a joint that turns. ``slip1`` acts along ``fdir1``, which
+    must be the axle; without a direction both must be equal.
+    """
+    found: dict[str, Slip] = {}
+    for model in world.models:
+        for joint in () if model.static else model.joints:
+            link = model.link(joint.child)
+            if link is not None and joint.type in _TURNING:
+                slips = (_described(link, joint, collision) for collision in link.collisions)
+                slip = next((item for item in slips if item is not None), None)
+                if slip is not None:
+                    found[scoped(model.name, joint.name)] = slip
+    return found
+
+
+def _described(link: Link, joint: Joint, collision: Collision) -> Slip | None:
+    surface, shape = collision.surface, collision.shape
+    first, second = surface.slip1 or 0.0, surface.slip2 or 0.0
+    if max(first, second) <= 0 or not isinstance(shape, Cylinder | Sphere):
+        return None
+    if surface.fdir1 is not None:
+        T_link_joint = link.T_model_link.inverse() @ joint.T_model_joint
+        axle = T_link_joint.rotate((joint.axis or JointAxis()).xyz)
+        along = collision.T_link_collision.rotate(surface.fdir1)
+        if abs(float(np.dot(axle, along))) > _ALONG * float(np.linalg.norm(along)):
+            return Slip(first, second, shape.radius_m)
+    return Slip(first, first, shape.radius_m) if first == second else None
+
+
 class TyreBank:
     """Slip of all wheels; survives recompiles."""
 
@@ -90,12 +140,17 @@ class TyreBank:
         self.slips[joint] = slip
         return new
 
+    def slips_in(self, world: World) -> dict[str, Slip]:
+        """Return the slip of all wheels of a world; commands come before its files."""
+        return {**described_slips(world), **self.slips}
+
     def forget(self, prefix: str) -> None:
         """Drop the wheels of a deleted model."""
         self.slips = {k: v for k, v in self.slips.items() if not k.startswith(prefix)}
 
-    def bind(self, model: Any) -> None:
+    def bind(self, model: Any, world: World) -> None:
         """Find the tyres in a newly compiled world."""
+        self.slips = self.slips_in(world)
         spins = [model.joint(joint_part(joint, _SPIN)).id for joint in self.slips]
         slides = [model.joint(joint_part(joint, _SLIDE)).id for joint in self.slips]
         self._spins = model.jnt_dofadr[spins].astype(np.intp)

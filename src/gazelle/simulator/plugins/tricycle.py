@@ -150,7 +150,7 @@ class _Tricycle:
     def _reckon(self) -> None:
         """Dead reckoning (Siegwart 2011, p. 337) with left minus right, as the originals have it.
 
-        So the yaw has the right sign where positive speeds of the wheels drive backwards.
+        Their example robot names its wheels the other way round, so that its yaw comes out right.
         """
         angles, last = self._angles(), self._last_angles
         self._last_angles = angles
