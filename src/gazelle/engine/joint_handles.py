@@ -14,6 +14,7 @@ from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
     from gazelle.engine.core import EngineCore
+    from gazelle.engine.joint_group import JointGroup
 
 __all__ = ["JointHandle"]
 
@@ -28,12 +29,22 @@ class JointHandle:
     floating) read as 0 and cannot be driven.
     """
 
-    __slots__ = ("_dof", "_element", "_engine", "_qpos", "_revision", "axis_index", "name")
+    __slots__ = (
+        "_dof",
+        "_element",
+        "_engine",
+        "_group",
+        "_qpos",
+        "_revision",
+        "axis_index",
+        "name",
+    )
 
     def __init__(self, engine: EngineCore, name: str, axis_index: int = 0) -> None:
         self.name = name
         self.axis_index = axis_index
         self._engine = engine
+        self._group: JointGroup | None = None
         self._revision = -1
         self._element, self._qpos, self._dof = name, -1, -1
         self._index()
@@ -140,11 +151,11 @@ class JointHandle:
         self._engine.release_lock(self._element)
         self._engine.command_motor(self._element, command)
 
-    def lock_position(self, position: float) -> None:
+    def lock_position(self, position: float, *, steps: int = 1) -> None:
         """Hold a position whatever acts on the joint; see `JointGroup.lock_position`."""
-        self._engine.joint_group((self.name,)).lock_position(
-            np.array([_finite(position, self.name)])
-        )
+        if self._group is None:
+            self._group = self._engine.joint_group((self.name,))
+        self._group.lock_position(np.array([_finite(position, self.name)]), steps=steps)
 
     def release(self) -> None:
         """Stop motor, lock and effort: the joint moves freely."""

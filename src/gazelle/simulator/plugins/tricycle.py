@@ -129,9 +129,7 @@ class _Tricycle:
         self._wheel.set_velocity_target(rate, self._torque_nm)
         angle = min(max(angle, -math.pi / 2), math.pi / 2)
         if self._steering_rate <= 0:
-            limit = np.clip(angle, self._steering.lower, self._steering.upper)
-            group = self._engine.joint_group((self._steering.name,))
-            group.lock_position(np.array([limit]), steps=self._steps)
+            self._steering.lock_position(angle, steps=self._steps)
             return
         gap = angle - self._steering.position
         turn = 0.0 if abs(gap) < self._angle_tolerance else math.copysign(self._steering_rate, gap)
