@@ -62,7 +62,9 @@ def node_environment(environ: Mapping[str, str], workspace: Workspace) -> dict[s
     environment = dict(environ)
     environment["PATH"] = _prepended(command_folder(), environ.get("PATH", ""))
     environment["PYTHONPATH"] = _prepended(drop_in_folder(), environ.get("PYTHONPATH", ""))
-    environment.setdefault("ROS_PACKAGE_PATH", os.pathsep.join(_source_folders(workspace)))
+    # Nodes run in another folder and must find what this one's workspace has.
+    found = [*environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), *_source_folders(workspace)]
+    environment["ROS_PACKAGE_PATH"] = os.pathsep.join(dict.fromkeys(filter(None, found)))
     environment.setdefault("ROS_MASTER_URI", "http://localhost:11311")
     environment.setdefault("ROS_DISTRO", "noetic")
     environment.setdefault("ROS_VERSION", "1")
