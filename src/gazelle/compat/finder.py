@@ -1,11 +1,11 @@
 """Imports that only exist here: message packages, and packages of the workspace.
 
+Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.generation`.
 Both finders stand last in ``sys.meta_path``, so whatever is installed wins.
 """
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -15,6 +15,8 @@ from importlib.util import spec_from_file_location, spec_from_loader
 from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any
+
+from gazelle.compat.generation import message_generation
 
 __all__ = ["install"]
 
@@ -141,13 +143,15 @@ class _PartLoader(Loader):
     def __init__(self, package: str, part: str) -> None:
         self._package = package
         self._part = part
+        self._is_ros1 = True
 
     def exec_module(self, module: ModuleType) -> None:
         from gazelle.interfaces import known_types
 
+        self._is_ros1 = message_generation() == 1
         names = known_types(self._part, self._package)
         exported = [name.rsplit("/", 1)[-1] for name in names]
-        if self._part == "srv" and _ros1():
+        if self._part == "srv" and self._is_ros1:
             exported += [f"{name}{half}" for name in exported for half in ("Request", "Response")]
         make = self._make
 
@@ -168,7 +172,7 @@ class _PartLoader(Loader):
         full = f"{self._package}/{self._part}/{name}"
         if self._part == "action":
             return interfaces.action_type(full)
-        if not _ros1():
+        if not self._is_ros1:
             made = interfaces.message_type if self._part == "msg" else interfaces.service_type
             return made(full)
         if self._part == "msg":
@@ -186,8 +190,3 @@ class _PartLoader(Loader):
                 service = ros1_service_type(f"{self._package}/{name.removesuffix(half)}")
                 return getattr(service, f"_{half.lower()}_class")
         raise AttributeError(name)
-
-
-def _ros1() -> bool:
-    """Return whether message classes take the form of ROS 1; launched nodes know from it."""
-    return os.environ.get("ROS_VERSION", "1") != "2"

@@ -39,6 +39,7 @@ class Clock:
         self._subscription: Subscription | None = None
         self._owner: Node | None = None
         self._use_sim_time = False
+        self._chosen: bool | None = None
         self._closed = False
         self._sim_ns = 0
         self._jumps = 0
@@ -98,10 +99,19 @@ class Clock:
                 self._owner = self._subscription = None
             self.refresh()
 
+    def use(self, sim_time: bool | None) -> None:
+        """Choose simulated or wall time whatever ``/use_sim_time`` says; None lets it say.
+
+        ROS 2 has a parameter ``use_sim_time`` for each node.
+        """
+        self._chosen = sim_time
+        self.refresh()
+
     def refresh(self) -> None:
         """Use simulated or wall time, as the parameter says now."""
         with self._switching:
-            wanted = bool(self._nodes) and _is_true(self._read_parameter())
+            said = self._read_parameter() if self._chosen is None else self._chosen
+            wanted = bool(self._nodes) and _is_true(said)
             if self._nodes and wanted != self._use_sim_time:
                 with self._changed:
                     self._use_sim_time = wanted

@@ -1,0 +1,143 @@
+"""Clocks (rclpy.clock)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from gazelle.compat.rclpy.context import Context, get_default_context
+from gazelle.compat.rclpy.duration import Duration
+from gazelle.compat.rclpy.exceptions import NotInitializedException
+from gazelle.compat.rclpy.time import ClockType, Time
+from gazelle.graph import Clock as GraphClock
+from gazelle.graph import TimeJumpError
+
+__all__ = ["Clock", "JumpThreshold", "ROSClock", "TimeJump"]
+
+_SLICE_NS = 100_000_000
+
+
+class JumpThreshold(NamedTuple):
+    """Which jumps a callback hears of; this graph tells jumps backwards."""
+
+    min_forward: Duration | None = None
+    min_backward: Duration | None = None
+    on_clock_change: bool = False
+
+
+class TimeJump(NamedTuple):
+    """A jump of simulated time."""
+
+    delta: Duration
+
+
+class Clock:
+    """A clock of the system: wall time or steady time."""
+
+    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        self._clock_type = clock_type
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+        """Make a `ROSClock` where ROS time is asked for."""
+        wanted = ROSClock if clock_type is ClockType.ROS_TIME and cls is Clock else cls
+        return super().__new__(wanted)
+
+    @property
+    def clock_type(self) -> ClockType:
+        """Which clock it is."""
+        return self._clock_type
+
+    def now_ns(self) -> int:
+        """Return the time in nanoseconds."""
+        steady = self._clock_type is ClockType.STEADY_TIME
+        return time.monotonic_ns() if steady else time.time_ns()
+
+    def now(self) -> Time:
+        """Return the time."""
+        return Time(nanoseconds=self.now_ns(), clock_type=self._clock_type)
+
+    def sleep_until_ns(self, target_ns: int, is_over: Callable[[], bool]) -> bool:
+        """Sleep until a time; False when `is_over` says so first."""
+        while not is_over():
+            left_ns = target_ns - self.now_ns()
+            if left_ns <= 0:
+                return True
+            time.sleep(min(left_ns, _SLICE_NS) / 1e9)
+        return False
+
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Sleep until a time; False when the context was shut down first.
+
+        Raises:
+            ValueError: the time is of another clock.
+            NotInitializedException: `rclpy.init` has not been called.
+        """
+        context = context or get_default_context()
+        if not context.ok():
+            raise NotInitializedException
+        if until.clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        return self.sleep_until_ns(until.nanoseconds, lambda: not context.ok())
+
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
+        """Sleep for a while; False when the context was shut down first."""
+        return self.sleep_until(self.now() + rel_time, context)
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self._clock_type.name})"
+
+
+class ROSClock(Clock):
+    """A node's clock: wall time, or simulated time while ``use_sim_time`` is true."""
+
+    def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
+        super().__init__(clock_type=clock_type)
+        self._source: GraphClock | None = None
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> ROSClock:
+        """Make one."""
+        return object.__new__(cls)
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """True while the clock follows ``/clock``."""
+        return self._source is not None and self._source.use_sim_time
+
+    def attach(self, source: GraphClock) -> None:
+        """Follow the graph's clock."""
+        self._source = source
+
+    def now_ns(self) -> int:
+        """Return the time in nanoseconds."""
+        return time.time_ns() if self._source is None else self._source.now_ns()
+
+    def sleep_until_ns(self, target_ns: int, is_over: Callable[[], bool]) -> bool:
+        """Sleep until a time; False when `is_over` says so first, or time went back."""
+        if self._source is None or not self._source.use_sim_time:
+            return super().sleep_until_ns(target_ns, is_over)
+        try:
+            return self._source.sleep_until(target_ns) and not is_over()
+        except TimeJumpError:
+            return False
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], Any] | None = None,
+        post_callback: Callable[[TimeJump], Any] | None = None,
+    ) -> None:
+        """Call back when simulated time jumps backwards."""
+        del threshold
+
+        def on_jump(delta_ns: int) -> None:
+            if pre_callback is not None:
+                pre_callback()
+            if post_callback is not None:
+                post_callback(TimeJump(Duration(nanoseconds=delta_ns)))
+
+        if self._source is not None:
+            self._source.on_jump(on_jump)

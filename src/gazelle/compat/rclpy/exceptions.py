@@ -1,0 +1,122 @@
+"""rclpy's exceptions (rclpy.exceptions), and those of executors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = [
+    "ExternalShutdownException",
+    "InvalidHandle",
+    "InvalidParameterException",
+    "InvalidParameterTypeException",
+    "InvalidParameterValueException",
+    "InvalidTopicNameException",
+    "NameValidationException",
+    "NotInitializedException",
+    "ParameterAlreadyDeclaredException",
+    "ParameterException",
+    "ParameterImmutableException",
+    "ParameterNotDeclaredException",
+    "ParameterUninitializedException",
+    "ROSInterruptException",
+    "ShutdownException",
+    "TimeoutException",
+]
+
+
+class NotInitializedException(Exception):  # noqa: N818 - rclpy's name
+    """`rclpy.init` has not been called."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("rclpy.init() has not been called", *args)
+
+
+class InvalidHandle(Exception):  # noqa: N818 - rclpy's name
+    """Something that was destroyed is used."""
+
+
+class NameValidationException(Exception):  # noqa: N818 - rclpy's name
+    """A name is not legal."""
+
+
+class InvalidTopicNameException(NameValidationException):
+    """A topic's name is not legal."""
+
+
+class TimeoutException(Exception):  # noqa: N818 - rclpy's name
+    """Time was up."""
+
+
+class ShutdownException(Exception):  # noqa: N818 - rclpy's name
+    """The executor was shut down."""
+
+
+class ExternalShutdownException(Exception):  # noqa: N818 - rclpy's name
+    """The context was shut down while spinning."""
+
+
+class ROSInterruptException(Exception):  # noqa: N818 - rclpy's name
+    """The context was shut down during a sleep."""
+
+
+class ParameterException(Exception):  # noqa: N818 - rclpy's name
+    """Base of what concerns parameters."""
+
+    def __init__(self, error_msg: str, parameters: Any, *args: object) -> None:
+        self._names = (
+            [parameters] if isinstance(parameters, str) else [str(item) for item in parameters]
+        )
+        super().__init__(f"{error_msg}: {', '.join(self._names)}", *args)
+
+
+class ParameterNotDeclaredException(ParameterException):
+    """A parameter is used that was not declared."""
+
+    def __init__(self, parameters: Any, hint: str = "") -> None:
+        super().__init__("Invalid access to undeclared parameter(s)", parameters)
+        if hint:
+            self.args = (f"{self.args[0]}; {hint}",)
+
+
+class ParameterAlreadyDeclaredException(ParameterException):
+    """A parameter is declared a second time."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__("Parameter(s) already declared", parameters)
+
+
+class ParameterImmutableException(ParameterException):
+    """A read-only parameter is set."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__("Attempted to modify read-only parameter(s)", parameters)
+
+
+class ParameterUninitializedException(ParameterException):
+    """A parameter was declared by type only and has no value yet."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__("The parameter is not initialized", parameters)
+
+
+class InvalidParameterException(ParameterException):
+    """A parameter's name is not legal."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__("Invalid parameter name", parameters)
+
+
+class InvalidParameterTypeException(ParameterException):
+    """A parameter's value is of another type than declared."""
+
+    def __init__(self, desired: str, value: Any, name: str) -> None:
+        text = f"Trying to set parameter '{name}' to '{value}' of type '{type(value).__name__}'"
+        super().__init__(f"{text}, expecting type '{desired}'", name)
+
+
+class InvalidParameterValueException(ParameterException):
+    """A parameter's value was refused."""
+
+    def __init__(self, parameter: str, value: Any, reason: str) -> None:
+        text = f"Invalid parameter value ({value}) for parameter. Reason: {reason}"
+        super().__init__(text, parameter)

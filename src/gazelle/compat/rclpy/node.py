@@ -1,0 +1,400 @@
+"""Nodes (rclpy.node)."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Any, TypeVar
+
+from gazelle.compat.rclpy import logging
+from gazelle.compat.rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from gazelle.compat.rclpy.clock import Clock, ROSClock
+from gazelle.compat.rclpy.context import Context, get_default_context
+from gazelle.compat.rclpy.endpoints import Client, Publisher, Service, Subscription, check_type
+from gazelle.compat.rclpy.exceptions import NotInitializedException
+from gazelle.compat.rclpy.node_graph import GraphQueries
+from gazelle.compat.rclpy.node_parameters import ParameterHolder
+from gazelle.compat.rclpy.parameter import Parameter
+from gazelle.compat.rclpy.qos import QoSProfile, as_profile, qos_profile_services_default
+from gazelle.compat.rclpy.timer import Rate, Timer
+from gazelle.compat.rclpy.work import Once, Work
+from gazelle.graph import ServiceRefusedError
+from gazelle.graph.names import resolve
+from gazelle.graph.node_parameters import NodeParameters
+
+__all__ = ["Node"]
+
+_T = TypeVar("_T")
+_S_TO_NS = 1_000_000_000
+_SIM_TIME = "use_sim_time"
+
+
+class Node(ParameterHolder, GraphQueries):
+    """A node of ROS 2.
+
+    Args:
+        node_name: one legal part; ``__node:=`` on the command line counts more.
+        context: the default one when None.
+        cli_args: arguments of this node alone, with ``--ros-args``.
+        namespace: ``__ns:=`` on the command line counts more.
+        use_global_arguments: heed the program's arguments.
+        enable_rosout: say things on ``/rosout`` too.
+        start_parameter_services: let others get and set parameters.
+        parameter_overrides: values that count more than defaults.
+        allow_undeclared_parameters: setting declares.
+        automatically_declare_parameters_from_overrides: declare what the overrides name.
+
+    Raises:
+        NotInitializedException: `rclpy.init` has not been called.
+        IllegalNameError: the name is not legal.
+    """
+
+    def __init__(
+        self,
+        node_name: str,
+        *,
+        context: Context | None = None,
+        cli_args: list[str] | None = None,
+        namespace: str | None = None,
+        use_global_arguments: bool = True,
+        enable_rosout: bool = True,
+        start_parameter_services: bool = True,
+        parameter_overrides: list[Parameter] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+    ) -> None:
+        from gazelle.compat.rclpy.arguments import RosArguments, parse_ros_arguments
+
+        del start_parameter_services, enable_logger_service
+        self.context = context or get_default_context()
+        if not self.context.ok():
+            raise NotInitializedException
+        given = self.context.arguments if use_global_arguments else RosArguments()
+        own = parse_ros_arguments(cli_args or [])
+        name = own.node_name(given.node_name(node_name))
+        space = own.namespace(node_name) or given.namespace(node_name) or namespace or ""
+        self.graph_node = self.context.graph.create_node(
+            name,
+            namespace=resolve(space or "/"),
+            remappings={**given.remappings(name), **own.remappings(name)},
+            rosout=enable_rosout,
+        )
+        self.is_destroyed = False
+        self.executor: Any = None
+        self._pending: deque[Work] = deque()
+        self._answers: set[threading.Event] = set()
+        self._created: list[Any] = []
+        self._default_callback_group = MutuallyExclusiveCallbackGroup()
+        self._clock = ROSClock()
+        self._clock.attach(self.graph_node.clock)
+        self._logger = logging.RcutilsLogger(self._logger_name())
+        logging.attach_node(self._logger.name, self.graph_node)
+        for logger, level in {**given.log_levels, **own.log_levels}.items():
+            if logger in ("", self._logger.name):
+                self._logger.set_level(logging.get_logging_severity_from_string(level))
+        overrides = {**given.parameters(self._full), **own.parameters(self._full)}
+        overrides |= {one.name: one.value for one in parameter_overrides or []}
+        self._offer_parameters(overrides, allow_undeclared_parameters)
+        if automatically_declare_parameters_from_overrides:
+            for key in [key for key in overrides if not self.has_parameter(key)]:
+                self.declare_parameter(key, overrides[key])
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(self, *exc_info: object) -> None:
+        self.destroy_node()
+
+    @property
+    def default_callback_group(self) -> CallbackGroup:
+        """The group of what names no other."""
+        return self._default_callback_group
+
+    @property
+    def publishers(self) -> Iterator[Publisher]:
+        """Publishers of this node."""
+        return (one for one in self._created if isinstance(one, Publisher))
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Subscriptions of this node."""
+        return (one for one in self._created if isinstance(one, Subscription))
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """Services of this node."""
+        return (one for one in self._created if isinstance(one, Service))
+
+    @property
+    def clients(self) -> Iterator[Client]:
+        """Clients of this node."""
+        return (one for one in self._created if isinstance(one, Client))
+
+    @property
+    def timers(self) -> Iterator[Timer]:
+        """Timers of this node."""
+        return (one for one in self._created if isinstance(one, Timer))
+
+    def get_name(self) -> str:
+        """Return the node's own name."""
+        return self._full.rpartition("/")[2]
+
+    def get_namespace(self) -> str:
+        """Return the namespace, ``/`` for none."""
+        return self._full.rpartition("/")[0] or "/"
+
+    def get_fully_qualified_name(self) -> str:
+        """Return namespace and name."""
+        return self._full
+
+    def get_clock(self) -> ROSClock:
+        """Return the node's clock."""
+        return self._clock
+
+    def get_logger(self) -> logging.RcutilsLogger:
+        """Return the node's logger."""
+        return self._logger
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """Return a topic's global name, after remapping unless only expanded."""
+        if only_expand:
+            return resolve(topic, self.get_namespace(), node=self._full)
+        return self.graph_node.resolve_name(topic)
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """Return a service's global name, after remapping unless only expanded."""
+        return self.resolve_topic_name(service, only_expand=only_expand)
+
+    def create_publisher(
+        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, **_options: Any
+    ) -> Publisher:
+        """Offer a topic.
+
+        Raises:
+            AttributeError: the type is none of ROS 2.
+        """
+        check_type(msg_type, "msg")
+        return self._keep(Publisher(self, msg_type, topic, as_profile(qos_profile)))
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        raw: bool = False,
+        **_options: Any,
+    ) -> Subscription:
+        """Receive a topic; callbacks run while the node spins.
+
+        Raises:
+            AttributeError: the type is none of ROS 2.
+        """
+        check_type(msg_type, "msg")
+        group = callback_group or self._default_callback_group
+        qos = as_profile(qos_profile)
+        return self._keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Answer a service: `callback(request, response)` returns the response.
+
+        Raises:
+            AttributeError: the type is none of ROS 2.
+        """
+        del qos_profile
+        check_type(srv_type, "srv")
+        group = callback_group or self._default_callback_group
+        return self._keep(Service(self, srv_type, srv_name, callback, group))
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Client:
+        """Prepare calls of a service.
+
+        Raises:
+            AttributeError: the type is none of ROS 2.
+        """
+        del qos_profile
+        check_type(srv_type, "srv")
+        group = callback_group or self._default_callback_group
+        return self._keep(Client(self, srv_type, srv_name, group))
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any],
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Call back once a period of the node's clock."""
+        period_ns = int(float(timer_period_sec) * _S_TO_NS)
+        group = callback_group or self._default_callback_group
+        return self._keep(
+            Timer(self, callback, period_ns, clock or self._clock, group, autostart=autostart)
+        )
+
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
+        """Return something that sleeps at a rate.
+
+        Raises:
+            TypeError: the frequency is no number.
+            ValueError: it is not positive.
+        """
+        if not isinstance(frequency, int | float):
+            raise TypeError(f"frequency must be float or int, got {type(frequency)}")
+        if frequency <= 0:
+            raise ValueError("frequency must be greater than 0")
+        return Rate(self, int(_S_TO_NS / frequency), clock or self._clock)
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Stop offering a topic."""
+        return self._destroy(publisher)
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Stop receiving a topic."""
+        return self._destroy(subscription)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Stop answering a service."""
+        return self._destroy(service)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Give a client up."""
+        return self._destroy(client)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """Stop a timer."""
+        return self._destroy(timer)
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Stop a rate."""
+        rate.destroy()
+        return True
+
+    def destroy_node(self) -> None:
+        """Take everything of this node off the graph; twice does nothing."""
+        if self.is_destroyed:
+            return
+        self.is_destroyed = True
+        if self.executor is not None:
+            self.executor.remove_node(self)
+        for one in reversed(self._created):
+            one.destroy()
+        for event in tuple(self._answers):
+            event.set()
+        self._parameters.close()
+        self.graph_node.shutdown("destroyed")
+        logging.detach_node(self._logger.name)
+
+    # What entities and executors call.
+
+    def keep(self, one: Any) -> None:
+        """Destroy something together with the node: an action's end."""
+        self._created.append(one)
+
+    def post(self, work: Work) -> None:
+        """Let the executor that spins this node do some work; from any thread."""
+        self._pending.append(work)
+        if self.executor is not None:
+            self.executor.wake()
+
+    def next_work(self) -> tuple[Work, Callable[[], Any]] | None:
+        """Return the oldest work whose group lets it run now, and claim the group."""
+        for _ in range(len(self._pending)):
+            work = self._pending.popleft()
+            if not work.callback_group.beginning_execution(work):
+                self._pending.append(work)
+                continue
+            callback = work.take()
+            if callback is not None:
+                return work, callback
+            work.callback_group.ending_execution(work)
+        return None
+
+    def run_and_wait(self, group: CallbackGroup, callback: Callable[[], Any]) -> Any:
+        """Let the executor run a function or coroutine and wait for its value.
+
+        Raises:
+            ServiceRefusedError: the node was destroyed meanwhile.
+        """
+        done = threading.Event()
+        found: list[Any] = []
+
+        async def run() -> None:
+            try:
+                value = callback()
+                found.append(await value if hasattr(value, "__await__") else value)
+            finally:
+                done.set()
+
+        self._answers.add(done)
+        try:
+            self.post(Once(group, run))
+            done.wait()
+        finally:
+            self._answers.discard(done)
+        if not found:
+            raise ServiceRefusedError(f"node {self._full} could not answer")
+        return found[0]
+
+    @property
+    def _full(self) -> str:
+        return self.graph_node.name
+
+    def _logger_name(self) -> str:
+        return self._full.strip("/").replace("/", ".")
+
+    def _offer_parameters(self, overrides: dict[str, Any], allow_undeclared: bool) -> None:
+        self._overrides = overrides
+        self._allow_undeclared = allow_undeclared
+        self._uninitialized = {}
+        self._pre_callbacks, self._set_callbacks, self._post_callbacks = [], [], []
+        self._parameters = NodeParameters(
+            self.graph_node,
+            self._full,
+            {_SIM_TIME: overrides.get(_SIM_TIME) is True},
+            self._on_set,
+            allow_undeclared=allow_undeclared,
+            run=self._run_parameters,
+            now_ns=self._clock.now_ns,
+        )
+        self._take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
+
+    def _run_parameters(self, command: Callable[[], Any]) -> Any:
+        """Handle a request in the thread that spins, so that callbacks meet no other thread."""
+        if self.executor is None:
+            return command()
+        return self.run_and_wait(self._default_callback_group, command)
+
+    def _take_effect(self, changes: dict[str, Any]) -> None:
+        if _SIM_TIME in changes:
+            self.graph_node.clock.use(bool(changes[_SIM_TIME]))
+
+    def _keep(self, one: _T) -> _T:
+        self._created.append(one)
+        return one
+
+    def _destroy(self, one: Any) -> bool:
+        if one not in self._created:
+            return False
+        self._created.remove(one)
+        one.destroy()
+        return True

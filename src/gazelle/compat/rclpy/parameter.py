@@ -1,0 +1,114 @@
+"""Parameters of a node (rclpy.parameter)."""
+
+from __future__ import annotations
+
+import enum
+from typing import Any
+
+from gazelle.graph.parameter_values import (
+    parameter_type,
+    value_from_message,
+    value_message,
+)
+from gazelle.interfaces import message_type
+
+__all__ = ["PARAMETER_SEPARATOR_STRING", "Parameter", "parameter_value_to_python"]
+
+PARAMETER_SEPARATOR_STRING = "."
+
+
+class Parameter:
+    """A name with a value.
+
+    Args:
+        name: not empty; parts are separated by dots.
+        type_: found from the value by default.
+        value: the value.
+
+    Raises:
+        TypeError: the type is no `Parameter.Type`.
+        ValueError: value and type do not fit.
+    """
+
+    class Type(enum.IntEnum):
+        """Kinds of parameters, ``rcl_interfaces/msg/ParameterType``."""
+
+        NOT_SET = 0
+        BOOL = 1
+        INTEGER = 2
+        DOUBLE = 3
+        STRING = 4
+        BYTE_ARRAY = 5
+        BOOL_ARRAY = 6
+        INTEGER_ARRAY = 7
+        DOUBLE_ARRAY = 8
+        STRING_ARRAY = 9
+
+        @classmethod
+        def from_parameter_value(cls, value: Any) -> Parameter.Type:
+            """Return the kind of a Python value."""
+            return cls(int(parameter_type(value)))
+
+        def check(self, value: Any) -> bool:
+            """Tell whether a value is of this kind."""
+            found = parameter_type(value)
+            if value == [] and self >= Parameter.Type.BYTE_ARRAY:
+                return True
+            return int(found) == int(self)
+
+    def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
+        if type_ is None:
+            type_ = Parameter.Type.from_parameter_value(value)
+        if not isinstance(type_, Parameter.Type):
+            raise TypeError("type must be an instance of Parameter.Type")
+        if not type_.check(value):
+            raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
+        self._name = name
+        self._type = type_
+        self._value = value
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._name
+
+    @property
+    def type_(self) -> Parameter.Type:
+        """Its kind."""
+        return self._type
+
+    @property
+    def value(self) -> Any:
+        """Its value, None when it is not set."""
+        return self._value
+
+    @classmethod
+    def from_parameter_msg(cls, param_msg: Any) -> Parameter:
+        """Return the parameter of a ``rcl_interfaces/msg/Parameter``."""
+        kind = Parameter.Type(param_msg.value.type)
+        return cls(param_msg.name, kind, value_from_message(param_msg.value))
+
+    def get_parameter_value(self) -> Any:
+        """Return ``rcl_interfaces/msg/ParameterValue``."""
+        return value_message(self._value)
+
+    def to_parameter_msg(self) -> Any:
+        """Return ``rcl_interfaces/msg/Parameter``."""
+        make = message_type("rcl_interfaces/msg/Parameter")
+        return make(name=self._name, value=self.get_parameter_value())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Parameter):
+            return NotImplemented
+        return (self._name, self._type, self._value) == (other.name, other.type_, other.value)
+
+    def __hash__(self) -> int:
+        return hash((self._name, self._type))
+
+    def __repr__(self) -> str:
+        return f"Parameter(name={self._name!r}, type_={self._type!s}, value={self._value!r})"
+
+
+def parameter_value_to_python(parameter_value: Any) -> Any:
+    """Return the Python value of a ``rcl_interfaces/msg/ParameterValue``."""
+    return value_from_message(parameter_value)
