@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from gazelle.cli import dynparam
+from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.graph.reconfigure import (
@@ -18,6 +19,8 @@ from gazelle.graph.reconfigure import (
     ReconfigureServer,
     enum_edit_method,
 )
+from gazelle.launch.executables import find_executable
+from gazelle.workspace import Workspace
 
 SIZES = enum_edit_method((EnumConstant("Small", 0), EnumConstant("Large", 2)), "Sizes")
 GROUP = DynamicGroup(
@@ -146,8 +149,9 @@ def test_nobody_there_in_time(dyn: Any, server: ReconfigureServer) -> None:
     assert found.code == 1
     assert "timeout exceeded while waiting for service /camara/set_parameters" in found.err
     assert "did you mean '/camera'" in found.err
-    found = dyn("set", "--timeout=0.05", "nobody", "p", "1")
-    assert (found.code, found.out) == (0, "couldn't set parameters at node nobody\n")
+    for words in (("--timeout=0.05",), ("-t", "0.05")):
+        found = dyn("set", *words, "nobody", "p", "-1")
+        assert (found.code, found.out) == (0, "couldn't set parameters at node nobody\n")
 
 
 @pytest.mark.parametrize(
@@ -159,6 +163,7 @@ def test_nobody_there_in_time(dyn: Any, server: ReconfigureServer) -> None:
         (("set", "a", "3"), "or a node name and a YAML dictionary"),
         (("set", "a", "b", "c", "d"), "too many arguments"),
         (("dump", "a"), "invalid arguments. Please specify an output file"),
+        (("set", "a", "b", "1", "-t"), "-t option requires 1 argument"),
         (("load", "a"), "invalid arguments. Please specify an input file"),
         (("set_from_parameters",), "invalid arguments. Please specify a node name"),
     ],
@@ -167,6 +172,16 @@ def test_wrong_arguments_end_with_two(dyn: Any, words: tuple[str, ...], text: st
     found = dyn(*words)
     assert found.code == 2
     assert "Usage: dynparam " in found.err and text in found.err
+
+
+def test_launch_files_and_rosrun_find_it() -> None:
+    found = find_executable(
+        "dynamic_reconfigure",
+        "dynparam",
+        workspace=Workspace.discover(environ={}),
+        diagnostics=Diagnostics(),
+    )
+    assert found is not None and found.command[1:] == ("-m", "gazelle.cli", "dynparam")
 
 
 def test_usage_without_command_ends_with_one(dyn: Any) -> None:

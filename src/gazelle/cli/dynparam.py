@@ -81,10 +81,9 @@ def _set(line: CommandLine, words: list[str]) -> int:
     import yaml
 
     usage = "set [options] node parameter value\n   or: %prog set [options] node values"
-    # Negative numbers are values, not options.
-    values = [word for word in words if not word.startswith("-") or word[1:2].isdigit()]
+    values, words = _split(words)
     parser = _parser(usage)
-    options, _ = parser.parse_args([word for word in words if word not in values])
+    options, _ = parser.parse_args(words)
     if len(values) > 3:
         parser.error("too many arguments")
     if len(values) < 2:
@@ -135,6 +134,20 @@ def _load(line: CommandLine, words: list[str]) -> int:
     with _node(line) as (graph, node):
         _change(graph, node, name, changes, timeout_s)
     return 0
+
+
+def _split(words: list[str]) -> tuple[list[str], list[str]]:
+    """Return values and options of ``set``; negative numbers are values."""
+    values, options = [], []
+    rest = iter(words)
+    for word in rest:
+        if not word.startswith("-") or word[1:2].isdigit():
+            values.append(word)
+        else:
+            options.append(word)
+            if word in {"-t", "--timeout"}:
+                options += [next(rest)] if len(words) > len(values) + len(options) else []
+    return values, options
 
 
 def _arguments(
