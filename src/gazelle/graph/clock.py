@@ -110,8 +110,7 @@ class Clock:
     def refresh(self) -> None:
         """Use simulated or wall time, as the parameter says now."""
         with self._switching:
-            said = self._read_parameter() if self._chosen is None else self._chosen
-            wanted = bool(self._nodes) and _is_true(said)
+            wanted = bool(self._nodes) and self._is_sim_time_wanted()
             if self._nodes and wanted != self._use_sim_time:
                 with self._changed:
                     self._use_sim_time = wanted
@@ -144,6 +143,9 @@ class Clock:
         if delta_ns < 0:
             for listener in tuple(self._listeners):
                 listener(delta_ns)
+
+    def _is_sim_time_wanted(self) -> bool:
+        return _is_true(self._read_parameter()) if self._chosen is None else self._chosen
 
     def _wait_for_start(self) -> bool:
         with self._changed:
