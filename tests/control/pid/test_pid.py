@@ -196,6 +196,14 @@ def test_bank_resets_some() -> None:
     assert bank.compute(np.zeros(len(GAINS)), 1.0)[1] == 0.0
 
 
+def test_bank_leaves_the_arrays_of_others_alone() -> None:
+    bank, rates = PidBank([PidGains(2.0, 0.0, 1.0)] * 2), np.array([0.5, 0.25])
+    first = bank.compute(np.ones(2), PERIOD_S, rates)
+    bank.reset()
+    bank.compute(np.zeros(2), PERIOD_S, np.zeros(2))
+    assert list(first) == [2.5, 2.25] and list(rates) == [0.5, 0.25]
+
+
 def test_contradicting_bounds_are_a_problem() -> None:
     assert "received i_min > i_max" in PidGains(i_min=1.0).problem
     assert "u_min > u_max" in PidGains(u_min=1.0, u_max=0.0).problem

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -63,6 +64,9 @@ class PidBank:
     def reset(self, places: Iterable[int] | None = None, *, keeps_integral: bool = False) -> None:
         """Forget errors and commands of all or some, integrals unless `keeps_integral`."""
         chosen = list(range(len(self)) if places is None else places)
+        # Others may hold these arrays: they are replaced, not written.
+        kept = (self._last, self._errors, self._rates, self._command)
+        self._last, self._errors, self._rates, self._command = (array.copy() for array in kept)
         for values in (self._last, self._errors, self._rates, self._command):
             values[chosen] = 0.0
         if not keeps_integral:
@@ -72,7 +76,7 @@ class PidBank:
                 self._single[place].reset(keeps_integral=keeps_integral)
 
     def compute(self, errors: Array, period_s: float, rates: Array | None = None) -> Array:
-        """Return the commands (N,); an own array that the next call leaves alone.
+        """Return the commands (N,); the next call makes another array.
 
         Args:
             errors: target - state (N,).
@@ -84,40 +88,53 @@ class PidBank:
         given = rates
         if rates is None:
             rates = (errors - self._last) / period_s
-        # One sum finds NaN and infinities without a temporary per joint.
-        if not np.isfinite(errors.sum() + rates.sum()):
+        integral, wanted = self._law(errors, period_s, rates)
+        # NaN and infinities of any error or rate end in what is wanted: one product finds them.
+        if not math.isfinite(wanted.dot(self._ones)):
             return self._compute_partly(errors, period_s, rates, given)
+        own = errors.copy()
         if given is None:
-            self._last = errors.copy()
-        self._errors, self._rates = errors.copy(), rates
-        integral = self._integral + period_s * errors
-        if self._has_integral_bounds:
-            integral = np.minimum(np.maximum(integral, self._integral_low), self._integral_high)
-        self._integral = integral
-        added = np.minimum(np.maximum(self._i * integral, self._low), self._high)
-        command = self._p * errors + added + self._d * rates
-        if self._is_bounded:
-            command = np.minimum(np.maximum(command, self._u_min), self._u_max)
+            self._last = own
+        self._errors, self._rates, self._integral = own, rates, integral
+        self._command = wanted
+        if not self._is_bounded and not self._single:
+            return wanted
+        command = np.minimum(np.maximum(wanted, self._u_min), self._u_max)
         self._command = command
         return self._with_singles(command.copy(), errors, period_s, given)
+
+    def _law(self, errors: Array, period_s: float, rates: Array) -> tuple[Array, Array]:
+        """Return integrals and commands, the latter without bounds."""
+        integral = errors * period_s
+        integral += self._integral
+        if self._has_integral_bounds:
+            np.minimum(integral, self._integral_high, out=integral)
+            np.maximum(integral, self._integral_low, out=integral)
+        command = self._p * errors
+        if self._has_i:
+            added = self._i * integral
+            np.minimum(added, self._high, out=added)
+            np.maximum(added, self._low, out=added)
+            command += added
+        # Also without d: a rate that is no number must not go unseen.
+        command += self._d * rates
+        return integral, command
 
     def _compute_partly(
         self, errors: Array, period_s: float, rates: Array, given: Array | None
     ) -> Array:
         """Compute where error and rate are numbers; the others command 0 and keep their state."""
         good = np.isfinite(errors) & np.isfinite(rates)
-        kept = [values.copy() for values in self._state]
-        single, self._single = self._single, {}
-        safe = None if given is None else np.where(good, given, 0.0)
-        result = self.compute(np.where(good, errors, 0.0), period_s, safe)
-        for values, old in zip(self._state, kept, strict=True):
-            values[~good] = old[~good]
-        self._single = single
-        return self._with_singles(np.where(good, result, 0.0), errors, period_s, given)
-
-    @property
-    def _state(self) -> tuple[Array, ...]:
-        return self._last, self._errors, self._rates, self._integral, self._command
+        safe, slopes = np.where(good, errors, 0.0), np.where(good, rates, 0.0)
+        integral, wanted = self._law(safe, period_s, slopes)
+        command = np.minimum(np.maximum(wanted, self._u_min), self._u_max)
+        if given is None:
+            self._last = np.where(good, errors, self._last)
+        self._errors = np.where(good, errors, self._errors)
+        self._rates = np.where(good, rates, self._rates)
+        self._integral = np.where(good, integral, self._integral)
+        self._command = np.where(good, command, self._command)
+        return self._with_singles(np.where(good, command, 0.0), errors, period_s, given)
 
     def _with_singles(
         self, command: Array, errors: Array, period_s: float, rates: Array | None
@@ -137,6 +154,10 @@ class PidBank:
             np.array(column)
             for column in ([r.p for r in rows], [r.i for r in rows], [r.d for r in rows])
         )
+        self._ones = np.ones(len(rows))
+        # The newer strategies integrate by themselves, see `_with_singles`.
+        legacy = [row for row in rows if row.strategy is AntiWindup.LEGACY]
+        self._has_i = any(row.i != 0.0 and row.term_bounds != (0.0, 0.0) for row in legacy)
         bounds = np.array([row.integral_bounds for row in rows]).reshape(-1, 2)
         self._integral_low, self._integral_high = bounds.T.copy()
         self._has_integral_bounds = bool(np.isfinite(bounds).any())
