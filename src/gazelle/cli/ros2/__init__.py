@@ -18,6 +18,7 @@ class _Command(NamedTuple):
 
 # Each module has ``main(argv) -> int``.
 _COMMANDS = {
+    "action": _Command("gazelle.cli.ros2.action", "Various action related sub-commands"),
     "control": _Command("gazelle.cli.ros2.control", "Various control related sub-commands"),
     "param": _Command("gazelle.cli.ros2.param", "Various param related sub-commands"),
 }
