@@ -350,3 +350,36 @@ def test_sleeping_arm_still_weighs_on_its_joint(build):
     assert wrench.force_n == pytest.approx([0.0, 0.0, 2 * G], abs=1e-3)
     assert abs(wrench.torque_nm[1]) == pytest.approx(2 * G, rel=1e-3)
     assert engine.link("arm::rod").acceleration_world().linear_m_s2.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_resting_robot_is_not_woken_by_a_speed_at_which_it_would_rest_again(build):
+    """A position servo leaves such speeds: a loaded motor creeps a little."""
+    engine = build.engine(chain())
+    group = group_of(engine)
+    group.set_velocity(np.zeros(3), np.full(3, 50.0))
+    engine.step(500)
+    assert engine.is_asleep(engine.body_id("chain::l1"))
+    group.set_velocity(np.array([1e-5, -1e-5, 0.0]), np.full(3, 50.0))
+    engine.step(5)
+    assert engine.is_asleep(engine.body_id("chain::l1"))
+    group.set_velocity(np.array([1e-3, 0.0, 0.0]), np.full(3, 50.0))
+    engine.step(100)
+    assert state(group)[1][0] == pytest.approx(1e-3, rel=1e-2)
+
+
+def test_only_joints_whose_velocity_changes_get_a_new_command(build, monkeypatch):
+    engine = build.engine(chain())
+    group = group_of(engine)
+    group.set_velocity(np.full(3, 0.1), np.full(3, 50.0))
+    engine.step()
+    group.set_velocity(np.array([0.1, 0.2, np.nan]), np.full(3, 50.0))
+    sent = []
+    command = engine.command_motor
+    monkeypatch.setattr(
+        engine, "command_motor", lambda *row: (sent.append(row[1].target), command(*row))
+    )
+    group.set_velocity(np.array([0.1, 0.3, np.nan]), np.full(3, 50.0))
+    assert sent == [0.3]
+    group.set_velocity(np.array([np.nan, np.nan, 0.4]), np.full(3, 50.0))
+    group.set_velocity(np.array([0.1, 0.3, 0.4]), np.full(3, 50.0))
+    assert sent == [0.3, 0.4]

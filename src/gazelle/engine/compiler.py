@@ -23,7 +23,7 @@ from gazelle.engine.tyres import correct_weights
 from gazelle.engine.welds import add_weld
 from gazelle.errors import EngineError
 
-__all__ = ["Compiled", "Extras", "compile_world"]
+__all__ = ["SLEEP_TOLERANCE_M_S", "Compiled", "Extras", "compile_world"]
 
 SLEEP_TOLERANCE_M_S = 2e-5
 """Below this speed for 10 steps a body rests (1 mm in 50 s)."""

@@ -133,21 +133,23 @@ class JointGroup:
         Raises:
             EngineError: a velocity is infinite.
         """
-        wanted = np.stack((values, np.broadcast_to(max_effort, values.shape)))
         self._index()
-        unchanged = self._changes == self._engine.motors.changes
-        if unchanged and self._velocities is not None and np.array_equal(wanted, self._velocities):
+        wanted = np.empty((2, len(self.names)))
+        wanted[0], wanted[1] = values, max_effort
+        sent = self._velocities
+        if sent is None or self._changes != self._engine.motors.changes:
+            sent = self._velocities = np.full(wanted.shape, np.nan)
+        places = np.flatnonzero((wanted != sent).any(axis=0) & ~np.isnan(wanted).any(axis=0))
+        if not len(places):
             return
-        chosen = np.flatnonzero(~np.isnan(wanted).any(axis=0))
-        self._check_finite(wanted[0, chosen], chosen)
-        self._unlock(chosen)
-        for place in chosen:
-            velocity, effort = wanted[:, place].tolist()
-            handle = self._handles[place]
-            limit = UNLIMITED_EFFORT if math.isinf(effort) else handle.motor_limit(effort)
+        chosen = wanted[:, places]
+        self._check_finite(chosen[0], places)
+        self._unlock(places)
+        limits = self._motor_limits(chosen[1], places)
+        for place, velocity, limit in zip(places, chosen[0].tolist(), limits, strict=True):
             command = MotorCommand("velocity", velocity, limit)
-            self._engine.command_motor(handle.element, command)
-        self._velocities = wanted if len(chosen) == len(self.names) else None
+            self._engine.command_motor(self._elements[place], command)
+        sent[:, places] = chosen
         self._changes = self._engine.motors.changes
 
     def release(self, places: Sequence[int] | None = None) -> None:
@@ -179,14 +181,14 @@ class JointGroup:
         commands = self._engine.motors.commands
         if commands:
             for place in chosen:
-                element = self._handles[place].element
+                element = self._elements[place]
                 if element in commands:
                     self._engine.command_motor(element, None)
 
     def _lock_places(self) -> Indices:
         self._index()
         if self._locks is None:
-            self._engine.install_locks([handle.element for handle in self._handles])
+            self._engine.install_locks(self._elements)
             self._index()
         if self._locks is None:
             raise EngineError(f"the locks of {list(self.names)} are missing")
@@ -200,6 +202,13 @@ class JointGroup:
         if not np.isfinite(values).all():
             names = np.asarray(self.names)[chosen][~np.isfinite(values)]
             raise EngineError(f"joint '{names[0]}' was given an infinite value")
+
+    def _motor_limits(self, efforts: Array, places: Indices) -> list[float]:
+        """Return what motors get that are asked for these efforts, as `JointHandle.motor_limit`."""
+        own, asked = self._effort_limits[places], np.abs(efforts)
+        limits = np.where(own > 0, np.minimum(asked, own), asked)
+        found: list[float] = np.where(np.isinf(efforts), UNLIMITED_EFFORT, limits).tolist()
+        return found
 
     def _read_limits(self) -> None:
         limits = np.array([handle.effort_limit for handle in self._handles], dtype=np.float64)
@@ -222,7 +231,7 @@ class JointGroup:
         self._bodies = engine.model.dof_bodyid[self._dofs]
         data = engine.data
         self._positions, self._speeds, self._applied = data.qpos, data.qvel, data.qfrc_applied
-        elements = [handle.element for handle in self._handles]
+        self._elements = elements = [handle.element for handle in self._handles]
         installed = set(engine.locks.installed)
         self._locks = engine.locks.places(elements) if installed.issuperset(elements) else None
         self._tendons = engine.motors.tendons(elements)

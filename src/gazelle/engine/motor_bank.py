@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.compiler import Compiled
+from gazelle.engine.compiler import SLEEP_TOLERANCE_M_S, Compiled
 from gazelle.engine.library import mujoco
 from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
 from gazelle.engine.names import rotor_joint, tendon
@@ -29,6 +29,8 @@ class _Slot:
     qpos: int
     rotor: int
     tendon: int
+    creep: float
+    """Speeds below it let a robot fall asleep again at once: they do not wake one."""
 
 
 @dataclass(slots=True)
@@ -82,11 +84,14 @@ class MotorBank:
         self._slots = {}
         for joint in compiled.motors:
             index = model.joint(joint).id
+            dof = int(model.jnt_dofadr[index])
+            rotor = int(model.jnt_dofadr[model.joint(rotor_joint(joint)).id])
             self._slots[joint] = _Slot(
-                int(model.jnt_dofadr[index]),
+                dof,
                 int(model.jnt_qposadr[index]),
-                int(model.jnt_dofadr[model.joint(rotor_joint(joint)).id]),
+                rotor,
                 int(model.tendon(tendon(joint)).id),
+                SLEEP_TOLERANCE_M_S / float(model.dof_length[[dof, rotor]].max()),
             )
         self._changed = True
 
@@ -112,7 +117,8 @@ class MotorBank:
                 gap = command.target - float(data.qpos[slot.qpos])
                 speed = 0.0 if abs(gap) < _CLOSE_ENOUGH else gap / (max(steps, 2) * step_s)
                 speed = min(max(speed, -command.max_velocity), command.max_velocity)
-            if speeds[slot.rotor] != speed:
+            is_creep = abs(speed) < slot.creep and speeds[slot.dof] == 0
+            if speeds[slot.rotor] != speed and not is_creep:
                 speeds[slot.rotor] = speed
             limit = min(command.max_effort, UNLIMITED_EFFORT)
             if limits[slot.tendon] != limit:
