@@ -8,7 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.control.plant import PlantJoint, make_robot
+from tests.control.recording_ports import RecordingPorts
 
+from gazelle.control.controller_manager import ControllerManager
+from gazelle.control.sources.files import FileSource
+from gazelle.control.sources.yaml_file import read_parameter_text
 from gazelle.description.context import ReadContext
 from gazelle.description.sdf import read_sdf
 from gazelle.description.urdf import read_urdf
@@ -20,7 +25,7 @@ from gazelle.launch.xml1.loader import load_launch_text
 from gazelle.workspace import Workspace
 
 SCOUT = Path(__file__).parents[1] / "examples" / "scout_ws" / "src" / "scout_robot"
-COUNT = 750
+COUNT = 600
 WORDS = ("", "nan", "1e999", "-1", "1,5", "../..", "$(find x)", "<", "&amp;", "é", "0 0 0", "true")
 DEFINITION = """# a message
 std_msgs/Header header
@@ -29,6 +34,34 @@ string<=10 NAME="x"
 float64[] values
 geometry_msgs/Point[3] corners
 int32 count 5
+"""
+
+
+CONTROLLERS = """\
+controller_manager:
+  ros__parameters:
+    update_rate: 100
+    states: {type: joint_state_broadcaster/JointStateBroadcaster}
+    arm: {type: joint_trajectory_controller/JointTrajectoryController}
+    base: {type: diff_drive_controller/DiffDriveController}
+    lift: {type: effort_controllers/JointPositionController}
+arm:
+  ros__parameters:
+    joints: [a, b]
+    command_interfaces: [effort]
+    state_interfaces: [position, velocity]
+    constraints: {goal_time: 0.5, a: {trajectory: 0.1, goal: 0.01}}
+    gains: {a: {p: 10.0, i: 0.1, d: 1e-1, i_clamp: 1.0}, b: {p: 5.0}}
+"base":
+  ros__parameters:
+    left_wheel_names: ["a"]
+    right_wheel_names: ["b"]
+    wheel_separation: 0.4
+    wheel_radius: .1
+    pose_covariance_diagonal: [0.001, 0.001, 0.001, 0.001, 0.001, 0.03]
+    linear.x.max_velocity: 1.0
+lift:
+  ros__parameters: {joint: a, pid: {p: 1.0, i: 0.0, d: 0.0}}
 """
 
 
@@ -72,6 +105,29 @@ def _read_definition(text: str, diagnostics: Diagnostics, workspace: Workspace) 
     parse_message(text, "p/msg/M", Generation.ROS2, file="<fuzz>", diagnostics=diagnostics)
 
 
+def _read_controllers(text: str, diagnostics: Diagnostics, workspace: Workspace) -> None:
+    """Read a parameter file, and make and run the controllers it describes on ideal joints."""
+    del workspace
+    source = FileSource((), "/", diagnostics)
+    source.add_sections(read_parameter_text(text, "<fuzz>", diagnostics))
+    robot, _ = make_robot([PlantJoint("a"), PlantJoint("b")], generation=2)
+    manager = ControllerManager(
+        robot,
+        namespace="/",
+        make_ports=lambda name: RecordingPorts(subscribed=False),
+        source=source,
+        diagnostics=diagnostics,
+        update_rate_hz=1000.0,
+    )
+    for name in source.controllers():
+        manager.load(name)
+        manager.configure(name)
+        manager.switch([name], [], strict=False)
+    for tick in range(3):
+        manager.update(tick * 1_000_000, 1_000_000)
+    manager.close()
+
+
 def _urdf_text() -> str:
     """Return the example robot, expanded; the seed of the URDF cases."""
     from gazelle.description.xacro import expand_xacro
@@ -95,6 +151,7 @@ SOURCES: dict[str, tuple[Callable[[], str], Callable[[str, Diagnostics, Workspac
     "sdf": ((SCOUT / "worlds" / "workshop.world").read_text, _read_sdf),
     "launch": (_launch_text, _read_launch),
     "definition": (lambda: DEFINITION, _read_definition),
+    "controllers": (lambda: CONTROLLERS, _read_controllers),
 }
 
 

@@ -1,4 +1,4 @@
-"""The whole set of damaged files: 100,000, a quarter of each kind.
+"""The whole set of damaged files: 100,000, a fifth of each kind.
 
     python benchmarks/soak/fuzz.py [--count N]
 
@@ -12,9 +12,9 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from test_fuzz import SOURCES, refusals
+from tests.test_fuzz import SOURCES, refusals
 
 
 def main() -> None:

@@ -43,7 +43,11 @@ class FileSource:
 
     def add_file(self, path: Path) -> None:
         """Read one more file."""
-        self._sections += read_parameter_file(path, self._diagnostics)
+        self.add_sections(read_parameter_file(path, self._diagnostics))
+
+    def add_sections(self, sections: Iterable[NodeSection]) -> None:
+        """Take in what was read of a file already."""
+        self._sections += sections
 
     def controllers(self) -> tuple[str, ...]:
         """Return the names with a type, in the manager's own parameters or their own."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["NodeSection", "read_parameter_file"]
+__all__ = ["NodeSection", "read_parameter_file", "read_parameter_text"]
 
 _MARK = "ros__parameters"
 # rcl reads these with strtod; YAML 1.1, as PyYAML has it, wants a dot and a sign.
@@ -45,24 +46,35 @@ def read_parameter_file(path: Path, diagnostics: Diagnostics) -> tuple[NodeSecti
     level are nodes. Problems are reported; what can be read is returned.
     """
     try:
-        root = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
+        text = path.read_text(encoding="utf-8")
     except OSError as error:
-        text = f"parameter file '{path}' cannot be read: {error.strerror}"
-        diagnostics.report("control.parameter-file", text)
+        message = f"parameter file '{path}' cannot be read: {error.strerror}"
+        diagnostics.report("control.parameter-file", message)
         return ()
     except UnicodeDecodeError as error:
-        text = f"parameter file is not UTF-8: {error.reason} at byte {error.start}"
-        diagnostics.report("control.parameter-file", text, SourceSpan(str(path)))
+        message = f"parameter file is not UTF-8: {error.reason} at byte {error.start}"
+        diagnostics.report("control.parameter-file", message, SourceSpan(str(path)))
         return ()
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        span = SourceSpan(str(path), mark.line + 1, mark.column + 1) if mark else None
-        text = f"parameter file is not YAML: {error.problem or error}"
-        diagnostics.report("control.parameter-file", text, span or SourceSpan(str(path)))
+    return read_parameter_text(text, str(path), diagnostics)
+
+
+def read_parameter_text(text: str, file: str, diagnostics: Diagnostics) -> tuple[NodeSection, ...]:
+    """Read the text of a parameter file; see `read_parameter_file`.
+
+    Args:
+        text: YAML.
+        file: name for messages.
+        diagnostics: receives what is wrong.
+    """
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        span = SourceSpan(file, mark.line + 1, mark.column + 1) if mark else SourceSpan(file)
+        message = f"parameter file is not YAML: {getattr(error, 'problem', None) or error}"
+        diagnostics.report("control.parameter-file", message, span)
         return ()
-    if root is None:
-        return ()
-    return _Reader(str(path), diagnostics).sections(root)
+    return () if root is None else _Reader(file, diagnostics).sections(root)
 
 
 class _Reader:
@@ -70,6 +82,7 @@ class _Reader:
         self._file = file
         self._diagnostics = diagnostics
         self._sections: list[NodeSection] = []
+        self._open: list[yaml.MappingNode] = []
 
     def sections(self, root: yaml.Node) -> tuple[NodeSection, ...]:
         if not isinstance(root, yaml.MappingNode):
@@ -82,13 +95,13 @@ class _Reader:
             text += "ROS 2 would refuse it (Cannot have a value before ros__parameters)"
             fix = "write: controller_name: / ros__parameters: / …"
             self._diagnostics.report("control.no-ros-parameters", text, self._span(root), fix=fix)
-            for key, value in root.value:
+            for key, value in self._pairs(root):
                 if isinstance(value, yaml.MappingNode):
                     self._add(f"/{key.value}", value)
         return tuple(self._sections)
 
     def _walk(self, node: yaml.MappingNode, name: str) -> None:
-        for key, value in node.value:
+        for key, value in self._pairs(node):
             if not isinstance(value, yaml.MappingNode):
                 continue
             if key.value == _MARK:
@@ -105,7 +118,7 @@ class _Reader:
         self, node: yaml.MappingNode, prefix: str, places: dict[str, SourceSpan]
     ) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        for key, value in node.value:
+        for key, value in self._pairs(node):
             name = f"{prefix}{key.value}"
             places[name] = self._span(key)
             if key.value in found:
@@ -117,8 +130,23 @@ class _Reader:
                 found[str(key.value)] = self._value(value)
         return found
 
+    def _pairs(self, node: yaml.MappingNode) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
+        """Yield keys and values; what a parameter's name cannot be, and loops, are reported."""
+        if node in self._open:
+            text = "an alias names the mapping it stands in"
+            self._diagnostics.report("control.parameter-file", text, self._span(node))
+            return
+        self._open.append(node)
+        for key, value in node.value:
+            if isinstance(key, yaml.ScalarNode):
+                yield key, value
+            else:
+                text = "a name of a parameter is a word, not a list or a mapping"
+                self._diagnostics.report("control.parameter-file", text, self._span(key))
+        self._open.pop()
+
     def _value(self, node: yaml.Node) -> Any:
-        if isinstance(node, yaml.SequenceNode):
+        if isinstance(node, yaml.SequenceNode) and not _holds_itself(node, ()):
             return [self._value(item) for item in node.value]
         if isinstance(node, yaml.ScalarNode) and node.style is None and _is_float(node):
             return float(node.value)
@@ -132,6 +160,12 @@ class _Reader:
 
     def _span(self, node: yaml.Node) -> SourceSpan:
         return SourceSpan(self._file, node.start_mark.line + 1, node.start_mark.column + 1)
+
+
+def _holds_itself(node: yaml.SequenceNode, around: tuple[yaml.Node, ...]) -> bool:
+    inside = (*around, node)
+    lists = [item for item in node.value if isinstance(item, yaml.SequenceNode)]
+    return any(item in inside or _holds_itself(item, inside) for item in lists)
 
 
 def _is_float(node: yaml.ScalarNode) -> bool:
