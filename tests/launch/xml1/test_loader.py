@@ -277,3 +277,15 @@ def test_missing_attribute_is_named(tmp_path: Path) -> None:
     _, diagnostics = _load('<launch><node pkg="p" name="n"/></launch>', tmp_path)
     (found,) = diagnostics.by_code("xml.missing-attribute")
     assert found.message == "<node> tag is missing required attribute 'type'"
+
+
+def test_find_is_resolved_last_so_that_args_can_complete_it(tmp_path: Path) -> None:
+    package = tmp_path / "go_description"
+    package.mkdir()
+    (package / "package.xml").write_text("<package><name>go_description</name></package>")
+    body = """<arg name="name" default="go"/><arg name="dollar" value="$"/>
+      <arg name="path" value="(find $(arg name)_description)"/>
+      <param name="a" value="$(arg dollar)$(arg path)/robot.xacro"/>
+      <param name="b" value="$(find $(arg name)_description)/robot.xacro"/>"""
+    found = _params(body, tmp_path)
+    assert found["/a"] == found["/b"] == f"{package}/robot.xacro"

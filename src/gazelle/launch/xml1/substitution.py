@@ -19,6 +19,7 @@ from gazelle.workspace import Workspace
 __all__ = ["Substitution", "SubstitutionError"]
 
 _CALL = re.compile(r"\$\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
+_FIND = re.compile(r"\$\(find([^()]*)\)")
 _WORDS = ("find", "env", "optenv", "arg", "anon", "eval", "dirname")
 
 
@@ -64,7 +65,16 @@ class Substitution:
             return text
         if text.startswith("$(eval ") and text.endswith(")"):
             return str(self._eval(text[len("$(eval ") : -1]))
-        return _CALL.sub(lambda match: self._call(match.group(1)), text)
+        # roslaunch resolves $(find …) last, so that other values may complete it:
+        # $(find $(arg robot)_description), or a '$' of its own before '(find …)'.
+        text = _CALL.sub(self._call_unless_find, text)
+        return _FIND.sub(lambda match: self._find(match.group(1).split()), text)
+
+    def _call_unless_find(self, match: re.Match[str]) -> str:
+        body = match.group(1)
+        if body.split()[:1] != ["find"]:
+            return self._call(body)
+        return f"$({_CALL.sub(self._call_unless_find, body)})"
 
     def _call(self, body: str) -> str:
         word, *rest = body.split() or [""]
