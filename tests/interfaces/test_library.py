@@ -111,6 +111,14 @@ def test_search_path_adds_the_packages_under_a_folder(tmp_path):
     assert known_types(package="p1") == ("p1/msg/A",)
 
 
+def test_definitions_lie_in_folders_of_msg_too(tmp_path):
+    files = {"msg/A.msg": "int8 a\nC c", "msg/made/base/C.msg": "int8 c", "srv/made/S.srv": "---\n"}
+    add_package("nested", _package(tmp_path / "nested", files, CATKIN))
+    assert known_types(package="nested") == ("nested/msg/A", "nested/msg/C")
+    assert ros1_message_type("nested/A")().c.c == 0
+    assert ros1_service_type("nested/S") is not None
+
+
 def test_a_count_of_empty_messages_beyond_the_bytes_is_refused(tmp_path):
     files = {"msg/None_.msg": "", "msg/Many.msg": "None_[] many"}
     add_package("void", _package(tmp_path / "void", files, CATKIN))

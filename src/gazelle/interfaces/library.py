@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -93,6 +93,8 @@ def find_source(package: str, part: str, name: str, generation: Generation) -> S
     if package in _user_packages:
         folder, written_for = _user_packages[package]
         file = folder / part / f"{name}.{part}"
+        if not file.is_file():
+            file = _files(folder, part, _revision).get(name, file)
         if written_for in (None, generation) and file.is_file():
             text = _read(file)
             if written_for is generation or _fits(text, generation):
@@ -111,8 +113,19 @@ def block_names(generation: Generation) -> Iterator[tuple[str, str, str]]:
     for package, (path, written_for) in sorted(_user_packages.items()):
         if written_for in (None, generation):
             for part in _PARTS:
-                for file in sorted((path / part).glob(f"*.{part}")):
-                    yield package, part, file.stem
+                for name in _files(path, part, _revision):
+                    yield package, part, name
+
+
+@lru_cache(maxsize=1024)
+def _files(folder: Path, part: str, _revision: int) -> dict[str, Path]:
+    """Definitions of a package by name; CMake's DIRECTORY lets them lie in folders of msg/ too."""
+    found: dict[str, Path] = {}
+    for file in sorted(
+        (folder / part).rglob(f"*.{part}"), key=lambda file: (len(file.parts), file)
+    ):
+        found.setdefault(file.stem, file)
+    return found
 
 
 def _read(file: Path) -> str:
