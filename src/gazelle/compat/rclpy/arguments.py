@@ -74,7 +74,7 @@ class RosArguments:
             for file in self.files:
                 for section in read_parameter_file(file, diagnostics):
                     if section.matches(full_name):
-                        values.update(section.values)
+                        values.update(_flat("", section.values))
             diagnostics.raise_if_errors()
         base = full_name.rpartition("/")[2]
         for rule in self.params:
@@ -156,7 +156,9 @@ def _flat(name: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, Mapping):
         return {name: value}
     return {
-        key: one for sub, item in value.items() for key, one in _flat(f"{name}.{sub}", item).items()
+        key: one
+        for sub, item in value.items()
+        for key, one in _flat(f"{name}.{sub}" if name else str(sub), item).items()
     }
 
 

@@ -63,17 +63,15 @@ class ParameterException(Exception):  # noqa: N818 - rclpy's name
     """Base of what concerns parameters."""
 
     def __init__(self, error_msg: str, parameters: Any, *args: object) -> None:
-        self._names = (
-            [parameters] if isinstance(parameters, str) else [str(item) for item in parameters]
-        )
-        super().__init__(f"{error_msg}: {', '.join(self._names)}", *args)
+        super().__init__(f"{error_msg}: {parameters}", *args)
 
 
 class ParameterNotDeclaredException(ParameterException):
     """A parameter is used that was not declared."""
 
     def __init__(self, parameters: Any, hint: str = "") -> None:
-        super().__init__("Invalid access to undeclared parameter(s)", parameters)
+        shown = ", ".join(parameters)
+        super().__init__("Invalid access to undeclared parameter(s)", shown)
         if hint:
             self.args = (f"{self.args[0]}; {hint}",)
 
@@ -96,7 +94,7 @@ class ParameterUninitializedException(ParameterException):
     """A parameter was declared by type only and has no value yet."""
 
     def __init__(self, parameters: Any) -> None:
-        super().__init__("The parameter is not initialized", parameters)
+        super().__init__(f"The parameter '{parameters}' is not initialized", parameters)
 
 
 class InvalidParameterException(ParameterException):
@@ -109,8 +107,8 @@ class InvalidParameterException(ParameterException):
 class InvalidParameterTypeException(ParameterException):
     """A parameter's value is of another type than declared."""
 
-    def __init__(self, desired: str, value: Any, name: str) -> None:
-        text = f"Trying to set parameter '{name}' to '{value}' of type '{type(value).__name__}'"
+    def __init__(self, name: str, value: Any, *, given: str, desired: str) -> None:
+        text = f"Trying to set parameter '{name}' to '{value}' of type '{given}'"
         super().__init__(f"{text}, expecting type '{desired}'", name)
 
 

@@ -210,7 +210,11 @@ class MultiThreadedExecutor(Executor):
     def _spin_once(
         self, timeout_sec: float | None, until: Callable[[], bool] = lambda: False
     ) -> None:
-        found = self._wait(timeout_sec, until)
+        try:
+            found = self._wait(timeout_sec, until)
+        except ExternalShutdownException:
+            # As in rclpy, which raises it in the single-threaded one only.
+            found = None
         if found is not None:
             pooled = self._pool.submit(self._step, *found)
             self._running.append((pooled, *found))

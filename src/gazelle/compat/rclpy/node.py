@@ -157,12 +157,6 @@ class Node(ParameterHolder, GraphQueries):
         """Return the node's logger."""
         return self._logger
 
-    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return a topic's global name, after remapping unless only expanded."""
-        if only_expand:
-            return resolve(topic, self.get_namespace(), node=self._full)
-        return self.graph_node.resolve_name(topic)
-
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """Return a service's global name, after remapping unless only expanded."""
         return self.resolve_topic_name(service, only_expand=only_expand)

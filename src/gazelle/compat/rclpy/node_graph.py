@@ -8,7 +8,7 @@ from gazelle.compat.rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPo
 from gazelle.graph import Entity, Graph, NodeInfo
 from gazelle.graph import Node as GraphNode
 from gazelle.graph.actions import actions_of
-from gazelle.graph.names import join, split
+from gazelle.graph.names import join, resolve, split
 
 __all__ = ["GraphQueries", "TopicEndpointInfo"]
 
@@ -88,11 +88,15 @@ class GraphQueries:
 
     def count_publishers(self, topic_name: str) -> int:
         """Return how many publishers a topic has."""
-        return len(self._graph.publishers_info(self.graph_node.resolve_name(topic_name)))
+        return len(
+            self._graph.publishers_info(self.resolve_topic_name(topic_name, only_expand=True))
+        )
 
     def count_subscribers(self, topic_name: str) -> int:
         """Return how many subscriptions a topic has."""
-        return len(self._graph.subscriptions_info(self.graph_node.resolve_name(topic_name)))
+        return len(
+            self._graph.subscriptions_info(self.resolve_topic_name(topic_name, only_expand=True))
+        )
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the publishers of a topic."""
@@ -103,6 +107,12 @@ class GraphQueries:
         """Return the subscriptions of a topic."""
         full = self.graph_node.resolve_name(topic_name)
         return [_endpoint(one, "SUBSCRIPTION") for one in self._graph.subscriptions_info(full)]
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """Return a topic's global name, after remapping unless only expanded."""
+        if only_expand:
+            return resolve(topic, self.graph_node.namespace, node=self.graph_node.name)
+        return self.graph_node.resolve_name(topic)
 
     @property
     def _graph(self) -> Graph:

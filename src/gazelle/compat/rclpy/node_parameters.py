@@ -260,5 +260,6 @@ def _fitting(name: str, given: Any, declared: Any, known: Descriptor) -> Any:
     if wanted is Parameter.Type.DOUBLE_ARRAY and isinstance(given, list):
         given = [float(item) if type(item) is int else item for item in given]
     if not wanted.check(given):
-        raise InvalidParameterTypeException(wanted.name, given, name)
+        kind = Parameter.Type.from_parameter_value(given).name
+        raise InvalidParameterTypeException(name, given, given=kind, desired=wanted.name)
     return given

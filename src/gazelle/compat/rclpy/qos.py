@@ -34,9 +34,6 @@ __all__ = [
 class InvalidQoSProfileException(Exception):  # noqa: N818 - rclpy's name
     """A profile lacks what it needs."""
 
-    def __init__(self, *args: object) -> None:
-        super().__init__("Invalid QoSProfile", *args)
-
 
 class HistoryPolicy(enum.IntEnum):
     """How many messages are kept; the long names are those of older programs."""
