@@ -93,6 +93,9 @@ class ControllerContext:
     def _no_joint(self, name: str) -> str:
         names = [*self.robot.joints, *self.robot.sensors]
         hint = did_you_mean(name, names) or f"there are: {', '.join(names) or 'none'}"
+        if name in {joint.name for joint in self.robot.model.joints}:
+            given = "<transmission>" if self.generation == 1 else "<ros2_control> block"
+            hint = f"the robot has it, but no {given} gives it to controllers"
         text = f"controller '{self.name}': the hardware has no joint or sensor '{name}'; {hint}"
         if self.generation == 1:
             text += f" (Could not find resource '{name}')"
