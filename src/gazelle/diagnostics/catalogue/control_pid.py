@@ -19,8 +19,9 @@ ENTRIES = (
         "control.integral-without-clamp",
         "info",
         "A PID has an integral gain and no i_clamp",
-        "In ROS 1 and in ROS 2 up to Iron i_clamp defaults to 0, which bounds the integral's part to"
-        " nothing; newer ROS 2 leaves it unbounded. Gazelle does what the robot's generation does.",
+        "In ROS 1 and in ROS 2 up to Iron i_clamp defaults to 0, which bounds the integral's part"
+        " to nothing; newer ROS 2 leaves it unbounded. Gazelle does what the robot's generation"
+        " does.",
         "write i_clamp (or i_clamp_max and i_clamp_min), or leave i out",
     ),
 )

@@ -81,8 +81,8 @@ ENTRIES = (
         "engine.slip",
         "info",
         "Force-dependent slip has no effect",
-        "slip1 and slip2 of ODE act on wheels only: cylinders and spheres on a joint that turns, with"
-        " fdir1 along its axis or both slips equal.",
+        "slip1 and slip2 of ODE act on wheels only: cylinders and spheres on a joint that turns,"
+        " with fdir1 along its axis or both slips equal.",
         "give the wheel such a shape and fdir1, or lower mu to make the surface slippery",
     ),
     Entry(

@@ -151,11 +151,11 @@ class LinkServices:
             np.cross(axes.rotate(_xyz(request.reference_point)), force),
         )
         link, lasting = self._server.engine.link(name), duration_ns(request.duration)
-        at_time(
-            self._server,
-            request.start_time,
-            lambda: link.apply_wrench(force, torque, duration_ns=lasting),
-        )
+
+        def push() -> None:
+            link.apply_wrench(force, torque, duration_ns=lasting)
+
+        at_time(self._server, request.start_time, push)
         response.success = True
         response.status_message = ""
 
