@@ -45,6 +45,9 @@ def test_the_page_of_plug_ins_is_generated_from_the_tables() -> None:
         "gz-sim-physics-system",
         "libgazebo_ros_factory.so",
         "/opt/ros/noetic/lib/libgazebo_ros_camera.so",
+        "gz-sim7-physics-system",
+        "libignition-gazebo6-odometry-publisher-system.so",
+        "ignition-gazebo-buoyancy-system",
     ],
 )
 def test_every_name_of_a_family_is_known(filename: str) -> None:

@@ -36,6 +36,12 @@ _MISSING = {
     "plug-in of Gazelle's in Python instead (docs/howto/own_plugin.md)",
     "gz-sim-dvl-system": "Doppler velocity logs give no data",
 }
+# What gz-sim's systems were called before their project was renamed.
+_MISSING |= {
+    f"ignition-gazebo-{name.removeprefix('gz-sim-')}": meaning
+    for name, meaning in _MISSING.items()
+    if name.startswith("gz-sim-")
+}
 _NOTHING = {
     "gazebo_ros_template": "a template to copy, which does nothing in Gazebo either",
     "gazebo_ros_utils": "a library for other plug-ins, none itself",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module
@@ -13,6 +14,8 @@ from gazelle.simulator.plugins.table import PluginTable
 __all__ = ["all_tables", "known_names", "load_plugin", "plain_name"]
 
 Load = Callable[[PluginContext], None]
+
+_RELEASE = re.compile(r"^(gz-sim|ignition-gazebo)\d+(?=-)")
 
 # Module, table, load function; imported when a robot names one of them.
 _FAMILIES = (
@@ -89,11 +92,14 @@ def _by_name() -> dict[str, tuple[PluginTable, Load]]:
 
 
 def plain_name(filename: str) -> str:
-    """Return a library's name without folder, ``lib`` and ``.so``, in lower case."""
+    """Return a library's name without folder, ``lib`` and ``.so``, in lower case.
+
+    ``gz-sim7-…`` and ``ignition-gazebo6-…`` lose the number of the release they belong to.
+    """
     name = filename.strip().rsplit("/", 1)[-1]
     for ending in (".so", ".dylib", ".dll"):
         name = name.removesuffix(ending)
-    return name.removeprefix("lib").lower()
+    return _RELEASE.sub(r"\1", name.removeprefix("lib").lower())
 
 
 def all_tables() -> tuple[PluginTable, ...]:

@@ -99,8 +99,9 @@ def tables_as_markdown(tables: Sequence[PluginTable]) -> str:
         "# Plug-ins",
         "",
         "Generated from the tables of `gazelle.simulator.plugins`; do not edit. A plug-in is known"
-        " by its library's or system's name with or without `lib` and `.so`. Rates are of simulated"
-        " time. Keys that are not listed are reported, never ignored in silence.",
+        " by its library's or system's name with or without `lib`, `.so` and gz-sim's release, such"
+        " as the 7 of `gz-sim7-…`. Rates are of simulated time. Keys that are not listed are"
+        " reported, never ignored in silence.",
     ]
     for table in tables:
         parts += ["", *_section(table)]
