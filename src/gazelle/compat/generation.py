@@ -66,13 +66,20 @@ def _of_modules() -> Generation | None:
 
 @cache
 def _of_text(file: str | None) -> Generation | None:
-    if file is None or file.startswith("<"):
-        return None
-    try:
-        text = Path(file).read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return None
+    text = _text(file)
     return _either(bool(_ROS1.search(text)), bool(_ROS2.search(text)))
+
+
+def _text(file: str | None) -> str:
+    words = sys.orig_argv
+    if file in (None, "<string>") and "-c" in words[:-1]:
+        return words[words.index("-c") + 1]
+    if file is None or file.startswith("<"):
+        return ""
+    try:
+        return Path(file).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
 
 
 @cache

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
@@ -25,7 +26,9 @@ def main(words: list[str]) -> int:
     if drop_ins not in sys.path:
         sys.path.insert(1, drop_ins)
     install()
-    return run_script(Path(words[0]), words)
+    path = Path(words[0])
+    entry = _entry_point(path)
+    return run_script(path, words) if entry is None else _run_entry_point(*entry, words)
 
 
 def run_script(path: Path, argv: list[str]) -> int:
@@ -44,6 +47,35 @@ def run_script(path: Path, argv: list[str]) -> int:
     sys.path[0] = os.path.realpath(path.parent)
     exec(code, module.__dict__)  # noqa: S102 - running the user's node is the purpose
     return 0
+
+
+def _entry_point(path: Path) -> tuple[Path, str, str] | None:
+    """Return folder, module and function of a ``console_scripts`` entry that means this file.
+
+    Of several functions in one file it is ``main``, or the first.
+    """
+    from gazelle.workspace.entry_points import console_scripts
+
+    file = path.absolute()
+    root = next((one for one in file.parents if (one / "package.xml").is_file()), None)
+    if root is None:
+        return None
+    for folder in (root, root / "src"):
+        if folder in file.parents:
+            module = ".".join(file.relative_to(folder).with_suffix("").parts)
+            targets = (target.partition(":") for target in console_scripts(root).values())
+            functions = [function.strip() for name, _, function in targets if name == module]
+            if functions:
+                return folder, module, "main" if "main" in functions else functions[0]
+    return None
+
+
+def _run_entry_point(folder: Path, module: str, function: str, argv: list[str]) -> int:
+    """Call a package's function, as the script that ``pip`` would install does."""
+    sys.argv = list(argv)
+    sys.path[0] = str(folder)
+    found = getattr(import_module(module), function)()
+    return found if isinstance(found, int) else 0
 
 
 if __name__ == "__main__":

@@ -45,6 +45,10 @@ class BuiltinNode:
 
 
 _VIEWS = (
+    ("actionlib", "axclient.py"),
+    ("actionlib", "axserver.py"),
+    ("actionlib_tools", "axclient.py"),
+    ("actionlib_tools", "axserver.py"),
     ("rviz", "rviz"),
     ("rviz2", "rviz2"),
     ("rqt_gui", "rqt_gui"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import threading
+import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -12,9 +13,11 @@ from gazelle.graph.actions.comm_state import CommState, steps
 from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import ActionlibStatus
 from gazelle.graph.actions.types import ActionTypes
+from gazelle.graph.delivery import Mailbox
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
+    from gazelle.graph.subscription import Subscription
 
 __all__ = ["ActionlibClient"]
 
@@ -37,10 +40,12 @@ class ActionlibClient:
         self._lock = threading.RLock()
         self._goal = node.create_publisher(f"{name}/goal", types.Envelope["goal"])
         self._cancel = node.create_publisher(f"{name}/cancel", types.GoalId)
+        # One queue for all topics: a result must not overtake the feedback before it.
+        self._news = Mailbox(self._take, size=0, name=f"action {name}")
         self._topics = (
-            node.create_subscription(f"{name}/status", types.StatusArray, self._on_status),
-            node.create_subscription(f"{name}/feedback", types.Envelope["feedback"], self._on_news),
-            node.create_subscription(f"{name}/result", types.Envelope["result"], self._on_result),
+            self._listen(f"{name}/status", types.StatusArray, self._on_status),
+            self._listen(f"{name}/feedback", types.Envelope["feedback"], self._on_feedback),
+            self._listen(f"{name}/result", types.Envelope["result"], self._on_result),
         )
 
     @property
@@ -85,6 +90,22 @@ class ActionlibClient:
         """Leave the topics."""
         for one in (*self._topics, self._goal, self._cancel):
             one.unregister()
+        self._news.close()
+
+    def _listen(
+        self, topic: str, message_type: Any, callback: Callable[[Any], None]
+    ) -> Subscription:
+        def take(message: Any) -> None:
+            self._news.put((callback, message))
+
+        return self._node.create_subscription(topic, message_type, take, inline=True)
+
+    def _take(self, item: tuple[Callable[[Any], None], Any]) -> None:
+        callback, message = item
+        try:
+            callback(message)
+        except Exception:  # noqa: BLE001 - a user's callback may raise anything
+            self._node.log("error", f"bad callback: {traceback.format_exc().rstrip()}")
 
     def _find(self, goal_id: str) -> ClientGoal | None:
         with self._lock:
@@ -103,7 +124,7 @@ class ActionlibClient:
                     goal.text = "the server does not know the goal any more"
                     self._end(goal)
 
-    def _on_news(self, message: Any) -> None:
+    def _on_feedback(self, message: Any) -> None:
         goal = self._find(message.status.goal_id.id)
         if goal is not None:
             goal.take_feedback(message.feedback)

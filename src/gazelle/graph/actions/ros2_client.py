@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import traceback
 import uuid
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
+from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import Kind
 
 if TYPE_CHECKING:
@@ -33,11 +35,12 @@ class Ros2Client:
         self._send = node.create_client(f"{folder}/send_goal", types.SendGoal)
         self._cancel = node.create_client(f"{folder}/cancel_goal", types.CancelGoal)
         self._result = node.create_client(f"{folder}/get_result", types.GetResult)
+        # One queue for topics and results: a result must not overtake the feedback before it.
+        self._news = Mailbox(self._take, size=0, name=f"action {name}")
+        feedback, status = types.Envelope["feedback"], types.StatusArray
         self._topics = (
-            node.create_subscription(
-                f"{folder}/feedback", types.Envelope["feedback"], self._on_feedback
-            ),
-            node.create_subscription(f"{folder}/status", types.StatusArray, self._on_status),
+            node.create_subscription(f"{folder}/feedback", feedback, self._feedback, inline=True),
+            node.create_subscription(f"{folder}/status", status, self._status, inline=True),
         )
 
     @property
@@ -75,6 +78,7 @@ class Ros2Client:
         """Leave services and topics."""
         for one in (*self._topics, self._send, self._cancel, self._result):
             one.unregister()
+        self._news.close()
 
     def _start(self, work: Callable[..., None], *args: Any) -> None:
         threading.Thread(target=work, args=args, name="action client", daemon=True).start()
@@ -83,18 +87,27 @@ class Ros2Client:
         """Send a goal and wait for its result."""
         request = self._types.SendGoal.Request(goal=goal.request)
         request.goal_id.uuid = bytes.fromhex(goal.goal_id)
+        answer, status, text = None, Ros2Status.UNKNOWN, ""
         try:
             if not self._send.call(request).accepted:
-                self._set(goal, Ros2Status.REJECTED)
+                status = Ros2Status.REJECTED
             else:
-                self._set(goal, Ros2Status.ACCEPTED)
+                self._news.put(lambda: self._set(goal, Ros2Status.ACCEPTED))
                 wanted = self._types.GetResult.Request()
                 wanted.goal_id.uuid = bytes.fromhex(goal.goal_id)
                 answer = self._result.call(wanted)
-                goal.result = answer.result
-                self._set(goal, Ros2Status(answer.status))
+                status = Ros2Status(answer.status)
         except GraphError as error:
-            goal.status, goal.text = Ros2Status.UNKNOWN, str(error)
+            text = str(error)
+        result = None if answer is None else answer.result
+        self._news.put(lambda: self._finish(goal, status, result, text))
+
+    def _finish(self, goal: ClientGoal, status: Ros2Status, result: Any, text: str) -> None:
+        goal.result, goal.text = result, text
+        if text:
+            goal.status = status
+        else:
+            self._set(goal, status)
         goal.finish()
 
     def _ask_cancel(self, goal_id: str, stamp_ns: int) -> None:
@@ -105,7 +118,8 @@ class Ros2Client:
         try:
             self._cancel.call(request)
         except GraphError as error:
-            self._node.log("error", f"cancel request failed: {error}")
+            if not self._node.closed:
+                self._node.log("error", f"cancel request failed: {error}")
 
     def _set(self, goal: ClientGoal, status: Ros2Status) -> None:
         """Note a status; topic and services may tell them in any order, so only onwards."""
@@ -115,6 +129,18 @@ class Ros2Client:
                 goal.status = status
                 if goal.on_transition is not None:
                     goal.on_transition(goal)
+
+    def _take(self, work: Callable[[], None]) -> None:
+        try:
+            work()
+        except Exception:  # noqa: BLE001 - a user's callback may raise anything
+            self._node.log("error", f"bad callback: {traceback.format_exc().rstrip()}")
+
+    def _feedback(self, message: Any) -> None:
+        self._news.put(lambda: self._on_feedback(message))
+
+    def _status(self, message: Any) -> None:
+        self._news.put(lambda: self._on_status(message))
 
     def _on_feedback(self, message: Any) -> None:
         goal = self._goals.get(bytes(message.goal_id.uuid).hex())
