@@ -164,7 +164,8 @@ def test_position_joints_without_gains_are_said_to_be_ideal() -> None:
 
 
 CONTROLLERS = {
-    "arm": {"type": "effort_controllers/JointTrajectoryController", "joints": ["j", "wheel"]}
+    "arm": {"type": "effort_controllers/JointTrajectoryController", "joints": ["j"]},
+    "base": {"type": "effort_controllers/JointVelocityController", "joint": "wheel"},
 }
 
 
@@ -193,11 +194,21 @@ def test_joints_that_nobody_names_fall_as_in_gazebo() -> None:
     assert rig.position("j") > 0.3
 
 
-def test_continuous_joints_do_not_hold() -> None:
+def test_wheels_do_not_hold() -> None:
     rig = pendulum(parameters=CONTROLLERS)
     rig.engine.joint("rig::wheel").set_state(velocity=1.0)
     rig.run(100)
     assert rig.velocity("wheel") == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("kind", ["JointTrajectoryController", "JointPositionController"])
+def test_continuous_joints_that_a_controller_of_positions_names_hold(kind: str) -> None:
+    arm = {"type": f"effort_controllers/{kind}", "joints": ["wheel"]}
+    rig = pendulum(parameters={"arm": arm})
+    rig.engine.joint("rig::wheel").set_state(velocity=1.0)
+    rig.run(100)
+    assert rig.position("wheel") == pytest.approx(0.0, abs=2e-3)
+    assert rig.velocity("wheel") == pytest.approx(0.0, abs=1e-3)
 
 
 def test_a_held_joint_put_elsewhere_holds_there() -> None:

@@ -11,19 +11,28 @@ from gazelle.description.model import JointType
 
 __all__ = ["joints_to_hold"]
 
+# What the types of controllers that keep joints in place have in their names.
+_PLACING = ("Position", "Trajectory", "Gripper")
+
 
 def joints_to_hold(joints: Sequence[Ros1Joint], source: ParameterSource) -> frozenset[str]:
-    """Return the joints that a configured controller names, wheels and other continuous ones not.
+    """Return the joints that a configured controller names, wheels not.
 
     In Gazebo an arm falls between the spawn and the start of its controllers; here it waits.
+    A continuous joint is a wheel unless a controller of positions or trajectories names it.
     """
     named: set[str] = set()
+    placed: set[str] = set()
     for controller in source.controllers():
-        named |= set(_words(source.tree(controller)))
+        words = set(_words(source.tree(controller)))
+        named |= words
+        if any(word in (source.controller_type(controller) or "") for word in _PLACING):
+            placed |= words
     return frozenset(
         joint.name
         for joint in joints
-        if joint.interface and joint.name in named and joint.type is not JointType.CONTINUOUS
+        if joint.interface
+        and joint.name in (placed if joint.type is JointType.CONTINUOUS else named)
     )
 
 

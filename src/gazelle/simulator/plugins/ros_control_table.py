@@ -37,7 +37,8 @@ TABLE = PluginTable(
         "`<safety_controller>` and `joint_limits/<joint>` parameters act as in "
         "joint_limits_interface. Limits count per physics step.",
         "Joints that a configured controller names hold where they were spawned until a controller "
-        "claims them, continuous joints excepted; Gazebo lets them fall.",
+        "claims them; of continuous joints those that a controller of positions or trajectories "
+        "names. Gazebo lets them fall.",
         "Stopped controllers leave their last command behind, as in Gazebo.",
         "IMUs and force-torque sensors of the model are there for controllers; DefaultRobotHWSim "
         "has none.",
