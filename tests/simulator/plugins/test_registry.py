@@ -72,6 +72,36 @@ def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Sim
     sim.run(seconds=0.1)
 
 
+def test_a_plug_in_of_the_world_is_said_to_be_the_worlds(load: Callable[..., Simulation]) -> None:
+    unknown = "<plugin name='a' filename='libnobody.so'/>"
+    drive = "<plugin name='b' filename='libgazebo_ros_p3d.so'><bodyName>lo</bodyName></plugin>"
+    sim = load(f"<sdf version='1.6'><world name='w'>{unknown}{drive}</world></sdf>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.unknown")
+    assert "plug-in 'libnobody.so' (name 'a') of world 'w' is compiled code" in found.message
+    (found,) = sim.diagnostics.by_code("plugin.missing-link")
+    assert "plug-in 'b' needs link 'lo', which world 'w' does not have" in found.message
+
+
+def test_a_plug_in_of_a_link_or_visual_is_named(load: Callable[..., Simulation]) -> None:
+    plugin = "<plugin name='p' filename='libgazebo_ros_{}.so'/>"
+    visual = f"<visual name='v'><geometry><empty/></geometry>{plugin.format('video')}</visual>"
+    link = f"<link name='l'>{plugin.format('p3d')}{visual}</link>"
+    sim = load(f"<sdf version='1.6'><model name='m'>{link}</model></sdf>", world=None)
+    texts = [(one.message, one.fix) for one in sim.diagnostics.by_code("sdf.plugin-not-loaded")]
+    assert texts == [
+        (
+            "plug-in 'libgazebo_ros_p3d.so' in <link> is not loaded: no Gazebo loads plug-ins of "
+            "links",
+            "move the <plugin> into the <model>, or into a <sensor> when it reads one",
+        ),
+        (
+            "plug-in 'libgazebo_ros_video.so' in <visual> is not loaded: it would change what "
+            "Gazebo's window shows",
+            "nothing to do",
+        ),
+    ]
+
+
 def test_a_plug_in_that_is_not_needed_is_said_to_be_so(load: Callable[..., Simulation]) -> None:
     library = "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so"
     plugin = f"<gazebo><plugin name='c' filename='{library}'/></gazebo>"

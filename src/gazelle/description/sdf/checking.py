@@ -13,6 +13,14 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["check_elements"]
 
 _ANY_ATTRIBUTE_PREFIXES = ("xmlns", "xsi:")
+# Where people write plug-ins that are not loaded, why not, and what to do.
+_PLUGIN_PLACES = {
+    "link": (
+        "no Gazebo loads plug-ins of links",
+        "move the <plugin> into the <model>, or into a <sensor> when it reads one",
+    ),
+    "visual": ("it would change what Gazebo's window shows", "nothing to do"),
+}
 
 
 def check_elements(root: Tag, context: ReadContext) -> None:
@@ -20,8 +28,8 @@ def check_elements(root: Tag, context: ReadContext) -> None:
 
     Args:
         root: an element that the table knows, such as ``<sdf>``, ``<model>`` or ``<sensor>``.
-        context: receives ``xml.unknown-tag``, ``xml.unknown-attribute``, ``sdf.not-simulated`` and
-            ``sdf.extension``.
+        context: receives ``xml.unknown-tag``, ``xml.unknown-attribute``, ``sdf.not-simulated``,
+            ``sdf.plugin-not-loaded`` and ``sdf.extension``.
     """
     checker = _Checker()
     if root.name in ELEMENTS:
@@ -61,6 +69,8 @@ class _Checker:
         element = ELEMENTS[kind]
         if child.name in element.children:
             self.visit(child, element.children[child.name])
+        elif child.name == "plugin" and kind in _PLUGIN_PLACES:
+            self._note(_Key("plugin", kind, tag.name, child.attributes.get("filename", "")), child)
         elif child.name in element.without_effect:
             self._note(_Key("not-simulated", kind, tag.name, child.name), child)
         else:
@@ -91,6 +101,10 @@ def _report(key: _Key, more: int, place: Tag, context: ReadContext) -> None:
     elif key.what == "extension":
         message = f"'{name}' in <{parent}> belongs to a private extension; it has no effect{again}"
         context.diagnostics.report("sdf.extension", message, place.span)
+    elif key.what == "plugin":
+        why, fix = _PLUGIN_PLACES[key.kind]
+        message = f"plug-in '{name}' in <{parent}> is not loaded: {why}{again}"
+        context.diagnostics.report("sdf.plugin-not-loaded", message, place.span, fix=fix)
     else:
         message = f"<{name}> in <{parent}> is legal and not simulated{again}"
         context.diagnostics.report("sdf.not-simulated", message, place.span)

@@ -38,6 +38,14 @@ ENTRIES = (
         "nothing to do",
     ),
     Entry(
+        "sdf.plugin-not-loaded",
+        "warning",
+        "A plug-in stands where none is loaded",
+        "Worlds, models and sensors have plug-ins; those of links are passed over by every Gazebo, "
+        "those of visuals act on its window only.",
+        "move the <plugin> into the <model>, <world> or <sensor> it is for",
+    ),
+    Entry(
         "sdf.extension",
         "info",
         "An element of a private namespace",

@@ -153,7 +153,7 @@ class PluginContext:
     """One plug-in about to be loaded.
 
     Attributes:
-        model: the model in the world, under its name there; None for a world plug-in.
+        model: the model in the world, under its name there; an empty one for a world plug-in.
         place: the sensor it stands in, None for a model plug-in.
         default_namespace: namespace for plug-ins that name none (``-robot_namespace``).
     """
@@ -164,6 +164,16 @@ class PluginContext:
     resources: Resources
     place: SensorPlace | None = None
     default_namespace: str = ""
+
+    @property
+    def is_of_world(self) -> bool:
+        """Whether it is a plug-in of the world, whose `model` is a stand-in."""
+        return all(self.model is not model for model in self.host.engine.world.models)
+
+    @property
+    def owner(self) -> str:
+        """Whose plug-in it is, in words: ``model 'm'`` or ``world 'w'``."""
+        return f"{'world' if self.is_of_world else 'model'} '{self.model.name}'"
 
     def reader(self, table: PluginTable) -> ParameterReader:
         """Return the reader of this plug-in's keys."""
@@ -196,8 +206,8 @@ class PluginContext:
         names = [joint.name for joint in self.model.joints]
         if name in names:
             return f"{self.model.name}::{name}"
-        text = f"plug-in '{self.plugin.name}' needs joint '{name}', which model "
-        text += f"'{self.model.name}' does not have; the plug-in is left out"
+        text = f"plug-in '{self.plugin.name}' needs joint '{name}', which {self.owner} does not "
+        text += "have; the plug-in is left out"
         self.report("plugin.missing-joint", text, fix=did_you_mean(name, names))
         return None
 
@@ -207,8 +217,8 @@ class PluginContext:
         wanted = name.removeprefix(f"{self.model.name}::")
         if wanted in names:
             return f"{self.model.name}::{wanted}"
-        text = f"plug-in '{self.plugin.name}' needs link '{name}', which model "
-        text += f"'{self.model.name}' does not have; the plug-in is left out"
+        text = f"plug-in '{self.plugin.name}' needs link '{name}', which {self.owner} does not "
+        text += "have; the plug-in is left out"
         self.report("plugin.missing-link", text, fix=did_you_mean(name, names))
         return None
 

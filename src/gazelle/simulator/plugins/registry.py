@@ -135,7 +135,7 @@ def load_plugin(context: PluginContext) -> bool:
         return False
     name = plain_name(plugin.filename)
     meaning = _ELSEWHERE.get(name, "what it does in Gazebo does not happen here")
-    text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of model '{context.model.name}' is "
+    text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of {context.owner} is "
     text += f"compiled code that Gazelle does not have: {meaning}"
     context.report("plugin.unknown", text, fix=did_you_mean(name, known_names()))
     return False

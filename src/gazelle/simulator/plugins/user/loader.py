@@ -138,9 +138,7 @@ class _Runner:
 def _role(context: PluginContext) -> str:
     if context.place is not None:
         return "Sensor"
-    # World plug-ins come with a stand-in that is no model of the world.
-    is_model = any(model is context.model for model in context.host.engine.world.models)
-    return "Model" if is_model else "World"
+    return "World" if context.is_of_world else "Model"
 
 
 def _subject(context: PluginContext) -> Any:
