@@ -176,6 +176,19 @@ def test_flag_without_a_limit_stops_a_ros1_robot_and_is_reported():
     assert "linear.x.max_velocity: 0 is used and the robot stands still" in found.message
 
 
+def test_limit_of_nothing_that_nobody_switched_on_is_left_out():
+    """Up to Humble it had no effect; from Jazzy on the robot would stand still."""
+    limits = {"max_velocity": 0.5, "max_jerk": 0.0, "min_jerk": 0.0}
+    bench = _bench({"linear.x": limits}, base=ROS2, generation=2)
+    bench.run(0.1, "~/cmd_vel", twist(1.0))
+    assert _speeds(bench)[0].max() == pytest.approx(0.5)
+    (found,) = bench.diagnostics.by_code("control.limit-of-nothing")
+    assert "linear.x.max_jerk is 0 without linear.x.has_jerk_limits" in found.message
+    bench = _bench({"linear.x": limits | {"has_jerk_limits": True}}, base=ROS2, generation=2)
+    bench.run(0.1, "~/cmd_vel", twist(1.0))
+    assert _speeds(bench)[0].max() == 0.0
+
+
 def test_ros2_limits_act_when_they_are_given():
     limits = {"max_velocity": 0.5, "max_acceleration": 1.0, "max_deceleration": -2.0}
     bench = _bench({"linear.x": limits}, base=ROS2, generation=2)

@@ -23,6 +23,18 @@ def test_plug_ins_keep_order_parameters_and_reference(read_link) -> None:
     assert robot.plugins[0].parameters.text_of("x") == "1"
 
 
+def test_reference_to_the_world_is_said_to_have_no_effect_when_it_says_anything(read) -> None:
+    found = read(
+        '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed">'
+        '<parent link="world"/><child link="a"/></joint><gazebo reference="world"/>'
+        '<gazebo reference="world"><static>true</static></gazebo></robot>'
+    )
+    (item,) = found.diagnostics.by_code("urdf.gazebo-reference")
+    assert (
+        item.message == "<gazebo reference='world'> means the world itself, where it has no effect"
+    )
+
+
 def test_reference_to_nothing_is_reported_with_the_nearest(read) -> None:
     found = read(
         '<robot name="r"><link name="wheel_left"/><gazebo reference="left_wheel"/>'

@@ -78,3 +78,18 @@ def test_a_ros_block_gives_namespace_and_remappings() -> None:
     assert keys.ros.remapped("cmd_vel") == "cmd_vel"
     (found,) = diagnostics.by_code("plugin.unknown-parameter")
     assert "<ros> has no element <remaping>" in found.message
+
+
+def test_arguments_of_a_ros_block_are_the_words_of_a_command_line() -> None:
+    keys, diagnostics = reader(
+        "<ros><argument>--ros-args</argument><argument>--params-file</argument>"
+        "<argument>/etc/gains.yaml</argument><argument>-r a:=b --remap</argument>"
+        "<argument>c:=d</argument><argument>-p use_sim_time:=true</argument></ros>"
+    )
+    assert keys.ros.parameter_files == ("/etc/gains.yaml",)
+    assert keys.ros.remappings == (("a", "b"), ("c", "d"))
+    (found,) = diagnostics.by_code("plugin.unknown-parameter")
+    assert found.message == "argument '-p use_sim_time:=true' of <ros> has no effect"
+    keys.report_unread()
+    (idle,) = diagnostics.by_code("plugin.idle-parameter")
+    assert "--params-file /etc/gains.yaml" in idle.message

@@ -90,6 +90,16 @@ def test_a_later_parameter_file_wins(load: Load, yaml_file: Path, tmp_path: Path
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(50.0)
 
 
+def test_parameter_files_among_the_arguments_of_the_node_count(load: Load, yaml_file: Path) -> None:
+    arguments = "".join(
+        f"<argument>{word}</argument>" for word in ("--ros-args", "--params-file", yaml_file)
+    )
+    sim = load(robot(keys=f"<robot_sim_type>x</robot_sim_type><ros>{arguments}</ros>"))
+    assert not sim.diagnostics.by_code("control.no-parameter-file")
+    assert not sim.diagnostics.by_code("plugin.unknown-parameter")
+    assert sim.server.controls.manager().update_rate_hz == pytest.approx(200.0)
+
+
 def test_no_parameter_file_is_reported_and_the_rate_is_100_hz(load: Load) -> None:
     sim = load(robot())
     assert "No parameter file provided" in found(sim, "control.no-parameter-file")

@@ -15,7 +15,8 @@ def read_limits(parameters: ControllerParameters, axis: str, generation: int) ->
     """Read the limits of an axis such as ``linear.x``.
 
     ROS 1 wants ``has_…_limits: true`` and takes 0 for a limit that is then missing; ROS 2 takes
-    every limit that is given and not NaN, unless ``has_…_limits`` is false.
+    every limit that is given and not NaN, unless ``has_…_limits`` is false. Up to Humble it had
+    to be true: files of that time have limits of 0 that were never meant, which are left out.
 
     Raises:
         ControllerError: a lower limit is above its upper one.
@@ -60,7 +61,14 @@ class _Reader:
         flag = self.parameters.flag(key) if self.parameters.has(key) else self.generation == 2
         if flag and not given and self.parameters.has(key):
             self.report_missing(word)
+        if flag and given and not self.parameters.has(key) and self.is_nothing(word):
+            self.report_nothing(word)
+            return False
         return flag and (given or self.generation == 1)
+
+    def is_nothing(self, word: str) -> bool:
+        """Tell whether a limit lets through nothing at all."""
+        return self.number(f"max_{word}", 0.0) == 0 and self.number(f"min_{word}", 0.0) == 0
 
     def report_missing(self, word: str) -> None:
         outcome = "0 is used and the robot stands still" if self.generation == 1 else "none acts"
@@ -71,6 +79,13 @@ class _Reader:
             key=f"{self.axis}.has_{word}_limits",
             fix=f"give {self.axis}.max_{word}",
         )
+
+    def report_nothing(self, word: str) -> None:
+        key = f"{self.axis}.max_{word}"
+        text = f"{key} is 0 without {self.axis}.has_{word}_limits: no limit, as up to Humble;"
+        text += " from Jazzy on the robot would stand still"
+        fix = f"write .NAN for no limit, or {self.axis}.has_{word}_limits: true to stand still"
+        self.parameters.report("control.limit-of-nothing", text, key=key, fix=fix)
 
     def number(self, word: str, default: float) -> float:
         value = self.parameters.number(f"{self.axis}.{word}", default)

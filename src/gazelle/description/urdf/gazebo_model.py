@@ -20,6 +20,7 @@ __all__ = ["apply_gazebo"]
 _MODEL_WORDS = ("allow_auto_disable", "plugin", "self_collide", "static")
 _WITHOUT_EFFECT = ("canonicalBody", "enable_wind")
 _OLD_PREFIX = "controller:"
+_WORLD = "world"
 _LUMP = "_fixed_joint_lump__"
 
 
@@ -126,6 +127,9 @@ def _report_reference(
 ) -> None:
     hint = did_you_mean(reference, [*links, *joints])
     message = f"<gazebo reference='{reference}'> is neither a link nor a joint; it has no effect"
+    if reference == _WORLD and any(joint.parent == _WORLD for joint in joints.values()):
+        tags = [tag for tag in tags if any(child.name != "plugin" for child in tag.children)]
+        message = "<gazebo reference='world'> means the world itself, where it has no effect"
     for tag in tags:
         context.diagnostics.report("urdf.gazebo-reference", message, tag.span, fix=hint)
 

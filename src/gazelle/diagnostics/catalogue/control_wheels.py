@@ -16,6 +16,14 @@ ENTRIES = (
         "give the max_… of the limit",
     ),
     Entry(
+        "control.limit-of-nothing",
+        "warning",
+        "A limit of 0 is left out",
+        "Files of ROS 2 Humble have max_jerk: 0.0 where no limit was meant, since nothing switched"
+        " it on. From Jazzy on such a robot does not move; here it does.",
+        "write .NAN for no limit",
+    ),
+    Entry(
         "control.no-covariance",
         "info",
         "A base's controller has no covariances",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gazelle.description.model import PluginTag
@@ -12,6 +13,11 @@ from gazelle.simulator.plugins.table import Parameter, PluginTable
 
 __all__ = ["ParameterReader", "RosBlock"]
 
+_ROS_WORDS = ("namespace", "remapping", "argument", "parameter")
+_REMAP_FLAGS = ("-r", "--remap")
+_FILE_FLAGS = ("--params-file",)
+_VALUE_FLAGS = ("-p", "--param")
+
 
 @dataclass(frozen=True, slots=True)
 class RosBlock:
@@ -20,12 +26,14 @@ class RosBlock:
     Attributes:
         namespace: absolute namespace, empty when the element is absent.
         remappings: names to use instead, by name as the plug-in knows it.
+        parameter_files: of ``--params-file`` among the ``<argument>`` elements.
         present: False when there is no ``<ros>`` element.
     """
 
     namespace: str = ""
     remappings: tuple[tuple[str, str], ...] = ()
     present: bool = False
+    parameter_files: tuple[str, ...] = ()
 
     def remapped(self, name: str) -> str:
         """Return the name to use for a topic of the plug-in."""
@@ -103,6 +111,8 @@ class ParameterReader:
         """Report the keys that have no effect and, one by one, those that are not known."""
         known = [name for row in self._table.parameters for name in (row.key, *row.aliases)]
         idle = []
+        if self.ros.parameter_files and self._known_row("parameters") is None:
+            idle += [f"--params-file {name}" for name in self.ros.parameter_files]
         for tag in self.plugin.parameters.children:
             row = self._known_row(tag.name)
             if row is None:
@@ -151,14 +161,38 @@ class ParameterReader:
 def _read_ros_block(tag: Tag | None, diagnostics: Diagnostics) -> RosBlock:
     if tag is None:
         return RosBlock()
-    remappings: list[tuple[str, str]] = []
+    rules = [child.text for child in tag.find_all("remapping")]
+    arguments, files = _read_arguments(tag.find_all("argument"), diagnostics)
     for child in tag.children:
-        words = child.text.removeprefix("--ros-args").replace("-r ", "").strip()
-        if child.name == "remapping" or (child.name == "argument" and ":=" in words):
-            source, _, target = words.partition(":=")
-            remappings.append((source.strip(), target.strip()))
-        elif child.name not in {"namespace", "parameter"}:
+        if child.name not in _ROS_WORDS:
             text = f"<ros> has no element <{child.name}>; it has no effect"
-            hint = did_you_mean(child.name, ("namespace", "remapping", "argument", "parameter"))
+            hint = did_you_mean(child.name, _ROS_WORDS)
             diagnostics.report("plugin.unknown-parameter", text, child.span, fix=hint)
-    return RosBlock(tag.text_of("namespace"), tuple(remappings), True)
+    pairs = [rule.partition(":=")[::2] for rule in (*rules, *arguments)]
+    remappings = tuple((source.strip(), target.strip()) for source, target in pairs)
+    return RosBlock(tag.text_of("namespace"), remappings, True, files)
+
+
+def _read_arguments(
+    tags: Sequence[Tag], diagnostics: Diagnostics
+) -> tuple[list[str], tuple[str, ...]]:
+    """Return remapping rules and parameter files of a node's command line, word by word."""
+    rules, files, flag = [], [], ""
+    for tag in tags:
+        for word in tag.text.split():
+            if flag in _FILE_FLAGS:
+                files.append(word)
+                flag = ""
+            elif flag in _VALUE_FLAGS:
+                text = f"argument '{flag} {word}' of <ros> has no effect"
+                diagnostics.report("plugin.unknown-parameter", text, tag.span)
+                flag = ""
+            elif flag in _REMAP_FLAGS or (not flag and ":=" in word):
+                rules.append(word)
+                flag = ""
+            elif word in (*_FILE_FLAGS, *_REMAP_FLAGS, *_VALUE_FLAGS):
+                flag = word
+            elif word not in {"--ros-args", "--"}:
+                text = f"argument '{word}' of <ros> has no effect"
+                diagnostics.report("plugin.unknown-parameter", text, tag.span)
+    return rules, tuple(files)

@@ -85,12 +85,10 @@ def _source(
     from gazelle.control.sources.files import FileSource
 
     controls = context.host.controls
-    files = []
-    for text in parameters.texts("parameters"):
-        path = _resolved(context, text.strip())
-        if path is not None:
-            files.append(path)
-    given = (*parameters.texts("parameters"), *map(str, controls.files), *controls.overrides)
+    named = (*parameters.texts("parameters"), *parameters.ros.parameter_files)
+    found = [_resolved(context, text.strip()) for text in dict.fromkeys(named)]
+    files = [path for path in found if path is not None]
+    given = (*named, *map(str, controls.files), *controls.overrides)
     if not any(text.strip() for text in given):
         message = f"plug-in '{context.plugin.name}' names no <parameters> file: controllers have"
         message += " no types and no parameters (No parameter file provided. Configuration might"

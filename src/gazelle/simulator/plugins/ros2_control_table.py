@@ -42,6 +42,7 @@ _PARAMETERS = (
     Parameter("controller_manager_name", "text", "controller_manager", "node name of the manager"),
 )
 _DESCRIPTION = "the model itself is the description"
+_SIM_TYPE = "the class stands in the `<ros2_control>` block"
 
 TABLE = PluginTable(
     family="ros2_control",
@@ -61,6 +62,7 @@ TABLE = PluginTable(
         _HOLD,
         Parameter("robot_param", "none", "", _DESCRIPTION),
         Parameter("robot_param_node", "none", "", _DESCRIPTION),
+        Parameter("robot_sim_type", "none", "", _SIM_TYPE, aliases=("robotSimType",)),
     ),
     services=_SERVICES,
 )
