@@ -102,3 +102,16 @@ def test_missing_key_is_an_error_with_the_nearest_one() -> None:
     parameters, _ = _parameters({"joit": "j"})
     with pytest.raises(ControllerError, match=r"no 'joint' given .*did you mean 'joit'"):
         parameters.require("joint")
+    with pytest.raises(ControllerError, match=r"no 'limits\.has_limits' or 'limited' given"):
+        parameters.require("limits.has_limits")
+
+
+def test_missing_section_is_asked_for() -> None:
+    """ROS 2 files that spell a controller's name differently leave it without any parameter."""
+    named = ControllerParameters("arm", {}, TABLE, Diagnostics(), full_name=lambda key: key)
+    with pytest.raises(ControllerError) as caught:
+        named.require("joint")
+    assert str(caught.value) == (
+        "controller 'arm': no 'joint' given (parameter of node arm); it has no parameters at all: "
+        "is its section named 'arm'?"
+    )

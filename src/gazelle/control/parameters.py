@@ -164,9 +164,15 @@ class ControllerParameters:
         """
         if self.has(key):
             return
-        there = [name for name, _ in flattened(self.tree)]
+        there = [name for name, _ in flattened(self.tree) if name.partition(".")[0] not in _MANAGED]
         hint = did_you_mean(key, there)
-        text = f"controller '{self.name}': no '{key}' given (parameter {self.full_name(key)})"
+        if not there and "type" not in self.tree:
+            hint = f"it has no parameters at all: is its section named '{self.name}'?"
+        row, full_name = self.table.row_for(key), self.full_name(key)
+        others = "".join(f" or '{alias}'" for alias in row.aliases) if row is not None else ""
+        # In ROS 2 parameters belong to the controller's own node and have no longer name.
+        place = f"parameter {full_name}" if full_name != key else f"parameter of node {self.name}"
+        text = f"controller '{self.name}': no '{key}'{others} given ({place})"
         raise ControllerError(f"{text}; {hint}" if hint else text)
 
     def report(self, code: str, text: str, *, key: str = "", fix: str = "") -> None:

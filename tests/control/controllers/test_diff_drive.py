@@ -495,7 +495,7 @@ def test_bad_parameters_say_what_is_wrong(change, message):
 
 
 def test_missing_wheels_say_which_key_is_near():
-    with pytest.raises(ControllerError, match="no 'left_wheel_names' given"):
+    with pytest.raises(ControllerError, match="no 'left_wheel_names' or 'left_wheel' given"):
         _bench(base={"left_wheel_joint": "left", "right_wheel": "right", **SIZES})
 
 

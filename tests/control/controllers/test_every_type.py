@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,7 @@ from gazelle.control.controllers.sensor_messages import (
     POSE_INTERFACES,
     WRENCH_INTERFACES,
 )
+from gazelle.control.errors import ControllerError
 from gazelle.interfaces import action_type, message_type
 
 Float64 = message_type("std_msgs/Float64")
@@ -374,6 +377,40 @@ ROWS = (
 @pytest.mark.parametrize("scenario", [pytest.param(row, id=row.id) for row in ROWS])
 def test_every_type_does_what_its_law_says(scenario: Scenario) -> None:
     scenario.check()
+
+
+def misspelt(value: Any, names: set[str]) -> Any:
+    """Parameters with an x behind every name of a joint or sensor."""
+    if isinstance(value, dict):
+        return {misspelt(key, names): misspelt(item, names) for key, item in value.items()}
+    if isinstance(value, list):
+        return [misspelt(item, names) for item in value]
+    return f"{value}x" if isinstance(value, str) and value in names else value
+
+
+def named(scenario: Scenario) -> set[str]:
+    return {joint.name for joint in scenario.joints} | set(scenario.sensors)
+
+
+@pytest.mark.parametrize(
+    "scenario",
+    [
+        pytest.param(row, id=row.id)
+        for row in ROWS
+        if misspelt(dict(row.parameters), named(row)) != row.parameters
+    ],
+)
+def test_every_type_says_the_nearest_name_of_a_wrong_joint_or_sensor(scenario: Scenario) -> None:
+    wrong = misspelt(dict(scenario.parameters), named(scenario))
+    with pytest.raises(ControllerError) as caught:
+        TypeBench(replace(scenario, parameters=wrong))
+    found = re.search(
+        r"the hardware has no joint or sensor '(\w+)x'; did you mean '(\w+)'", str(caught.value)
+    )
+    assert found is not None
+    assert found[1] == found[2]
+    if scenario.generation == 1:
+        assert f"(Could not find resource '{found[1]}x')" in str(caught.value)
 
 
 def test_no_type_is_without_a_law() -> None:
