@@ -131,6 +131,20 @@ def joint_force(trial: Trial) -> None:
     assert speeds == pytest.approx([0.5 * 0.2 / INERTIA, 0.0], rel=0.01)
 
 
+FOLLOWS = """<joint>one_joint</joint><mimicJoint>two_joint</mimicJoint>
+  <multiplier>-0.5</multiplier><offset>0.3</offset>"""
+
+
+def mimics(trial: Trial) -> None:
+    """The second joint is where the first one's position puts it."""
+    one, two = (trial.sim.joint(f"{name}_joint") for name in ("one", "two"))
+    one.handle.set_state(velocity=2.0)
+    trial.sim.run(seconds=0.5)
+    assert one.position == pytest.approx(1.0, rel=0.01)
+    assert two.position == pytest.approx(0.3 - 0.5 * one.position, abs=5e-3)
+    assert two.velocity == pytest.approx(-0.5 * one.velocity, rel=0.02)
+
+
 def joint_velocity(trial: Trial) -> None:
     """The velocity is there at once."""
     trial.sim.publish("/model/thing/joint/one_joint/cmd_vel", number(3.0))
@@ -346,6 +360,7 @@ ROWS = (
         ),
         HIGH,
     ),
+    FamilyRow("mimic_joint", lever(HERE, KEYS), mimics, (FOLLOWS,)),
     FamilyRow("joint_pose_trajectory", lever(HERE, KEYS), poses, ("", ARM)),
     FamilyRow(
         "ros_control",

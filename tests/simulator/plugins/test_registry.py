@@ -102,14 +102,6 @@ def test_a_plug_in_of_a_link_or_visual_is_named(load: Callable[..., Simulation])
     ]
 
 
-def test_a_plug_in_that_is_not_needed_is_said_to_be_so(load: Callable[..., Simulation]) -> None:
-    library = "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so"
-    plugin = f"<gazebo><plugin name='c' filename='{library}'/></gazebo>"
-    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
-    (found,) = sim.diagnostics.by_code("plugin.unknown")
-    assert "mimic joints are part of the physics: the plug-in is not needed" in found.message
-
-
 def test_systems_of_gz_sim_are_built_in(load: Callable[..., Simulation]) -> None:
     plugin = "<gazebo><plugin name='gz::sim::systems::Physics' filename='gz-sim-physics-system'/>"
     sim = load(f"<robot name='r'>{LINK}{plugin}</gazebo></robot>", world=None)

@@ -66,17 +66,12 @@ _FAMILIES = (
     ("vacuum_gripper", "TABLE", "load"),
     ("hand_of_god", "TABLE", "load"),
     ("joint_pose_trajectory", "TABLE", "load"),
+    ("mimic_joint", "TABLE", "load"),
     ("gz_odometry", "TABLE", "load"),
     ("gz_odometry", "POSE_TABLE", "load_poses"),
     ("named", "TABLE", "load"),
     ("named", "NOTHING_TABLE", "load_nothing"),
 )
-# Compiled plug-ins people meet often, and where their behaviour comes from instead.
-_ELSEWHERE = {
-    "gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the plug-in is not needed",
-    "roboticsgroup_upatras_gazebo_mimic_joint_plugin": "mimic joints are part of the physics: the "
-    "plug-in is not needed",
-}
 
 
 @cache
@@ -134,8 +129,7 @@ def load_plugin(context: PluginContext) -> bool:
     if plugin.filename and report_compiled(context):
         return False
     name = plain_name(plugin.filename)
-    meaning = _ELSEWHERE.get(name, "what it does in Gazebo does not happen here")
     text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of {context.owner} is "
-    text += f"compiled code that Gazelle does not have: {meaning}"
+    text += "compiled code that Gazelle does not have: what it does in Gazebo does not happen here"
     context.report("plugin.unknown", text, fix=did_you_mean(name, known_names()))
     return False
