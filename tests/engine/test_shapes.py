@@ -184,6 +184,20 @@ def test_open_resting_mesh_is_a_shell_of_thin_solids(build, tmp_path):
     assert "it is not closed and collides as 8 convex pieces" in finding.message
 
 
+@pytest.mark.parametrize("static", [True, False])
+def test_shreds_of_a_mesh_do_not_collide(tmp_path, static):
+    """CAD drawings have triangles of no area and parts too small to see."""
+    angles = np.linspace(0, 2 * math.pi, 9)
+    top = np.stack([np.cos(angles), np.sin(angles), 0 * angles + 0.5], 1)
+    sliver = np.array([(0.0, 0.0, 0.0), (1e-4, 0.0, 0.0), (5e-5, 1e-9, 0.0)])
+    shred = [sliver, sliver + np.array([2.0, 0.0, 0.0])]
+    soup = np.array([*([top[i + 1], (0, 0, 0), top[i]] for i in range(8)), *shred])
+    faces = np.arange(len(soup) * 3).reshape(-1, 3)
+    path = write_stl(tmp_path / "cone.stl", soup.reshape(-1, 3), faces)
+    engine = Engine(World(models=(thing(mesh_shape(path), static=static),)))
+    assert engine.model.ngeom == (8 if static else 1)
+
+
 def test_surface_of_a_box_is_six_prisms():
     part = box_mesh((1.0, 2.0, 3.0))
     pieces = surface_pieces(np.asarray(part.vertices_m), np.asarray(part.faces))

@@ -13,7 +13,7 @@ from gazelle.description.model import MeshShape, Polyline
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
-from gazelle.engine.surface_pieces import connected_parts, surface_pieces
+from gazelle.engine.surface_pieces import LEAST_VOLUME_M3, connected_parts, surface_pieces
 from gazelle.geometry import (
     Mesh,
     MeshError,
@@ -142,17 +142,25 @@ def _piece(hull: MeshPart) -> Piece:
     return Piece(points, fitted_round_shape(points, mesh_volume_m3(Mesh((hull,)))))
 
 
+def _is_solid(hull: MeshPart) -> bool:
+    """Tell whether a hull has a volume: CAD drawings have shreds, which MuJoCo refuses."""
+    return mesh_volume_m3(Mesh((hull,))) > LEAST_VOLUME_M3
+
+
 def _component_pieces(mesh: Mesh, static: bool) -> tuple[list[Piece], str]:
     """Return the pieces of one connected part, and what is worth telling about them."""
     hull, share = _hull_and_share(mesh)
+    if not _is_solid(hull):
+        return [], ""
     if share >= CONVEX_SHARE:
         return [_piece(hull)], ""
     if share > 0:
         parts = convex_parts(mesh)
         if parts.is_exact:
-            return [Piece(np.asarray(part.vertices_m)) for part in parts.parts], ""
+            solids = filter(_is_solid, parts.parts)
+            return [Piece(np.asarray(part.vertices_m)) for part in solids], ""
     if static:
-        solids = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
-        return [Piece(points) for points in solids], "its surface as thin solids, for it rests"
+        prisms = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
+        return [Piece(points) for points in prisms], "its surface as thin solids, for it rests"
     why = "an open one has no inside" if share == 0 else "pip install 'gazelle-sim[convex]' splits"
     return [Piece(np.asarray(hull.vertices_m))], f"a hollow part as its hull: {why}"

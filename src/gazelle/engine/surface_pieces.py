@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 from gazelle.geometry import Mesh
 from gazelle.geometry.building import part_from_soup
 
-__all__ = ["connected_parts", "surface_pieces"]
+__all__ = ["LEAST_VOLUME_M3", "connected_parts", "surface_pieces"]
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
+
+LEAST_VOLUME_M3 = 1e-13
+"""Solids below it are left out, cubes of 50 µm: MuJoCo refuses hulls without volume."""
 
 _THICKNESS_RATIO = 0.01
 _MOST_THICKNESS_M = 0.02
@@ -59,10 +62,10 @@ def surface_pieces(vertices_m: Array, faces: Faces) -> tuple[Array, ...]:
     corners = vertices_m[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     doubled = np.linalg.norm(normals, axis=1)
-    kept = doubled > 1e-14
-    corners, normals = corners[kept], normals[kept] / doubled[kept, None]
     size = float(np.ptp(vertices_m, axis=0).max())
     thickness = min(_THICKNESS_RATIO * size, _MOST_THICKNESS_M)
+    kept = doubled * thickness / 2 > LEAST_VOLUME_M3
+    corners, normals = corners[kept], normals[kept] / doubled[kept, None]
     pieces: list[Array] = []
     for group in _flat_groups(corners, normals, size):
         pieces.extend(_prisms(corners[group], normals[group[0]], thickness))
