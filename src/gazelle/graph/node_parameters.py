@@ -162,8 +162,7 @@ class NodeParameters:
             return f"parameter '{name}' cannot be set because it is read-only", value
         now = parameter_type(self.values[name])
         value = _widened(value, now)
-        is_empty = value == [] and now >= ParameterType.BYTE_ARRAY
-        wanted = now if is_empty else parameter_type(value)
+        wanted = now if now.check(value) else parameter_type(value)
         if wanted is not now and not known.dynamic_typing and now is not ParameterType.NOT_SET:
             text = f"Wrong parameter type, parameter {{{name}}} is of type {{{now.word}}}, setting"
             return f"{text} it to {{{wanted.word}}} is not allowed.", value

@@ -31,6 +31,17 @@ class ParameterType(enum.IntEnum):
         """As ``ros2 param`` prints it."""
         return self.name.lower().replace("_", " ")
 
+    @classmethod
+    def from_parameter_value(cls, value: Any) -> ParameterType:
+        """Return the kind of a Python value; rclpy's name of `parameter_type`."""
+        return parameter_type(value)
+
+    def check(self, value: Any) -> bool:
+        """Tell whether a value is of this kind; an empty list is of every kind of list."""
+        if value == [] and self >= ParameterType.BYTE_ARRAY:
+            return True
+        return parameter_type(value) is self
+
 
 _FIELDS = {
     ParameterType.BOOL: "bool_value",

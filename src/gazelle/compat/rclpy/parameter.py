@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import enum
-from typing import Any
+from typing import Any, TypeAlias
 
-from gazelle.graph.parameter_values import (
-    parameter_type,
-    value_from_message,
-    value_message,
-)
+from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
 
 __all__ = ["PARAMETER_SEPARATOR_STRING", "Parameter", "parameter_value_to_python"]
@@ -30,36 +25,12 @@ class Parameter:
         ValueError: value and type do not fit.
     """
 
-    class Type(enum.IntEnum):
-        """Kinds of parameters, ``rcl_interfaces/msg/ParameterType``."""
+    Type: TypeAlias = ParameterType
 
-        NOT_SET = 0
-        BOOL = 1
-        INTEGER = 2
-        DOUBLE = 3
-        STRING = 4
-        BYTE_ARRAY = 5
-        BOOL_ARRAY = 6
-        INTEGER_ARRAY = 7
-        DOUBLE_ARRAY = 8
-        STRING_ARRAY = 9
-
-        @classmethod
-        def from_parameter_value(cls, value: Any) -> Parameter.Type:
-            """Return the kind of a Python value."""
-            return cls(int(parameter_type(value)))
-
-        def check(self, value: Any) -> bool:
-            """Tell whether a value is of this kind."""
-            found = parameter_type(value)
-            if value == [] and self >= Parameter.Type.BYTE_ARRAY:
-                return True
-            return int(found) == int(self)
-
-    def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
+    def __init__(self, name: str, type_: ParameterType | None = None, value: Any = None) -> None:
         if type_ is None:
             type_ = Parameter.Type.from_parameter_value(value)
-        if not isinstance(type_, Parameter.Type):
+        if not isinstance(type_, ParameterType):
             raise TypeError("type must be an instance of Parameter.Type")
         if not type_.check(value):
             raise ValueError(f"Type '{type_}' and value '{value}' do not agree")

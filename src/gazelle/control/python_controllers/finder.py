@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import ast
-import importlib.util
 import os
-import sys
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.control.errors import ControllerError
 from gazelle.control.python_controllers.adapter import adapted
 from gazelle.control.python_controllers.places import located
+from gazelle.workspace.python_files import import_python_file
 
 if TYPE_CHECKING:
     from gazelle.control.controllers.controller import Controller
@@ -102,27 +99,11 @@ def _is_controller(found: ast.ClassDef) -> bool:
 
 
 def _class_in(place: _Found, name: str, type_name: str) -> type[Controller]:
-    module = _module(str(place.path), place.path.stat().st_mtime_ns, str(place.package.path))
-    return adapted(getattr(module, name), type_name, place.package.path)
-
-
-@lru_cache(maxsize=64)
-def _module(path: str, mtime_ns: int, package: str) -> ModuleType:
-    """Import a file; again when it has changed."""
-    for folder in (str(Path(path).parent), str(Path(package) / "src")):
-        if folder not in sys.path and Path(folder).is_dir():
-            # So that it finds its own modules beside it.
-            sys.path.append(folder)
-    name = f"gazelle_user_controllers.{Path(package).name}.{Path(path).stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
+    package = place.package.path
+    module_name = f"gazelle_user_controllers.{package.name}.{place.path.stem}"
     try:
-        spec.loader.exec_module(module)
+        module = import_python_file(place.path, module_name, folders=(package / "src",))
     except Exception as error:
-        sys.modules.pop(name, None)
-        text = f"cannot import the controller's file: {located(error, Path(package))}"
+        text = f"cannot import the controller's file: {located(error, package)}"
         raise ControllerError(text) from error
-    return module
+    return adapted(getattr(module, name), type_name, place.package.path)

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
 import inspect
-import sys
 from collections.abc import Callable
 from fractions import Fraction
-from functools import lru_cache
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -24,6 +20,7 @@ from gazelle.simulator.plugins.user.finder import (
 )
 from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps, sensor_period_in_steps
+from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["load_user_plugin", "report_compiled"]
 
@@ -44,7 +41,8 @@ def load_user_plugin(context: PluginContext) -> bool:
     if found is None:
         return False
     runner = _Runner(context, found)
-    made = runner.guarded(lambda: _module(str(found.path), found.path.stat().st_mtime_ns))
+    name = f"gazelle_user_plugins.{found.path.stem}_{found.path.stat().st_mtime_ns}"
+    made = runner.guarded(lambda: import_python_file(found.path, name))
     wanted = None if made is None else _class_in(made, context, found)
     if wanted is not None:
         runner.start(wanted)
@@ -178,24 +176,3 @@ def _class_in(
         fix = f"derive it from gazelle.simulator.plugins.user.{role}Plugin"
     context.report("plugin.user-class", f"{text}; it is left out", fix=fix)
     return None
-
-
-@lru_cache(maxsize=64)
-def _module(path: str, mtime_ns: int) -> ModuleType:
-    """Import a file; again when it has changed."""
-    folder = str(Path(path).parent)
-    if folder not in sys.path:
-        # So that it finds its own modules beside it.
-        sys.path.append(folder)
-    name = f"gazelle_user_plugins.{Path(path).stem}_{mtime_ns}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        sys.modules.pop(name, None)
-        raise
-    return module
