@@ -40,7 +40,9 @@ class JointGroup:
         self._everyone = np.arange(len(names))
         self._revision = -1
         self._locks: Indices | None = None
-        self._velocities: Array | None = None
+        self._velocities: list[float] | None = None
+        self._limits_key: bytes | None = None
+        self._limits: list[float] = []
         self._changes = -1
         self._resting_effort: Array | None = None
         self._read_limits()
@@ -134,22 +136,20 @@ class JointGroup:
             EngineError: a velocity is infinite.
         """
         self._index()
-        wanted = np.empty((2, len(self.names)))
-        wanted[0], wanted[1] = values, max_effort
+        velocities, limits = values.tolist(), self._motor_limits(max_effort)
         sent = self._velocities
         if sent is None or self._changes != self._engine.motors.changes:
-            sent = self._velocities = np.full(wanted.shape, np.nan)
-        places = np.flatnonzero((wanted != sent).any(axis=0) & ~np.isnan(wanted).any(axis=0))
-        if not len(places):
-            return
-        chosen = wanted[:, places]
-        self._check_finite(chosen[0], places)
-        self._unlock(places)
-        limits = self._motor_limits(chosen[1], places)
-        for place, velocity, limit in zip(places, chosen[0].tolist(), limits, strict=True):
-            command = MotorCommand("velocity", velocity, limit)
+            sent = self._velocities = [math.nan] * len(velocities)
+        for place, velocity in enumerate(velocities):
+            if velocity == sent[place] or math.isnan(velocity) or math.isnan(limits[place]):
+                continue
+            if math.isinf(velocity):
+                raise EngineError(f"joint '{self.names[place]}' was given an infinite value")
+            if self._locks is not None:
+                self._engine.locks.release(self._locks[place : place + 1])
+            command = MotorCommand("velocity", velocity, limits[place])
             self._engine.command_motor(self._elements[place], command)
-        sent[:, places] = chosen
+            sent[place] = velocity
         self._changes = self._engine.motors.changes
 
     def release(self, places: Sequence[int] | None = None) -> None:
@@ -203,12 +203,19 @@ class JointGroup:
             names = np.asarray(self.names)[chosen][~np.isfinite(values)]
             raise EngineError(f"joint '{names[0]}' was given an infinite value")
 
-    def _motor_limits(self, efforts: Array, places: Indices) -> list[float]:
-        """Return what motors get that are asked for these efforts, as `JointHandle.motor_limit`."""
-        own, asked = self._effort_limits[places], np.abs(efforts)
-        limits = np.where(own > 0, np.minimum(asked, own), asked)
-        found: list[float] = np.where(np.isinf(efforts), UNLIMITED_EFFORT, limits).tolist()
-        return found
+    def _motor_limits(self, max_effort: Array) -> list[float]:
+        """Return what motors get that are asked for these efforts, as `JointHandle.motor_limit`.
+
+        New ones mean that all velocities are sent again.
+        """
+        key = max_effort.tobytes()
+        if key != self._limits_key:
+            own, asked = self._effort_limits, np.abs(max_effort)
+            limits = np.where(own > 0, np.minimum(asked, own), asked)
+            limits = np.where(np.isinf(max_effort), UNLIMITED_EFFORT, limits)
+            self._limits_key, self._limits = key, limits.tolist()
+            self._velocities = None
+        return self._limits
 
     def _read_limits(self) -> None:
         limits = np.array([handle.effort_limit for handle in self._handles], dtype=np.float64)

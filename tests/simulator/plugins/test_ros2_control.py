@@ -205,6 +205,21 @@ def test_sensors_of_the_block_measure_the_arm(load: Load) -> None:
     assert known.sensor_frames == {"imu": "arm", "ft": "arm"}
 
 
+def test_reading_of_a_sensor_stands_for_a_period_of_its_rate(load: Load, tmp_path: Path) -> None:
+    path = tmp_path / "fast.yaml"
+    path.write_text("controller_manager: {ros__parameters: {update_rate: 1000}}")
+    keys = f"<parameters>{path}</parameters><hold_joints>false</hold_joints>"
+    sim = load(robot(keys=keys, body=STATES, extra=SENSORS))
+    known = sim.server.controls.manager().robot
+    places = known.bank.state_places(["imu/angular_velocity.y"])
+    values = []
+    for _ in range(100):
+        sim.step()
+        values.append(float(known.bank.states[places[0]]))
+    assert len(set(values)) == 11
+    assert [len(list(group)) for _, group in itertools.groupby(values)][1:-1] == [10] * 9
+
+
 @pytest.mark.parametrize("plugin", [CLASSIC, GZ])
 def test_after_a_reset_the_arm_is_at_its_initial_value_and_holds(load: Load, plugin: str) -> None:
     sim = load(robot(plugin, ""))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from gazelle.control.hardware.sensor_states import (
@@ -20,7 +20,8 @@ __all__ = ["ModelSensors"]
 class ModelSensors:
     """IMUs and force-torque sensors of one model.
 
-    They have their own noise, so that readings do not depend on who else reads a sensor.
+    They have their own noise, so that readings do not depend on who else reads a sensor. As in
+    Gazebo a reading stands for a period of the sensor's update rate.
     """
 
     def __init__(self, host: Host, model: Model) -> None:
@@ -43,8 +44,25 @@ class ModelSensors:
             return None
         frame = place.link_name.split("::", 1)[1]
         if isinstance(place.sensor.spec, ImuSpec):
-            return SensorReadout(IMU_STATES, frame, lambda: self._imu(place))
-        return SensorReadout(FORCE_TORQUE_STATES, frame, lambda: self._wrench(place))
+            return SensorReadout(IMU_STATES, frame, self._held(place, self._imu))
+        return SensorReadout(FORCE_TORQUE_STATES, frame, self._held(place, self._wrench))
+
+    def _held(
+        self, place: SensorPlace, read: Callable[[SensorPlace], Sequence[float]]
+    ) -> Callable[[], Sequence[float]]:
+        rate_hz = place.sensor.update_rate_hz
+        period_ns = max(1, round(1e9 / rate_hz)) if rate_hz > 0 else 1
+        engine = self._host.engine
+        last: list[tuple[int, Sequence[float]]] = []
+
+        def reading() -> Sequence[float]:
+            now_ns = engine.time_ns
+            is_due = not last or now_ns < last[0][0]
+            if is_due or now_ns // period_ns != last[0][0] // period_ns:
+                last[:] = [(now_ns, read(place))]
+            return last[0][1]
+
+        return reading
 
     def _imu(self, place: SensorPlace) -> Sequence[float]:
         spec = place.sensor.spec
