@@ -179,6 +179,31 @@ def test_a_bad_update_rate_is_reported(load: Load, tmp_path: Path) -> None:
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(100.0)
 
 
+SDF = """<sdf version="1.9"><model name="bot">
+  <link name="arm"><inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass>
+  <inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial></link>
+  <joint name="j" type="revolute"><parent>world</parent><child>arm</child>
+  <axis><xyz>0 1 0</xyz></axis></joint>{}</model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    "place", ["/left/robot_state_publisher/robot_description", "/robot_description"]
+)
+def test_model_from_sdf_takes_its_blocks_from_the_parameter(load: Load, place: str) -> None:
+    text = SDF.format(GZ.format("<ros><namespace>left</namespace></ros>"))
+    sim = load(text, parameters={place: robot(GZ)})
+    assert not sim.diagnostics.by_code("control.ros2-control-missing")
+    assert sim.joint("j").position == 0.2
+    assert sorted(sim.server.controls.manager("left").robot.joints) == ["j"]
+
+
+def test_parameter_of_another_robot_does_not_count(load: Load) -> None:
+    other = robot(GZ).replace('name="j"', 'name="other"')
+    sim = load(SDF.format(GZ.format("")), parameters={"/robot_description": other})
+    assert "no ros2_control tag" in found(sim, "control.ros2-control-missing")
+    assert not sim.server.controls.manager().robot.joints
+
+
 SENSORS = """<gazebo reference="arm"><sensor name="imu" type="imu"><update_rate>100</update_rate>
   </sensor></gazebo><gazebo reference="j"><sensor name="ft" type="force_torque">
   <force_torque><frame>child</frame><measure_direction>child_to_parent</measure_direction>

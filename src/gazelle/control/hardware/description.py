@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Joint, Model, TransmissionTag
+from gazelle.description.model import Joint, Model, Ros2ControlTag, TransmissionTag
 from gazelle.description.urdf.joints import read_joint
 from gazelle.description.urdf.transmissions import read_transmission
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 
-__all__ = ["ControlDescription", "description_of", "read_description"]
+__all__ = ["ControlDescription", "description_of", "read_description", "read_ros2_controls"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,3 +51,14 @@ def read_description(text: str) -> ControlDescription | None:
             joints.setdefault(name, found.joint)
     tags = (read_transmission(tag, joints, context) for tag in robot.find_all("transmission"))
     return ControlDescription(joints, tuple(tag for tag in tags if tag is not None))
+
+
+def read_ros2_controls(text: str) -> tuple[Ros2ControlTag, ...]:
+    """Read the ``<ros2_control>`` blocks of a ``robot_description``; none when it is not a URDF."""
+    robot = parse_xml(text, "<robot_description>", Diagnostics())
+    if robot is None or robot.name != "robot":
+        return ()
+    return tuple(
+        Ros2ControlTag(tag.attributes.get("name", ""), tag.attributes.get("type", ""), tag)
+        for tag in robot.find_all("ros2_control")
+    )

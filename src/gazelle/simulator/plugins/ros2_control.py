@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.description.model import Model
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.ros2_control_table import GZ_TABLE, TABLE
@@ -50,7 +52,7 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     gains = source.tree(context.plugin.name).get("pid_gains", {})
     robot = build_ros2_robot(
         host,
-        context.model,
+        _described(context, parameters, namespace),
         options,
         gains=gains if isinstance(gains, dict) else {},
         sensors=ModelSensors(host, context.model),
@@ -70,6 +72,27 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     run_control_loop(context, manager, steps)
     check_controllers(context, manager, steps)
     parameters.report_unread()
+
+
+def _described(context: PluginContext, parameters: ParameterReader, namespace: str) -> Model:
+    """Return the model, with the blocks of the parameter store where it has none, as from SDF."""
+    from gazelle.control.hardware.description import read_ros2_controls
+
+    model, store = context.model, context.host.node.parameters
+    name, node = parameters.text("robot_param"), parameters.text("robot_param_node")
+    if model.ros2_controls:
+        return model
+    words = [word for word in namespace.split("/") if word]
+    spaces = [join_names("/", *words[:count]) for count in range(len(words), -1, -1)]
+    places = [join_names(space, *own, name) for own in ((node,), ()) for space in spaces]
+    names = {joint.name for joint in model.joints}
+    for place in places:
+        text = store.get(place, None)
+        blocks = read_ros2_controls(text) if isinstance(text, str) and text.strip() else ()
+        named = {part.attributes.get("name") for block in blocks for part in block.element.children}
+        if not names.isdisjoint(named):
+            return replace(model, ros2_controls=blocks)
+    return model
 
 
 def _options(parameters: ParameterReader, *, is_gz: bool, rate_hz: float) -> SystemOptions:

@@ -41,7 +41,20 @@ _PARAMETERS = (
     Parameter("parameters", "text", "", "parameter file; may be repeated, later ones win"),
     Parameter("controller_manager_name", "text", "controller_manager", "node name of the manager"),
 )
-_DESCRIPTION = "the model itself is the description"
+_DESCRIPTION = (
+    Parameter(
+        "robot_param",
+        "text",
+        "robot_description",
+        "parameter whose `<ros2_control>` blocks count for a model without any, as from SDF",
+    ),
+    Parameter(
+        "robot_param_node",
+        "text",
+        "robot_state_publisher",
+        "node whose parameter it is; else it is searched upwards from the namespace",
+    ),
+)
 _SIM_TYPE = "the class stands in the `<ros2_control>` block"
 
 TABLE = PluginTable(
@@ -60,8 +73,7 @@ TABLE = PluginTable(
     parameters=(
         *_PARAMETERS,
         _HOLD,
-        Parameter("robot_param", "none", "", _DESCRIPTION),
-        Parameter("robot_param_node", "none", "", _DESCRIPTION),
+        *_DESCRIPTION,
         Parameter("robot_sim_type", "none", "", _SIM_TYPE, aliases=("robotSimType",)),
     ),
     services=_SERVICES,
@@ -92,8 +104,7 @@ GZ_TABLE = PluginTable(
             0.1,
             "share of a position error that is made up for in one control period",
         ),
-        Parameter("robot_param", "none", "", _DESCRIPTION),
-        Parameter("robot_param_node", "none", "", _DESCRIPTION),
+        *_DESCRIPTION,
     ),
     services=_SERVICES,
 )
