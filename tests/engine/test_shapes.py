@@ -16,6 +16,9 @@ from gazelle.description.model import (
     Ellipsoid,
     Heightmap,
     Inertial,
+    Joint,
+    JointAxis,
+    JointType,
     Link,
     MeshShape,
     Model,
@@ -196,6 +199,22 @@ def test_shreds_of_a_mesh_do_not_collide(tmp_path, static):
     path = write_stl(tmp_path / "cone.stl", soup.reshape(-1, 3), faces)
     engine = Engine(World(models=(thing(mesh_shape(path), static=static),)))
     assert engine.model.ngeom == (8 if static else 1)
+
+
+def test_open_mesh_of_a_fixed_base_is_its_hull(tmp_path):
+    """The base of an arm is finely drawn: its surface would be thousands of solids."""
+    angles = np.linspace(0, 2 * math.pi, 9)
+    top = np.stack([np.cos(angles), np.sin(angles), 0 * angles + 0.5], 1)
+    soup = np.array([[top[i + 1], (0, 0, 0), top[i]] for i in range(8)])
+    path = write_stl(tmp_path / "cone.stl", soup.reshape(-1, 3), np.arange(24).reshape(-1, 3))
+    base = Link("base", inertial=SMALL, collisions=(Collision("c", mesh_shape(path), Pose()),))
+    arm = Link("arm", inertial=SMALL)
+    joints = (
+        Joint("foot", JointType.FIXED, "world", "base"),
+        Joint("elbow", JointType.CONTINUOUS, "base", "arm", axis=JointAxis()),
+    )
+    engine = Engine(World(models=(Model("robot", Pose(), links=(base, arm), joints=joints),)))
+    assert engine.model.ngeom == 1
 
 
 def test_surface_of_a_box_is_six_prisms():

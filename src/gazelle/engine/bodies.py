@@ -100,6 +100,8 @@ class SpecBuilder:
         }
         moved = _moved_masses(tree, inertias)
         mass = sum(item.mass_kg for item in inertias.values() if item is not None)
+        # A machine's base is a machine's part: finely made and only touched from outside.
+        scenery = len(fixed) == len(tree.links)
         for entry in tree.links:
             body = self._add_body(model, entry, bodies)
             bodies[entry.link.name] = body
@@ -110,7 +112,8 @@ class SpecBuilder:
                 self._add_mass(model, entry, body, inertias[entry.link.name], moved)
             carrier = body if static else self._tyre(model, entry, body)
             for collision in entry.link.collisions:
-                self._add_collision(model, entry.link, collision, carrier, static, mass)
+                kind = (static, scenery)
+                self._add_collision(model, entry.link, collision, carrier, kind, mass)
         for joint in model.joints:
             if joint.mimic is not None and not model.static:
                 add_mimic(self.spec, joint, model.name, self.step_s)
@@ -207,12 +210,15 @@ class SpecBuilder:
         link: Link,
         collision: Collision,
         body: Any,
-        static: bool,
+        kind: tuple[bool, bool],
         mass_kg: float,
     ) -> None:
+        static, scenery = kind
         link_name = scoped(model.name, link.name)
         collision_name = self._unique(scoped(link_name, collision.name))
-        shapes = geom_shapes(collision, collision_name, static=static, diagnostics=self.diagnostics)
+        shapes = geom_shapes(
+            collision, collision_name, static=static, scenery=scenery, diagnostics=self.diagnostics
+        )
         for index, shape in enumerate(shapes):
             name = part_of(collision_name, index)
             pose = collision.T_link_collision @ shape.T_collision_geom

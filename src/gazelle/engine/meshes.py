@@ -51,22 +51,22 @@ class _MeshKey(NamedTuple):
     scale: tuple[float, float, float]
     submesh: str
     center: bool
-    static: bool
+    scenery: bool
 
 
 def convex_pieces(
-    shape: MeshShape, name: str, *, static: bool, diagnostics: Diagnostics
+    shape: MeshShape, name: str, *, scenery: bool, diagnostics: Diagnostics
 ) -> tuple[Piece, ...]:
     """Return the convex solids that together stand for a mesh.
 
     A convex mesh is its hull, or the cylinder or sphere it approximates. A hollow one is split
-    by CoACD where it is installed; without it a moving mesh is its hull, and a resting one is
+    by CoACD where it is installed; without it a mesh of a machine is its hull, and scenery is
     made of thin solids along its surface, for the robot is usually inside its hull.
 
     Args:
         shape: the mesh.
         name: of the collision, for messages.
-        static: it never moves.
+        scenery: it never moves, nor does anything else of its model.
         diagnostics: takes ``engine.hollow-mesh`` and ``engine.bad-mesh``.
     """
     if shape.path is None:
@@ -74,7 +74,7 @@ def convex_pieces(
     try:
         modified = shape.path.stat().st_mtime_ns
         key = _MeshKey(
-            shape.path, modified, shape.scale, shape.submesh, shape.center_submesh, static
+            shape.path, modified, shape.scale, shape.submesh, shape.center_submesh, scenery
         )
         result = _decomposed(key)
     except (MeshError, OSError, ValueError) as error:
@@ -119,7 +119,7 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
     pieces: list[Piece] = []
     notes: dict[str, None] = {}
     for component in connected_parts(mesh):
-        found, note = _component_pieces(component, key.static)
+        found, note = _component_pieces(component, key.scenery)
         pieces.extend(found)
         if note:
             notes.setdefault(note)
@@ -147,7 +147,7 @@ def _is_solid(hull: MeshPart) -> bool:
     return mesh_volume_m3(Mesh((hull,))) > LEAST_VOLUME_M3
 
 
-def _component_pieces(mesh: Mesh, static: bool) -> tuple[list[Piece], str]:
+def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:
     """Return the pieces of one connected part, and what is worth telling about them."""
     hull, share = _hull_and_share(mesh)
     if not _is_solid(hull):
@@ -159,7 +159,7 @@ def _component_pieces(mesh: Mesh, static: bool) -> tuple[list[Piece], str]:
         if parts.is_exact:
             solids = filter(_is_solid, parts.parts)
             return [Piece(np.asarray(part.vertices_m)) for part in solids], ""
-    if static:
+    if scenery:
         prisms = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
         return [Piece(points) for points in prisms], "its surface as thin solids, for it rests"
     why = "an open one has no inside" if share == 0 else "pip install 'gazelle-sim[convex]' splits"

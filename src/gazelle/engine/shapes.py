@@ -56,7 +56,7 @@ class GeomShape:
 
 
 def geom_shapes(
-    collision: Collision, name: str, *, static: bool, diagnostics: Diagnostics
+    collision: Collision, name: str, *, static: bool, scenery: bool, diagnostics: Diagnostics
 ) -> tuple[GeomShape, ...]:
     """Return the geoms that stand for a collision shape; several for a concave mesh.
 
@@ -64,6 +64,7 @@ def geom_shapes(
         collision: the collision.
         name: its full name for messages.
         static: it never moves, so infinite planes and terrains are possible.
+        scenery: nothing of its model moves, so the surface of an open mesh is kept.
         diagnostics: takes what cannot be represented.
     """
     types = mujoco.mjtGeom
@@ -86,7 +87,7 @@ def geom_shapes(
         case Heightmap():
             shapes = _terrain(collision.shape, collision, name, static, diagnostics)
         case MeshShape():
-            pieces = convex_pieces(collision.shape, name, static=static, diagnostics=diagnostics)
+            pieces = convex_pieces(collision.shape, name, scenery=scenery, diagnostics=diagnostics)
             shapes = tuple(_solid(piece) for piece in pieces)
         case Polyline():
             shapes = tuple(_solid(piece) for piece in polyline_pieces(collision.shape))
