@@ -340,14 +340,20 @@ def test_joint_properties_are_read_and_changed(world: World) -> None:
     assert world.sim.joint("swing").handle.upper == 0.9
 
 
-def test_configuration_needs_known_joints_and_as_many_positions(world: World) -> None:
+def test_configuration_needs_as_many_positions_and_says_what_it_leaves_out(world: World) -> None:
     world.sim.spawn(ARM)
     answer = world.call("set_model_configuration", "SetModelConfiguration", model_name="arm",
                         joint_names=["swing"], joint_positions=[])  # fmt: skip
     assert "have different lengths" in answer.status_message
     answer = world.call("set_model_configuration", "SetModelConfiguration", model_name="arm",
-                        joint_names=["swng"], joint_positions=[1.0])  # fmt: skip
-    assert answer.status_message == "SetModelConfiguration: no such joint: swng"
+                        joint_names=["swng", "swing"], joint_positions=[1.0, 40.0])  # fmt: skip
+    assert answer.success
+    limit = world.sim.joint("swing").handle.upper
+    assert answer.status_message == (
+        "SetModelConfiguration: success, but there is no joint 'swng'; 40 is beyond the limit of "
+        f"joint 'swing', {limit:g} is set"
+    )
+    assert world.sim.joint("swing").position == limit
 
 
 def test_lights_are_read_changed_and_deleted(world: World) -> None:

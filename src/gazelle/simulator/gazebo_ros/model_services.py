@@ -103,19 +103,25 @@ class ModelServices:
             _fail(response, text)
             return
         engine = self._server.engine
-        missing = []
-        for joint, position in zip(request.joint_names, request.joint_positions, strict=True):
-            full = joint if "::" in joint else f"{request.model_name}::{joint}"
-            if full in engine.joint_names:
-                engine.joint(full).set_state(float(position), 0.0)
-            else:
-                missing.append(joint)
-        if missing:
-            # Gazebo drops unknown joints in silence and reports success.
-            text = "SetModelConfiguration: no such joint: " + ", ".join(missing)
-            _fail(response, text)
-            return
-        _succeed(response, "SetModelConfiguration: success")
+        left: list[str] = []
+        for name, position in zip(request.joint_names, request.joint_positions, strict=True):
+            full = name if "::" in name else f"{request.model_name}::{name}"
+            if full not in engine.joint_names:
+                left.append(f"there is no joint '{name}'")
+                continue
+            joint = engine.joint(full)
+            wanted = min(max(float(position), joint.lower), joint.upper)
+            joint.set_state(wanted, 0.0)
+            if wanted != position:
+                left.append(
+                    f"{position:g} is beyond the limit of joint '{name}', {wanted:g} is set"
+                )
+        text = "SetModelConfiguration: success"
+        if left:
+            # Gazebo goes on in silence; launch files with joints of another robot count on it.
+            text += f", but {'; '.join(left)}"
+            self._server.node.log("WARN", text)
+        _succeed(response, text)
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
         entity = self._entities.model(request.name) or self._entities.link(request.name)
