@@ -141,6 +141,17 @@ def test_all_findings_are_reported_with_their_codes() -> None:
     assert list(found)[3].fix.startswith("use at most p ")
 
 
+def test_gains_of_a_controller_that_the_hardware_cannot_have_are_not_judged() -> None:
+    joints = {"joint_1": Joint("joint_1", JointType.REVOLUTE, "a", "b", axis=JointAxis())}
+    effort = {"type": "effort_controllers/JointPositionController", "joint": "joint_1"}
+    source = _source({"one": {**effort, "pid": {"p": 800.0, "d": 80.0}}})
+    for interface, codes in (("effort", ["control.unstable-gains"]), ("position", [])):
+        found = Diagnostics()
+        hardware = _hardware("joint_1", interface=interface)
+        check_control(joints, hardware, source, found, inertias={"joint_1": 1e-4})
+        assert [item.code for item in found] == codes
+
+
 def test_unclaimed_joint_may_have_zero_limits() -> None:
     joints = {"x": Joint("x", JointType.REVOLUTE, "a", "b", axis=JointAxis(effort=0.0))}
     found = Diagnostics()

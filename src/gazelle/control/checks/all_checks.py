@@ -61,6 +61,10 @@ def check_control(
     for item in controllers:
         for gains in item.gains:
             joint = joints.get(gains.joint)
+            resource = hardware.get(gains.joint)
+            if resource is not None and "effort" not in resource.command_interfaces:
+                # Configured for another hardware interface, as files for several have it.
+                continue
             if joint is not None and inertias and gains.joint in inertias:
                 inertia = inertias[gains.joint]
                 place = source.place(item.name, gains.key) or item.place or span
