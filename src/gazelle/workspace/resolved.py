@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
+from gazelle.workspace.installed import installed_source
 
 __all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
 
@@ -59,12 +60,16 @@ class Resolved:
 def locate(base: Path, relative: str) -> tuple[Path | None, str]:
     """Return an existing path below `base` and a note; (None, "") when there is none.
 
+    A source package's folder stands for its share folder: what installing puts elsewhere is found.
     When the exact name does not exist, one that differs only in upper and lower case is taken
     and the note says so: such files work on Windows and macOS and fail on Linux.
     """
     path = base / relative if relative else base
     if path.exists():
         return path, ""
+    source = installed_source(path.absolute())
+    if source is not None:
+        return source, ""
     found = _ignoring_case(base, relative)
     if found is None:
         return None, ""

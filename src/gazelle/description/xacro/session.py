@@ -19,6 +19,7 @@ from gazelle.description.xacro.dom import Tracker, node_in, place_of
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
+from gazelle.workspace.installed import installed_source
 
 __all__ = ["Session", "causes_of", "run_session"]
 
@@ -70,6 +71,7 @@ def _replacements(library: Any, session: Session, root_dir: str) -> list[tuple[A
         (library, "handle_macro_call", _tracked(library.handle_macro_call, tracker)),
         (library, "process_include", _tracked(library.process_include, tracker)),
         (library, "get_include_files", _lenient(library.get_include_files, session)),
+        (library, "abs_filename_spec", _found_source(library.abs_filename_spec)),
         (library, "print", _printer(session)),
         (library, "root_dir", root_dir or "."),
         (library, "verbosity", 1),
@@ -154,6 +156,17 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
         return result
 
     return call
+
+
+def _found_source(function: Callable[[str], str]) -> Callable[[str], str]:
+    """Find files of source packages where they lie before they are installed."""
+
+    def absolute(filename: str) -> str:
+        path = Path(function(filename))
+        source = None if path.exists() else installed_source(path.absolute())
+        return str(path if source is None else source)
+
+    return absolute
 
 
 def _lenient(function: Callable[..., Any], session: Session) -> Callable[..., Any]:
