@@ -27,7 +27,8 @@ def test_reference_to_the_world_is_said_to_have_no_effect_when_it_says_anything(
     found = read(
         '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed">'
         '<parent link="world"/><child link="a"/></joint><gazebo reference="world"/>'
-        '<gazebo reference="world"><static>true</static></gazebo></robot>'
+        '<gazebo reference="world"><static>true</static></gazebo>'
+        '<gazebo reference="world"><mu1>1</mu1></gazebo></robot>'
     )
     (item,) = found.diagnostics.by_code("urdf.gazebo-reference")
     assert (

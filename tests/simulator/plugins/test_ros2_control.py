@@ -90,6 +90,21 @@ def test_a_later_parameter_file_wins(load: Load, yaml_file: Path, tmp_path: Path
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(50.0)
 
 
+def test_files_for_nodes_of_another_namespace_are_reported(load: Load, yaml_file: Path) -> None:
+    keys = f"<parameters>{yaml_file}</parameters><ros><namespace>left</namespace></ros>"
+    text = found(load(robot(keys=keys)), "control.parameters-of-others")
+    assert "are for /controller_manager, /forward, and the controller manager is" in text
+    assert "/left/controller_manager: none" in text and "'/**/controller_manager:'" in text
+
+
+@pytest.mark.parametrize("name", ["/**/controller_manager:", "/left/controller_manager:", "/**:"])
+def test_files_with_a_node_of_the_namespace_are_not(load: Load, tmp_path: Path, name: str) -> None:
+    path = tmp_path / "controllers.yaml"
+    path.write_text(YAML.replace("controller_manager:", name))
+    keys = f"<parameters>{path}</parameters><ros><namespace>left</namespace></ros>"
+    assert not load(robot(keys=keys)).diagnostics.by_code("control.parameters-of-others")
+
+
 def test_parameter_files_among_the_arguments_of_the_node_count(load: Load, yaml_file: Path) -> None:
     arguments = "".join(
         f"<argument>{word}</argument>" for word in ("--ros-args", "--params-file", yaml_file)

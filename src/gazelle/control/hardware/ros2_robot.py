@@ -124,9 +124,10 @@ class _Builder:
     def _report_unknown(self, tag: HardwareTag) -> None:
         named = f"class '{tag.plugin}'" if tag.plugin else "no <plugin>"
         text = f"hardware '{tag.name}' has {named}, which is not simulated hardware: its joints"
-        text += " and sensors cannot be controlled (The plugin failed to load for some reason."
-        text += f" According to the loaded plugin descriptions the class {tag.plugin} does not"
-        text += " exist.)"
+        text += " and sensors cannot be controlled"
+        if tag.plugin:
+            text += " (The plugin failed to load for some reason. According to the loaded plugin"
+            text += f" descriptions the class {tag.plugin} does not exist.)"
         hint = did_you_mean(tag.plugin, _KNOWN)
         if not hint:
             best = _GZ[0] if self._options.is_gz else _CLASSIC[0]

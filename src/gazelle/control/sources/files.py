@@ -94,6 +94,14 @@ class FileSource:
                 return section.places[key]
         return None
 
+    def strangers(self) -> tuple[str, ...]:
+        """Return the nodes of the files when none of them is in the namespace, else nothing."""
+        nodes = [section.node for section in self._sections]
+        for section in self._sections:
+            if section.matches(f"{self.namespace}/{section.node.rpartition('/')[2]}"):
+                return ()
+        return tuple(dict.fromkeys(nodes))
+
     def _matching(self, node: str) -> list[NodeSection]:
         full = f"{self.namespace}/{node}"
         return [section for section in self._sections if section.matches(full)]

@@ -118,6 +118,11 @@ def _readings(name: str) -> tuple[str, ...]:
     return name, own, numbered, numbered.removesuffix("_collision")
 
 
+def _says_more(tag: Tag) -> bool:
+    """Tell whether a block about the world says more than that the world stands still."""
+    return any(child.name not in {"plugin", "static"} for child in tag.children)
+
+
 def _report_reference(
     reference: str,
     tags: list[Tag],
@@ -128,7 +133,7 @@ def _report_reference(
     hint = did_you_mean(reference, [*links, *joints])
     message = f"<gazebo reference='{reference}'> is neither a link nor a joint; it has no effect"
     if reference == _WORLD and any(joint.parent == _WORLD for joint in joints.values()):
-        tags = [tag for tag in tags if any(child.name != "plugin" for child in tag.children)]
+        tags = [tag for tag in tags if _says_more(tag)]
         message = "<gazebo reference='world'> means the world itself, where it has no effect"
     for tag in tags:
         context.diagnostics.report("urdf.gazebo-reference", message, tag.span, fix=hint)

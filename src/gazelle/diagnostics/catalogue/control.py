@@ -30,6 +30,15 @@ ENTRIES = (
         "remove it",
     ),
     Entry(
+        "control.parameters-of-others",
+        "warning",
+        "The parameter files are for nodes of another namespace",
+        "Names of ROS 2 parameter files are full names: controller_manager is not the"
+        " /robot1/controller_manager of a robot in a namespace.",
+        "write /**/controller_manager",
+        "The 'type' param was not defined for",
+    ),
+    Entry(
         "control.no-ros-parameters",
         "warning",
         "A parameter file of ROS 2 lacks ros__parameters",

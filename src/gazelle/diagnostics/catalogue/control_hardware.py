@@ -131,7 +131,7 @@ _LOADING = (
     ),
     Entry(
         "control.period",
-        "warning",
+        "info",
         "The control period does not fit the physics step",
         "Controllers run at whole steps, when at least a period has passed, as in Gazebo.",
         "choose a period that is a multiple of the step, or change the world's step",

@@ -117,13 +117,25 @@ def _source(
         message += " no types and no parameters (No parameter file provided. Configuration might"
         message += " be wrong)"
         context.report("control.no-parameter-file", message)
-    return FileSource(
+    source = FileSource(
         [*files, *controls.files],
         namespace,
         context.host.diagnostics,
         manager=manager,
         overrides=controls.overrides,
     )
+    _report_strangers(context, source, join_names(namespace, manager))
+    return source
+
+
+def _report_strangers(context: PluginContext, source: FileSource, manager: str) -> None:
+    strangers = source.strangers()
+    if strangers:
+        name = manager.rpartition("/")[2]
+        text = f"the parameter files are for {', '.join(strangers)}, and the controller manager is"
+        text += f" {manager}: none of their parameters counts"
+        fix = f"write '/**/{name}:' and '/**/controller:' in the files, or '/**:' around all"
+        context.report("control.parameters-of-others", text, fix=fix)
 
 
 def _resolved(context: PluginContext, text: str) -> Path | None:
