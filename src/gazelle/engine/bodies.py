@@ -19,6 +19,7 @@ from gazelle.engine.names import part_of, scoped
 from gazelle.engine.shapes import add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
 from gazelle.engine.tyres import add_tyre
+from gazelle.engine.wheel_grip import with_wheel_grip
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay"]
@@ -214,6 +215,7 @@ class SpecBuilder:
         mass_kg: float,
     ) -> None:
         static, scenery = kind
+        collision = with_wheel_grip(model, link, collision)
         link_name = scoped(model.name, link.name)
         collision_name = self._unique(scoped(link_name, collision.name))
         shapes = geom_shapes(

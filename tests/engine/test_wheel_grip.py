@@ -1,0 +1,59 @@
+"""Wide wheels and the friction that robot files give them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from gazelle.description.context import ReadContext
+from gazelle.description.model import World
+from gazelle.description.urdf.reader import read_urdf
+from gazelle.diagnostics import Diagnostics
+from gazelle.engine import Engine
+from gazelle.engine.wheel_grip import MOST_WHEEL_MU, with_wheel_grip
+from gazelle.geometry import Pose
+
+INERTIA = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
+
+
+def wheel(name: str, y: float, mu: float) -> str:
+    return f"""<link name="{name}"><inertial><mass value="2"/>{INERTIA}</inertial>
+      <collision><origin rpy="{math.pi / 2} 0 0"/>
+        <geometry><cylinder radius="0.1" length="0.06"/></geometry></collision></link>
+    <joint name="{name}_joint" type="continuous"><parent link="base"/><child link="{name}"/>
+      <origin xyz="0 {y} 0"/><axis xyz="0 1 0"/><limit effort="20" velocity="50"/></joint>
+    <gazebo reference="{name}"><mu1>{mu}</mu1><mu2>{mu}</mu2></gazebo>"""
+
+
+def robot(mu: float):
+    ball = """<link name="ball"><collision><origin xyz="-0.3 0 -0.05"/>
+      <geometry><sphere radius="0.05"/></geometry></collision></link>
+    <joint name="weld" type="fixed"><parent link="base"/><child link="ball"/></joint>
+    <gazebo reference="ball"><mu1>0</mu1><mu2>0</mu2></gazebo>"""
+    text = f"""<robot name="cart"><link name="base"><inertial><origin xyz="-0.05 0 0"/>
+      <mass value="40"/>{INERTIA}</inertial></link>{ball}{wheel("left", 0.25, mu)}
+      {wheel("right", -0.25, mu)}</robot>"""
+    return read_urdf(text, context=ReadContext(None, Diagnostics(), "cart.urdf"))
+
+
+@pytest.mark.parametrize("mu", [1.0, 200.0])
+def test_a_cart_turns_by_its_wheels_whatever_their_friction(build, mu):
+    engine = Engine(World(models=(build.ground(mu1=200.0, mu2=200.0), robot(mu))))
+    engine.set_model_pose("cart", Pose((0, 0, 0.1)))
+    for side, speed in (("left", -2.0), ("right", 2.0)):
+        engine.joint(f"cart::{side}_joint").set_velocity_target(speed, 20.0)
+    engine.step(1000)
+    before = engine.model_pose("cart").quat_xyzw
+    engine.step(1000)
+    after = engine.model_pose("cart").quat_xyzw
+    turned = 2 * (math.atan2(after[2], after[3]) - math.atan2(before[2], before[3]))
+    assert turned == pytest.approx(2.0 * 0.1 / 0.25, rel=0.05)
+
+
+def test_only_wheels_are_limited():
+    model = robot(200.0)
+    for name, most in (("left", MOST_WHEEL_MU), ("ball", 0.0)):
+        link = next(item for item in model.links if item.name == name)
+        surface = with_wheel_grip(model, link, link.collisions[0]).surface
+        assert (surface.mu1, surface.mu2) == (most, most)
