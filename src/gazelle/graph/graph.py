@@ -20,6 +20,7 @@ from gazelle.graph.control import Control, ask_process, shut_down_node
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.hub import HubKeeper, close_session
+from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
@@ -37,6 +38,7 @@ __all__ = ["Graph"]
 Role = Literal["auto", "hub", "client"]
 
 _HUB_S = 3.0
+_LAST_CALLS_S = 1.0
 _USE_SIM_TIME = "/use_sim_time"
 _TAKEN_OVER = "new node registered with same name"
 
@@ -58,6 +60,7 @@ class Graph:
         parameters: the parameter store, by global names.
         local: topics' ends in this process.
         console: writes what nodes log, taken over by nodes when they are made.
+        calls: of services, that have no answer yet.
     """
 
     _open: ClassVar[list[Graph]] = []
@@ -89,6 +92,7 @@ class Graph:
         self._lock = threading.RLock()
         self._control: Control | None = None
         self._closed = False
+        self.calls = CallsInFlight()
 
     @classmethod
     def open(
@@ -308,6 +312,7 @@ class Graph:
             self._control.close()
         self.parameter_share.close()
         close_session(self.session)
+        self.calls.wait_until_none(_LAST_CALLS_S)
         if self._keeper is not None:
             self._keeper.close()
         atexit.unregister(self.close)

@@ -190,7 +190,8 @@ class ServiceClient:
         replies: Iterable[Any] = self._graph.session.get(
             self._key, payload=payload, attachment=attachment, timeout=timeout_s
         )
-        return next(iter(replies), None)
+        with self._graph.calls.waiting():
+            return next(iter(replies), None)
 
     def _read(self, reply: Any, timeout_s: float | None) -> Any:
         if reply.ok is not None:
