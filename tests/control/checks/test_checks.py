@@ -81,6 +81,13 @@ def test_one_table_of_what_disagrees_with_nearest_names() -> None:
     ]
 
 
+def test_word_joint_of_an_unknown_controller_need_not_mean_one() -> None:
+    """Typing errors are told all the same: it may be a controller of the user's own."""
+    source = _source({"twist": {"type": "a/Twist", "joints": ["tool", "joint_3", "left"]}})
+    rows = disagreements(URDF, _hardware("left"), configured_controllers(source))
+    assert [row.name for row in rows] == ["joint_3"]
+
+
 def test_names_that_agree_give_no_table() -> None:
     source = _source({"c": {"type": "a/B", "joints": ["joint_1"]}})
     planned = (MoveItController("c", ("joint_1",)),)

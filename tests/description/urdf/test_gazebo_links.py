@@ -96,6 +96,14 @@ def test_material_names_a_gazebo_script_and_wins(read_link) -> None:
     assert (material.name, material.diffuse) == ("Gazebo/Red", (1.0, 0.0, 0.0, 1.0))
 
 
+def test_material_with_elements_inside_is_told_how_to_write_it(read_link) -> None:
+    script = "<script><uri>a</uri><name>Gazebo/Orange</name></script>"
+    found = read_link(after=_block(f"<material>{script}</material>"))
+    (item,) = found.diagnostics.by_code("urdf.gazebo-material")
+    assert "where the text is the name of a material" in item.message
+    assert item.fix == "write <material>Gazebo/Orange</material>"
+
+
 def test_unknown_material_is_reported_with_the_nearest(read_link) -> None:
     found = read_link(after=_block("<material>Gazebo/Redd</material>"))
     assert "did you mean 'Gazebo/Red'" in found.message("urdf.gazebo-material")

@@ -62,6 +62,12 @@ def test_missing_argument_says_how_to_give_it(tmp_path: Path) -> None:
     assert fix == 'pass p:=… or write <xacro:arg name="p" default="…"/>'
 
 
+def test_argument_whose_default_comes_too_late_is_told_so(tmp_path: Path) -> None:
+    """Robots use $(arg name) in <robot name> and declare it below."""
+    text = '<v a="$(arg p)"/><xacro:arg name="p" default="1"/>'
+    assert "with the default comes after this use" in _fail(text, tmp_path).fix
+
+
 def test_error_in_a_macro_of_an_include_shows_the_way_there(tmp_path: Path) -> None:
     (tmp_path / "inc.xacro").write_text(
         f'{HEAD}<xacro:macro name="bad" params="n">\n<link name="${{nn}}"/>\n</xacro:macro>'

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gazelle.control.controllers.registry import controller_class
 from gazelle.control.parameters import nested
 from gazelle.control.sources.source import ParameterSource
 from gazelle.diagnostics import SourceSpan
@@ -73,6 +74,7 @@ class ConfiguredController:
     Attributes:
         joints: joints it names, in order, without repeats.
         gains: of controllers that command efforts.
+        is_known: its type is one of Gazelle's, so that its words mean what they say.
         place: where its joints stand, None when unknown.
     """
 
@@ -80,6 +82,7 @@ class ConfiguredController:
     type: str
     joints: tuple[str, ...]
     gains: tuple[Gains, ...] = ()
+    is_known: bool = True
     place: SourceSpan | None = field(default=None, compare=False)
 
 
@@ -93,7 +96,8 @@ def _controller(source: ParameterSource, name: str) -> ConfiguredController:
     type_name = source.controller_type(name) or ""
     names, key = _joint_names(tree)
     gains = tuple(_gains(tree, names, type_name)) if _commands_effort(tree, type_name) else ()
-    return ConfiguredController(name, type_name, names, gains, source.place(name, key))
+    is_known = controller_class(type_name) is not None
+    return ConfiguredController(name, type_name, names, gains, is_known, source.place(name, key))
 
 
 def _joint_names(tree: Mapping[str, Any]) -> tuple[tuple[str, ...], str]:

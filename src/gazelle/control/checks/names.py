@@ -57,7 +57,7 @@ def disagreements(
         every name that is missing somewhere it is needed, in the order of the places. A joint
         that nobody wants to control is no disagreement.
     """
-    named = _by_joint((item.name, item.joints) for item in controllers)
+    named = _by_joint((item.name, _joints_of(item, urdf)) for item in controllers)
     planned = _by_joint((item.name, item.joints) for item in moveit)
     rows = []
     for name in dict.fromkeys([*hardware, *named, *planned]):
@@ -89,6 +89,14 @@ def table_text(rows: Sequence[Disagreement]) -> str:
         padded = [(text or _NONE).ljust(width) for text, width in zip(line, widths, strict=False)]
         lines.append("  ".join([*padded, line[5]]).rstrip())
     return "\n".join(lines)
+
+
+def _joints_of(controller: ConfiguredController, urdf: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the joints a controller names; one of unknown type may call other things joints."""
+    if controller.is_known:
+        return controller.joints
+    names = controller.joints
+    return tuple(name for name in names if name in urdf or nearest_names(name, urdf))
 
 
 def _remark(

@@ -48,6 +48,13 @@ def apply_visual_words(link: Link, tags: list[Tag], context: ReadContext) -> Lin
 
 def _script_material(tag: Tag, context: ReadContext) -> Material | None:
     name = value_of(tag)
+    if not name and tag.children:
+        message = "a <material> with elements inside has no effect here, where the text is the"
+        message += " name of a material; the shapes keep their own look"
+        inside = next((item.text_of("name") for item in tag.find_all("script")), "")
+        fix = f"write <material>{inside or 'Gazebo/Orange'}</material>"
+        context.diagnostics.report("urdf.gazebo-material", message, tag.span, fix=fix)
+        return None
     found = gazebo_material(name)
     if found is None:
         hint = did_you_mean(name, GAZEBO_MATERIAL_NAMES)

@@ -91,6 +91,13 @@ def _node_of(traceback: TracebackType | None) -> Any:
     return found
 
 
+def _has_default_below(node: Any, name: str) -> bool:
+    """Tell whether the document has a default for an argument that was missing at a node."""
+    document = getattr(node, "ownerDocument", None)
+    tags = [] if document is None else document.getElementsByTagName("xacro:arg")
+    return any(tag.getAttribute("name") == name and tag.hasAttribute("default") for tag in tags)
+
+
 def _explain(error: Exception, node: Any, workspace: Workspace | None) -> tuple[str, str, str]:
     """Return code, message and remedy for what the library raised."""
     causes = tuple(causes_of(error))
@@ -103,6 +110,8 @@ def _explain(error: Exception, node: Any, workspace: Workspace | None) -> tuple[
         if type(cause).__name__ == "ArgException":
             name = str(cause)
             fix = f'pass {name}:=… or write <xacro:arg name="{name}" default="…"/>'
+            if _has_default_below(node, name):
+                fix = f"pass {name}:=…; its <xacro:arg> with the default comes after this use"
             return "xacro.argument-missing", f"$(arg {name}) has no value", fix
         if type(cause).__name__ == "SubstitutionException":
             return "xacro.failed", _one_line(str(cause)), ""
