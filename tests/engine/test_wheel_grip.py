@@ -8,6 +8,7 @@ import pytest
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import World
+from gazelle.description.sdf import read_sdf
 from gazelle.description.urdf.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
@@ -56,4 +57,22 @@ def test_only_wheels_are_limited():
     for name, most in (("left", MOST_WHEEL_MU), ("ball", 0.0)):
         link = next(item for item in model.links if item.name == name)
         surface = with_wheel_grip(model, link, link.collisions[0]).surface
+        assert (surface.mu1, surface.mu2) == (most, most)
+
+
+def test_endless_revolute_joints_of_sdf_carry_wheels_too():
+    text = """<sdf version="1.6"><model name="bot"><link name="base"/>
+      <link name="wheel"><collision name="c"><geometry><cylinder><radius>0.1</radius>
+        <length>0.05</length></cylinder></geometry><surface><friction><ode><mu>200</mu>
+        <mu2>200</mu2></ode></friction></surface></collision></link>
+      <joint name="j" type="revolute"><parent>base</parent><child>wheel</child>
+        <axis><xyz>0 0 1</xyz>{}</axis></joint></model></sdf>"""
+    for limit, most in (
+        ("", MOST_WHEEL_MU),
+        ("<limit><lower>-1e16</lower><upper>1e16</upper></limit>", MOST_WHEEL_MU),
+        ("<limit><lower>-3</lower><upper>3</upper></limit>", 200.0),
+    ):
+        context = ReadContext(None, Diagnostics(), "bot.sdf")
+        (model,) = read_sdf(text.format(limit), context=context).models
+        surface = with_wheel_grip(model, model.links[1], model.links[1].collisions[0]).surface
         assert (surface.mu1, surface.mu2) == (most, most)
