@@ -39,7 +39,7 @@ def connected_parts(mesh: Mesh) -> tuple[Mesh, ...]:
         part_from_soup(vertices[faces[of_face == label]], name="part")
         for label in dict.fromkeys(of_face.tolist())
     ]
-    return tuple(Mesh((part,)) for part in parts)
+    return tuple(Mesh((part,), mesh.file) for part in parts)
 
 
 def _corner_ids(corners: Array, size: float) -> NDArray[np.intp]:

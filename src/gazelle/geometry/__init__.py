@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.geometry.convex import ConvexParts, convex_hull, convex_parts
+from gazelle.geometry.convex import ConvexParts, announcing, convex_hull, convex_parts
 from gazelle.geometry.loading import MESH_SUFFIXES, load_mesh, load_mesh_reported
 from gazelle.geometry.mass import (
     Inertia6,
@@ -63,6 +63,7 @@ __all__ = [
     "MeshNote",
     "MeshPart",
     "Pose",
+    "announcing",
     "box_mass_properties",
     "box_mesh",
     "capsule_mass_properties",

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import NamedTemporaryFile
@@ -16,7 +19,10 @@ from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.mesh import Mesh, MeshPart
 from gazelle.geometry.shading import group_points
 
-__all__ = ["ConvexParts", "cache_folder", "convex_hull", "convex_parts"]
+__all__ = ["ConvexParts", "announcing", "cache_folder", "convex_hull", "convex_parts"]
+
+_Say = Callable[[str], None]
+_announce: ContextVar[tuple[_Say, set[str]] | None] = ContextVar("announce", default=None)
 
 _CONVEX_SHARE = 0.98
 _THRESHOLD = 0.08
@@ -48,6 +54,16 @@ class ConvexParts:
     parts: tuple[MeshPart, ...]
     is_exact: bool
     note: str = ""
+
+
+@contextmanager
+def announcing(say: _Say) -> Iterator[None]:
+    """Have long work told before it begins, one line a file, within a ``with`` block."""
+    token = _announce.set((say, set()))
+    try:
+        yield
+    finally:
+        _announce.reset(token)
 
 
 def convex_hull(vertices_m: NDArray[np.float64]) -> MeshPart:
@@ -100,6 +116,7 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
             "pip install 'gazelle-sim[convex]' to follow its shape"
         )
         return ConvexParts((hull,), False, note)
+    _tell(mesh)
     coacd.set_log_level("error")
     pieces = coacd.run_coacd(
         coacd.Mesh(*_welded(mesh)), threshold=threshold, seed=0, **_SEARCH_EFFORT
@@ -115,6 +132,19 @@ def cache_folder() -> Path:
     """Return ``$XDG_CACHE_HOME/gazelle``, by default ``~/.cache/gazelle``."""
     base = os.environ.get("XDG_CACHE_HOME")
     return (Path(base) if base else Path.home() / ".cache") / "gazelle"
+
+
+def _tell(mesh: Mesh) -> None:
+    listener = _announce.get()
+    name = Path(mesh.file).name if mesh.file else "a mesh"
+    if listener is None or name in listener[1]:
+        return
+    say, said = listener
+    said.add(name)
+    say(
+        f"splitting '{name}' into convex pieces, which takes some seconds; this is done once and"
+        f" kept in '{cache_folder() / 'convex'}'"
+    )
 
 
 def _is_solid(points: NDArray[np.float64]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
@@ -82,6 +83,7 @@ class Simulation:
             seed=seed,
             mode=Mode.LOCKSTEP,
             controls=controls,
+            progress=_say_to_person,
         )
 
     @classmethod
@@ -323,3 +325,9 @@ def _placed(model: Model, name: str | None, pose: Pose | None) -> Model:
         name=name or model.name,
         T_world_model=model.T_world_model if pose is None else pose,
     )
+
+
+def _say_to_person(text: str) -> None:
+    """Tell of long work on a terminal; programs that read standard error are left in peace."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"{text}\n")

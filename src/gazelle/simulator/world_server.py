@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from gazelle.description.model import CameraSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, announcing
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.frames import FrameWorker
@@ -63,6 +64,7 @@ class WorldServer:
         mode: Mode = Mode.LOCKSTEP,
         paused: bool = False,
         warm_cameras: bool = False,
+        progress: Callable[[str], None] | None = None,
         controls: ControlRegistry | None = None,
     ) -> None:
         """Build the engine and start the plug-ins of every model.
@@ -77,13 +79,16 @@ class WorldServer:
                 lock-step.
             paused: `run` waits for `unpause` before the first step.
             warm_cameras: load the cameras' kernels in a thread as soon as there is a camera.
+            progress: told before work that takes seconds; the node's log when None.
             controls: with parameters of controllers; an empty one when None.
         """
         from gazelle.engine import Engine
 
         self.diagnostics = Diagnostics() if diagnostics is None else diagnostics
-        self.engine = Engine(world, diagnostics=self.diagnostics, seed=seed)
         self.node: NodePort = LocalNode() if node is None else node
+        self._progress = progress or (lambda text: self.node.log("INFO", text))
+        with announcing(self._progress):
+            self.engine = Engine(world, diagnostics=self.diagnostics, seed=seed)
         self.workspace = workspace
         self.seed = seed
         self.mode = mode
@@ -188,7 +193,8 @@ class WorldServer:
         Returns:
             the model as it is in the world.
         """
-        self.engine.spawn(model, name=name, T_world_model=T_world_model)
+        with announcing(self._progress):
+            self.engine.spawn(model, name=name, T_world_model=T_world_model)
         placed = self.engine.world.model(name or model.name)
         assert placed is not None
         self._load_plugins(placed, namespace=namespace)
