@@ -39,5 +39,6 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
+    "inertia": Command("gazelle.cli.inertia", "mass properties of bodies; check a robot's"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
 }

@@ -1,0 +1,147 @@
+"""``gazelle inertia --check FILE``: findings, a table of all links, a patch."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TextIO
+
+from gazelle.cli.inertia.table import link_rows, table
+from gazelle.description.checks.inertia import (
+    SUPERSEDED_CODES,
+    InertiaFinding,
+    check_inertia,
+    check_mass_ratios,
+)
+from gazelle.description.checks.inertia_patch import Patch, make_patch
+from gazelle.description.checks.inertia_records import LinkRecord, joint_records_of, records_of
+from gazelle.description.checks.inertia_source import read_checked_source
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan, render
+from gazelle.workspace import Workspace
+
+__all__ = ["check"]
+
+_EXIT_CODES = {None: 0, Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+
+
+def check(options: argparse.Namespace, mappings: Mapping[str, str]) -> int:
+    """Judge every link of a file.
+
+    Returns:
+        0 when nothing is wrong, 1 after warnings, 2 after errors.
+    """
+    read, all_findings = Diagnostics(), Diagnostics()
+    records: tuple[LinkRecord, ...] = ()
+    findings: tuple[InertiaFinding, ...] = ()
+    workspace = Workspace.discover()
+    path = _located(options.check, workspace, read)
+    if path is not None:
+        source = read_checked_source(path, workspace=workspace, diagnostics=read, mappings=mappings)
+        records = records_of(source.models, source.find_tag, read)
+        findings = check_inertia(records, density_kg_m3=options.density)
+        ratios = check_mass_ratios(joint_records_of(source.models, source.find_tag))
+    for item in read:
+        if _concerns_us(item):
+            all_findings.add(item)
+    for finding in findings:
+        all_findings.add(finding.diagnostic)
+    if path is not None:
+        all_findings.extend(ratios)
+    patch = make_patch(findings) if options.fix or options.output else None
+    _show(options, records, findings, all_findings, patch)
+    return _EXIT_CODES[all_findings.worst]
+
+
+def _located(name: str, workspace: Workspace, diagnostics: Diagnostics) -> Path | None:
+    path = Path(name)
+    if path.exists():
+        return path
+    found = workspace.resolve(name)
+    if found.path is None:
+        message = f"robot or model {found.explain(name)}"
+        diagnostics.report("load.not-found", message, SourceSpan(name))
+    return found.path
+
+
+def _concerns_us(item: Diagnostic) -> bool:
+    """Keep what stops the checks: errors, and shapes that could not be read."""
+    about_shapes = item.code.startswith("mesh.") or "mesh-missing" in item.code
+    about_shapes = about_shapes or item.code == "sdf.missing-file"
+    serious = item.severity is Severity.ERROR or about_shapes
+    return serious and item.code not in SUPERSEDED_CODES
+
+
+def _show(
+    options: argparse.Namespace,
+    records: Sequence[LinkRecord],
+    findings: Sequence[InertiaFinding],
+    diagnostics: Diagnostics,
+    patch: Patch | None,
+) -> None:
+    # The patch owns standard output unless it goes to a file.
+    stream: TextIO = sys.stderr if patch is not None and not options.output else sys.stdout
+    if options.json:
+        print(_json(records, findings, diagnostics), file=stream)
+    else:
+        render(diagnostics, stream=stream)
+        if records:
+            print(table(link_rows(records, findings)), file=stream)
+        print(_verdict(diagnostics, len(records)), file=stream)
+    if patch is not None:
+        _write(patch, options.output)
+
+
+def _verdict(diagnostics: Diagnostics, links: int) -> str:
+    errors = len(diagnostics.errors)
+    warnings = sum(item.severity is Severity.WARNING for item in diagnostics)
+    counts = f"{links} link{'s' * (links != 1)}: "
+    if not errors and not warnings:
+        return counts + "nothing is wrong"
+    return f"{counts}{errors} error{'s' * (errors != 1)}, {warnings} warning{'s' * (warnings != 1)}"
+
+
+def _write(patch: Patch, output: str | None) -> None:
+    for note in patch.notes:
+        print(note, file=sys.stderr)
+    # Bytes: line ends and foreign encodings of the files stay as they are.
+    data = patch.text.encode("utf-8", "surrogateescape")
+    if output:
+        Path(output).write_bytes(data)
+    else:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+    if not patch.text:
+        print("there is nothing to patch", file=sys.stderr)
+        return
+    place = "" if patch.folder == Path().resolve() else f" -d {patch.folder}"
+    print(
+        f"changes {', '.join(patch.links)}; apply with: patch -p0{place} < {output or 'THE_PATCH'}",
+        file=sys.stderr,
+    )
+
+
+def _json(
+    records: Sequence[LinkRecord], findings: Sequence[InertiaFinding], diagnostics: Diagnostics
+) -> str:
+    return json.dumps(
+        {
+            "links": link_rows(records, findings),
+            "findings": [
+                {
+                    "code": item.code,
+                    "severity": str(item.severity),
+                    "message": item.message,
+                    "file": item.span.file if item.span else None,
+                    "line": item.span.line if item.span else None,
+                    "column": item.span.column if item.span else None,
+                    "fix": item.fix,
+                    "phrase": item.phrase,
+                }
+                for item in diagnostics
+            ],
+        },
+        indent=2,
+    )

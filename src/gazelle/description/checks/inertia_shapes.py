@@ -1,0 +1,141 @@
+"""Volumes and outer points of a description's shapes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    MeshShape,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from gazelle.diagnostics import Diagnostics
+from gazelle.errors import GazelleError
+from gazelle.geometry import (
+    MassProperties,
+    Mesh,
+    MeshPart,
+    box_mass_properties,
+    box_mesh,
+    capsule_mass_properties,
+    capsule_mesh,
+    cone_mass_properties,
+    cone_mesh,
+    convex_hull,
+    cylinder_mass_properties,
+    cylinder_mesh,
+    ellipsoid_mass_properties,
+    ellipsoid_mesh,
+    load_mesh_reported,
+    mesh_mass_properties,
+    polyline_mesh,
+    sphere_mass_properties,
+    sphere_mesh,
+)
+
+__all__ = ["mesh_body", "shape_body", "shape_points_m"]
+
+Array = NDArray[np.float64]
+
+
+def shape_body(
+    shape: Shape, density_kg_m3: float, diagnostics: Diagnostics
+) -> MassProperties | None:
+    """Return a shape of even density in its own frame.
+
+    Args:
+        shape: the shape; an open mesh counts as its convex hull.
+        density_kg_m3: density.
+        diagnostics: receives what is wrong with a mesh file.
+
+    Returns:
+        None when the shape encloses no finite volume: planes, terrain, flat meshes.
+    """
+    body = _body(shape, density_kg_m3, diagnostics)
+    return body if body is not None and 0.0 < body.mass_kg < math.inf else None
+
+
+def _body(shape: Shape, density: float, diagnostics: Diagnostics) -> MassProperties | None:
+    match shape:
+        case Box(size_m=size):
+            return box_mass_properties(density * math.prod(size), size)
+        case Sphere(radius_m=r):
+            return sphere_mass_properties(density * 4 / 3 * math.pi * r**3, r)
+        case Cylinder(radius_m=r, length_m=length):
+            return cylinder_mass_properties(density * math.pi * r**2 * length, r, length)
+        case Cone(radius_m=r, length_m=length):
+            return cone_mass_properties(density * math.pi * r**2 * length / 3, r, length)
+        case Capsule(radius_m=r, length_m=length):
+            volume = math.pi * r**2 * (length + 4 / 3 * r)
+            return capsule_mass_properties(density * volume, r, length)
+        case Ellipsoid(radii_m=radii):
+            return ellipsoid_mass_properties(density * 4 / 3 * math.pi * math.prod(radii), radii)
+        case MeshShape() | Polyline():
+            mesh = _mesh(shape, diagnostics)
+            return None if mesh is None else mesh_body(mesh, density)
+    return None
+
+
+def mesh_body(mesh: Mesh | MeshPart, density_kg_m3: float) -> MassProperties | None:
+    """Return a solid mesh of even density, its convex hull when it is not closed."""
+    try:
+        return mesh_mass_properties(mesh, density_kg_m3=density_kg_m3)
+    except GazelleError:
+        try:
+            hull = convex_hull(mesh.vertices_m)
+            return mesh_mass_properties(hull, density_kg_m3=density_kg_m3)
+        except (GazelleError, ValueError):
+            return None  # flat: there is no volume
+
+
+def shape_points_m(shape: Shape, diagnostics: Diagnostics) -> Array:
+    """Return points, shape (n, 3), whose bounding box is the shape's; none for the infinite.
+
+    Args:
+        shape: the shape.
+        diagnostics: receives what is wrong with a mesh file.
+    """
+    mesh = _mesh(shape, diagnostics)
+    return np.empty((0, 3)) if mesh is None else mesh.vertices_m
+
+
+def _mesh(shape: Shape, diagnostics: Diagnostics) -> Mesh | MeshPart | None:
+    try:
+        match shape:
+            case Box(size_m=size):
+                return box_mesh(size)
+            case Sphere(radius_m=r):
+                return sphere_mesh(r)
+            case Cylinder(radius_m=r, length_m=length):
+                return cylinder_mesh(r, length)
+            case Cone(radius_m=r, length_m=length):
+                return cone_mesh(r, length)
+            case Capsule(radius_m=r, length_m=length):
+                return capsule_mesh(r, length)
+            case Ellipsoid(radii_m=radii):
+                return ellipsoid_mesh(radii)
+            case Polyline():
+                return polyline_mesh(shape.outlines_m, shape.height_m)
+            case MeshShape():
+                return _loaded(shape, diagnostics)
+    except (ValueError, ZeroDivisionError):
+        return None  # the reader has reported sizes that make no shape
+    return None
+
+
+def _loaded(shape: MeshShape, diagnostics: Diagnostics) -> Mesh | None:
+    if shape.path is None:
+        return None
+    mesh = load_mesh_reported(shape.path, diagnostics, shape.span)
+    if mesh is not None and shape.submesh:
+        mesh = mesh.submesh(shape.submesh, shape.center_submesh)
+    return None if mesh is None else mesh.scaled(shape.scale)
