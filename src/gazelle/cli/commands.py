@@ -41,4 +41,6 @@ COMMANDS: dict[str, Command] = {
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
     "inertia": Command("gazelle.cli.inertia", "mass properties of bodies; check a robot's"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
+    "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
+    "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

@@ -1,0 +1,12 @@
+"""New packages that run at once: a robot, a world, or a node."""
+
+from __future__ import annotations
+
+from gazelle.workspace.scaffold.scaffold import (
+    KINDS,
+    ScaffoldError,
+    check_package_name,
+    create_package,
+)
+
+__all__ = ["KINDS", "ScaffoldError", "check_package_name", "create_package"]
