@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -52,11 +53,27 @@ def test_a_cart_turns_by_its_wheels_whatever_their_friction(build, mu):
     assert turned == pytest.approx(2.0 * 0.1 / 0.25, rel=0.05)
 
 
+@pytest.mark.parametrize(("mu2", "counts"), [(1.0, (1.0, 1.0)), (0.1, (2.0, 0.1))])
+def test_wheels_with_two_coefficients_of_one_size_have_the_smaller_one(mu2, counts):
+    model = robot(3.0)
+    link = next(item for item in model.links if item.name == "left")
+    surface = replace(link.collisions[0].surface, mu2=mu2)
+    found = Diagnostics()
+    wheel = replace(link.collisions[0], surface=surface)
+    grip = with_wheel_grip(model, link, wheel, found).surface
+    assert (grip.mu1, grip.mu2) == counts
+    if counts[0] == counts[1]:
+        (finding,) = found.by_code("engine.friction-direction")
+        assert "of a wheel has mu 3 and mu2 1; the engine cannot turn" in finding.message
+    else:
+        assert not list(found)
+
+
 def test_only_wheels_are_limited():
     model = robot(200.0)
     for name, most in (("left", MOST_WHEEL_MU), ("ball", 0.0)):
         link = next(item for item in model.links if item.name == name)
-        surface = with_wheel_grip(model, link, link.collisions[0]).surface
+        surface = with_wheel_grip(model, link, link.collisions[0], Diagnostics()).surface
         assert (surface.mu1, surface.mu2) == (most, most)
 
 
@@ -74,5 +91,7 @@ def test_endless_revolute_joints_of_sdf_carry_wheels_too():
     ):
         context = ReadContext(None, Diagnostics(), "bot.sdf")
         (model,) = read_sdf(text.format(limit), context=context).models
-        surface = with_wheel_grip(model, model.links[1], model.links[1].collisions[0]).surface
+        surface = with_wheel_grip(
+            model, model.links[1], model.links[1].collisions[0], Diagnostics()
+        ).surface
         assert (surface.mu1, surface.mu2) == (most, most)

@@ -215,7 +215,7 @@ class SpecBuilder:
         mass_kg: float,
     ) -> None:
         static, scenery = kind
-        collision = with_wheel_grip(model, link, collision)
+        collision = with_wheel_grip(model, link, collision, self.diagnostics)
         link_name = scoped(model.name, link.name)
         collision_name = self._unique(scoped(link_name, collision.name))
         shapes = geom_shapes(

@@ -13,15 +13,21 @@ from gazelle.description.model import (
     MeshShape,
     Model,
 )
+from gazelle.diagnostics import Diagnostics
 from gazelle.engine.joints import INFINITE_LIMIT
+from gazelle.engine.names import scoped
 
 __all__ = ["MOST_WHEEL_MU", "with_wheel_grip"]
 
 # Between rubber and dry concrete there is 1; some cars' tyres reach 2.
 MOST_WHEEL_MU = 2.0
+# Coefficients further apart mean a wheel that glides one way, as an omni wheel does.
+_ONE_SIZE = 0.25
 
 
-def with_wheel_grip(model: Model, link: Link, collision: Collision) -> Collision:
+def with_wheel_grip(
+    model: Model, link: Link, collision: Collision, diagnostics: Diagnostics
+) -> Collision:
     """Return a collision whose friction lets a wheel turn on the spot that it stands on.
 
     A wheel of width b touches the ground at both ends. A robot that turns about its vertical axis
@@ -31,17 +37,27 @@ def with_wheel_grip(model: Model, link: Link, collision: Collision) -> Collision
     0.445 m apart, at 0.1875 m/s). Here a wheel's coefficients count up to `MOST_WHEEL_MU`, and it
     turns as if they rolled on their middles. A wheel is a cylinder or mesh on a joint that turns
     without limits and carries no other joint.
+
+    Different coefficients along and across cannot follow the wheel (see docs/contact.md): of two
+    that are of one size the smaller one counts in all directions, and that is reported.
     """
     surface = collision.surface
-    mu1, mu2 = surface.mu1, surface.mu2
-    if max(mu1 or 0.0, mu2 or 0.0) <= MOST_WHEEL_MU or not _is_wheel(model, link, collision):
+    if not _is_wheel(model, link, collision):
         return collision
-    capped = replace(
-        surface,
-        mu1=mu1 and min(mu1, MOST_WHEEL_MU),
-        mu2=mu2 and min(mu2, MOST_WHEEL_MU),
-    )
-    return replace(collision, surface=capped)
+    mu1 = surface.mu1 and min(surface.mu1, MOST_WHEEL_MU)
+    mu2 = surface.mu2 and min(surface.mu2, MOST_WHEEL_MU)
+    if mu1 and mu2 and mu1 != mu2 and min(mu1, mu2) >= _ONE_SIZE * max(mu1, mu2):
+        mu1 = mu2 = min(mu1, mu2)
+        diagnostics.report(
+            "engine.friction-direction",
+            f"collision '{scoped(model.name, link.name)}::{collision.name}' of a wheel has"
+            f" mu {surface.mu1:g} and mu2 {surface.mu2:g}; the engine cannot turn the friction"
+            f" directions with the wheel and applies {mu1:g} in all of them",
+            surface.span or collision.span,
+        )
+    if (mu1, mu2) == (surface.mu1, surface.mu2):
+        return collision
+    return replace(collision, surface=replace(surface, mu1=mu1, mu2=mu2))
 
 
 def _is_wheel(model: Model, link: Link, collision: Collision) -> bool:
