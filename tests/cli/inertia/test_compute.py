@@ -275,7 +275,10 @@ def test_open_mesh_asks_for_shell(tmp_path: Path) -> None:
         ("--mass 1", "name a body, a mesh file, or --check FILE"),
         ("sphere --radius -1 --mass 1", "'-1' is not greater than 0"),
         ("sphere --radius 1 --mass 1 --fix", "--fix and --output belong to --check FILE"),
-        ("sphere --check a.urdf", "--check FILE does not go with 'sphere'"),
+        ("sphere --check a.urdf", "--check FILE does not go with sphere"),
+        ("--check a.urdf --mass 1 --sdf", "--check FILE does not go with --mass --sdf"),
+        ("--check a.urdf --xyz 0 0 1", "--check FILE does not go with --xyz or --rpy"),
+        ("sphere --radius 1 --mass 1 a:=1", "'a:=1' belongs to --check FILE"),
     ],
 )
 def test_wrong_usage_is_explained(capsys, words: str, message: str) -> None:

@@ -26,20 +26,36 @@ examples:
 --check exits with 0 when nothing is wrong, 1 after warnings, 2 after errors.
 """
 
+_OF_BODIES = (
+    "mass",
+    "radius",
+    "diameter",
+    "length",
+    "size",
+    "radii",
+    "scale",
+    "shell",
+    "urdf",
+    "sdf",
+)
+
 
 def main(argv: list[str]) -> int:
     """Print a body's mass properties, or check a robot's."""
     parser = _parser()
-    options = parser.parse_args(argv)
+    options = parser.parse_intermixed_args(argv)
     mappings = [word for word in options.body if ":=" in word]
     words = [word for word in options.body if ":=" not in word]
     if options.check:
-        if words:
-            parser.error(f"--check FILE does not go with '{' '.join(words)}'")
+        foreign = [*words, *(f"--{name}" for name in _OF_BODIES if getattr(options, name))]
+        if foreign or any((*options.xyz, *options.rpy)):
+            parser.error(f"--check FILE does not go with {' '.join(foreign) or '--xyz or --rpy'}")
         from gazelle.cli.inertia.check import check
 
         return check(options, dict(word.split(":=", 1) for word in mappings))
     problem = _problem(options, words)
+    if mappings:
+        problem = f"'{mappings[0]}' belongs to --check FILE"
     if problem:
         parser.error(problem)
     from gazelle.cli.inertia.compute import compute
