@@ -5,10 +5,12 @@ from __future__ import annotations
 import ast
 import os
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
 
+from gazelle import Simulation
 from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import (
@@ -16,6 +18,7 @@ from gazelle.geometry import (
     cylinder_mass_properties,
     sphere_mass_properties,
 )
+from gazelle.interfaces import message_type
 from gazelle.launch.xml1.loader import load_launch_files
 from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.workspace import Workspace
@@ -107,6 +110,27 @@ def test_inertias_are_those_of_the_shapes(tmp_path: Path) -> None:
     assert crate.links[0].inertial is not None
     solid = box_mass_properties(5.0, (0.4, 0.4, 0.4)).inertia_kg_m2
     assert crate.links[0].inertial.inertia_kg_m2 == pytest.approx(solid, rel=1e-4)
+
+
+@pytest.mark.parametrize("generation", [1, 2])
+def test_robot_of_either_generation_drives_and_senses(tmp_path: Path, generation: int) -> None:
+    create_package("robot", "my_bot", tmp_path, generation=generation)
+    folder, counts = tmp_path / "my_bot", Counter[str]()
+    with Simulation.load(
+        folder / "urdf" / "my_bot.urdf.xacro", world=folder / "worlds" / "my_bot.world"
+    ) as sim:
+        for topic in ("/scan", "/odom", "/imu", "/joint_states", "/camera/image_raw"):
+            sim.subscribe(topic, lambda _, topic=topic: counts.update([topic]))
+        command = message_type("geometry_msgs/Twist")()
+        command.linear.x = 0.3
+        sim.publish("/cmd_vel", command)
+        sim.run(seconds=2.0)
+        # v t − v² / (2 a) with a = 2 m/s², less a period of the drive and some slip.
+        x, y, z = sim.model("my_bot").pose.position_m
+        assert (x, y, z) == pytest.approx((0.5775, 0.0, 0.0), abs=0.015)
+        assert {item.severity.name for item in sim.diagnostics} <= {"INFO"}
+    rates = {"/scan": 10, "/odom": 50, "/imu": 100, "/joint_states": 50, "/camera/image_raw": 15}
+    assert {topic: counts[topic] / 2.0 for topic in rates} == pytest.approx(rates, abs=1.0)
 
 
 @pytest.mark.parametrize("kind", KINDS)
