@@ -41,6 +41,9 @@ COMMANDS: dict[str, Command] = {
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
     "inertia": Command("gazelle.cli.inertia", "mass properties of bodies; check a robot's"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
+    "check_urdf": Command("gazelle.cli.check_urdf", "check a robot and print its tree"),
+    "urdf_to_graphviz": Command("gazelle.cli.urdf_to_graphviz", "draw a robot's tree"),
+    "urdf_to_graphiz": Command("gazelle.cli.urdf_to_graphiz", "old name of urdf_to_graphviz"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

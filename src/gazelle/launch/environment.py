@@ -13,6 +13,7 @@ from gazelle.workspace import Workspace
 __all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment", "ros_home"]
 
 ROS_COMMANDS = (
+    "check_urdf",
     "gazebo",
     "gzclient",
     "gzserver",
@@ -29,6 +30,8 @@ ROS_COMMANDS = (
     "rossrv",
     "rostopic",
     "rosversion",
+    "urdf_to_graphiz",
+    "urdf_to_graphviz",
     "xacro",
 )
 

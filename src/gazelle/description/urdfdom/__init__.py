@@ -1,0 +1,15 @@
+"""urdfdom 3.0.1's view of a robot description: what ROS's own tools accept, refuse and print."""
+
+from __future__ import annotations
+
+from gazelle.description.urdfdom.model import Robot, Verdict, urdfdom_verdict
+from gazelle.description.urdfdom.printing import EndlessTreeError, graphviz_text, tree_text
+
+__all__ = [
+    "EndlessTreeError",
+    "Robot",
+    "Verdict",
+    "graphviz_text",
+    "tree_text",
+    "urdfdom_verdict",
+]
