@@ -137,9 +137,9 @@ def _round_cloud(facets: list[NDArray[np.float32]]) -> NDArray[np.float64]:
     if not facets:
         axes = np.concatenate([np.eye(3), -np.eye(3)])
         # A cube with a pyramid on each side; its sides are 3/√10 from the centre before scaling.
-        return np.concatenate([axes, corners * 0.75]) * (10.0**0.5 / 3.0)
+        return np.asarray(np.concatenate([axes, corners * 0.75]) * (10.0**0.5 / 3.0))
     half = np.abs(np.concatenate(facets)).max(axis=0).astype(np.float64)
-    return corners * (half + np.array([0.0, 0.0, half[0]]))
+    return np.asarray(corners * (half + np.array([0.0, 0.0, half[0]])))
 
 
 def _model_of(link: str, world: World) -> str:
