@@ -8,6 +8,7 @@ import sys
 import threading
 from pathlib import Path
 
+from gazelle.ending import end_with
 from gazelle.errors import GazelleError
 from gazelle.graph.parent import end_with_parent
 
@@ -51,4 +52,4 @@ def _single(name: str, argv: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    end_with(lambda: main(sys.argv[1:]))
