@@ -188,7 +188,7 @@ def test_listeners_hear_values_after_the_description(
         join().create_node("client"),
         "/n",
         on_description=lambda group: inbox("description"),
-        on_values=lambda config: inbox(config.doubles[0].value),
+        on_values=lambda config, group: inbox(config.doubles[0].value),
     )
     assert inbox.wait_for(2)[:2] == ["description", 1.0]
     server.set({"p": 4.0})

@@ -106,7 +106,7 @@ class Client:
             raise DynamicReconfigureParameterException(str(error)) from error
         except GraphError as error:
             raise DynamicReconfigureCallbackException("service call failed") from error
-        return self._tree(self._impl.config)
+        return _tree(self._impl.config, group)
 
     def update_groups(self, changes: dict[str, bool]) -> Config | None:
         """Return the groups' description with other states."""
@@ -151,15 +151,10 @@ class Client:
         if self._description_callback is not None:
             self._description_callback(self.param_description)
 
-    def _take_config(self, message: Any) -> None:
-        self.config = self._tree(message)
+    def _take_config(self, message: Any, group: DynamicGroup) -> None:
+        self.config = _tree(message, group)
         if self._config_callback is not None:
             self._config_callback(self.config)
-
-    def _tree(self, message: Any) -> Config:
-        tree = config_tree(message, self._impl.description, Config)
-        assert isinstance(tree, Config)
-        return tree
 
     def _until(self, condition: Callable[[], bool], timeout_s: float | None) -> bool:
         """Wait until a condition holds, the time is over or the node is shut down."""
@@ -169,6 +164,12 @@ class Client:
                 return False
             self._impl.wait_for_change(_SLICE_S)
         return True
+
+
+def _tree(message: Any, group: DynamicGroup) -> Config:
+    tree = config_tree(message, group, Config)
+    assert isinstance(tree, Config)
+    return tree
 
 
 def _every_child(group: Config) -> list[Config]:

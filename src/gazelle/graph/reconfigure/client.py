@@ -43,7 +43,7 @@ class ReconfigureClient:
         name: str,
         *,
         on_description: Callable[[DynamicGroup], None] | None = None,
-        on_values: Callable[[Any], None] | None = None,
+        on_values: Callable[[Any, DynamicGroup], None] | None = None,
     ) -> None:
         """Listen to a server, which need not be there yet.
 
@@ -51,7 +51,7 @@ class ReconfigureClient:
             node: owns subscriptions and client.
             name: of the server.
             on_description: hears the description each time it comes.
-            on_values: hears ``Config`` messages that come after the description.
+            on_values: hears ``Config`` messages, with the description, once that has come.
         """
         from gazelle.interfaces import service_type
 
@@ -141,15 +141,15 @@ class ReconfigureClient:
         if self._on_description is not None:
             self._on_description(group)
         if self._on_values is not None and early is not None:
-            self._on_values(early)
+            self._on_values(early, group)
 
     def _take_values(self, message: Any) -> None:
         with self._arrived:
             self.config = message
-            is_described = self.description is not None
+            group = self.description
             self._arrived.notify_all()
-        if self._on_values is not None and is_described:
-            self._on_values(message)
+        if self._on_values is not None and group is not None:
+            self._on_values(message, group)
 
 
 def converted(name: str, value: Any, rows: Mapping[str, DynamicParameter]) -> Value:
