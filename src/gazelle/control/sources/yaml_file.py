@@ -72,6 +72,10 @@ def read_parameter_text(text: str, file: str, diagnostics: Diagnostics) -> tuple
         mark = getattr(error, "problem_mark", None)
         span = SourceSpan(file, mark.line + 1, mark.column + 1) if mark else SourceSpan(file)
         message = f"parameter file is not YAML: {getattr(error, 'problem', None) or error}"
+        begin = getattr(error, "context_mark", None)
+        if begin is not None and begin is not mark:
+            context = getattr(error, "context", "")
+            message += f" ({context}, which begins at {begin.line + 1}:{begin.column + 1})"
         diagnostics.report("control.parameter-file", message, span)
         return ()
     return () if root is None else _Reader(file, diagnostics).sections(root)
