@@ -115,3 +115,11 @@ def test_missing_section_is_asked_for() -> None:
         "controller 'arm': no 'joint' given (parameter of node arm); it has no parameters at all: "
         "is its section named 'arm'?"
     )
+
+
+def test_fallback_controllers_are_told_to_have_no_effect() -> None:
+    parameters, found = _parameters({"fallback_controllers": ["hold"]})
+    parameters.report_unknown()
+    (only,) = found
+    assert only.code == "control.idle-parameter"
+    assert "a controller that fails is stopped, no other takes its place" in only.message

@@ -12,9 +12,9 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 __all__ = ["ControllerParameters", "flattened", "nested"]
 
 # Keys every controller may have that the controller manager itself reads.
-_MANAGED = frozenset(
-    {"type", "use_sim_time", "params_file", "fallback_controllers", "update_rate", "is_async"}
-)
+_MANAGED = frozenset({"type", "use_sim_time", "params_file", "update_rate", "is_async"})
+# Keys of every controller's that change nothing here, and why.
+_IDLE = {"fallback_controllers": "a controller that fails is stopped, no other takes its place"}
 _MISSING = object()
 
 
@@ -186,14 +186,20 @@ class ControllerParameters:
         for name, value in flattened(self.tree):
             if name.partition(".")[0] in _MANAGED:
                 continue
+            if name in _IDLE:
+                self._report_idle(name, _IDLE[name])
+                continue
             row = self.table.row_for(name)
             if row is None and value != {}:
                 text = f"parameter '{self.full_name(name)}' is not one of this controller; it has "
                 hint = did_you_mean(name, known)
                 self.report("control.unknown-parameter", text + "no effect", key=name, fix=hint)
             elif row is not None and row.kind == "none":
-                text = f"parameter '{self.full_name(name)}' has no effect: {row.meaning}"
-                self.report("control.idle-parameter", text, key=name)
+                self._report_idle(name, row.meaning)
+
+    def _report_idle(self, name: str, why: str) -> None:
+        text = f"parameter '{self.full_name(name)}' has no effect: {why}"
+        self.report("control.idle-parameter", text, key=name)
 
     def _value(self, key: str) -> Any:
         # A key of a pattern row (gains.joint_1.p) has no aliases of its own.
