@@ -10,6 +10,7 @@ from types import ModuleType
 
 from gazelle.compat.finder import install
 from gazelle.compat.python2 import compile_source
+from gazelle.ending import end_with
 from gazelle.graph.parent import end_with_parent
 from gazelle.launch.environment import drop_in_folder
 
@@ -79,4 +80,4 @@ def _run_entry_point(folder: Path, module: str, function: str, argv: list[str]) 
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    end_with(lambda: main(sys.argv[1:]))
