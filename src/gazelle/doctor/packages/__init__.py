@@ -1,0 +1,7 @@
+"""Checks of a package's own files: manifest, install rules, messages, generations."""
+
+from __future__ import annotations
+
+from gazelle.doctor.packages.checking import check_environment, check_package
+
+__all__ = ["check_environment", "check_package"]

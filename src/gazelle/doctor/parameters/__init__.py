@@ -1,0 +1,17 @@
+"""Checks of parameter files, and of the names that they and robot descriptions share."""
+
+from __future__ import annotations
+
+from gazelle.doctor.parameters.checking import (
+    check_description_text,
+    check_names,
+    check_package_parameters,
+    check_parameter_file,
+)
+
+__all__ = [
+    "check_description_text",
+    "check_names",
+    "check_package_parameters",
+    "check_parameter_file",
+]
