@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from gazelle.doctor.examine import examine
+from gazelle.doctor.options import Options
 from gazelle.doctor.report import Report, Section
 
-__all__ = ["Report", "Section"]
+__all__ = ["Options", "Report", "Section", "examine"]

@@ -16,16 +16,18 @@ class Section:
     """A table of a report, such as what is done with each plug-in.
 
     Attributes:
-        name: stable name, the key in ``--json``.
+        name: stable name of the kind of table, in ``--json`` too.
         title: headline.
         columns: names of the columns.
         rows: cells, one text per column.
+        subject: the file, launch or package the table is about; empty for the whole target.
     """
 
     name: str
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+    subject: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +36,8 @@ class Report:
 
     Attributes:
         target: what was examined, as the user named it.
-        kind: ``launch``, ``package``, ``robot``, ``world`` or ``parameters``.
+        kind: ``launch``, ``package``, ``workspace``, ``robot``, ``world``, ``parameters`` or
+            ``semantics`` (SRDF).
         findings: in the order found, each once.
         sections: tables, empty ones left out.
         sources: texts of findings' places that are no files, by name.
@@ -55,3 +58,7 @@ class Report:
     def exit_code(self) -> int:
         """0 when nothing is worse than a notice, 1 with warnings, 2 with errors."""
         return _EXIT_CODES[self.worst]
+
+    def count(self, severity: Severity) -> int:
+        """Return how many findings have a severity."""
+        return sum(item.severity is severity for item in self.findings)

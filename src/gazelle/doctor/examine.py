@@ -1,0 +1,74 @@
+"""The way in: from the words of a command line to a report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from gazelle.doctor.examination import Examination
+from gazelle.doctor.files import examine_file, kind_word
+from gazelle.doctor.kinds import kind_of
+from gazelle.doctor.options import Options
+from gazelle.doctor.package_files import examine_folder, examine_package
+from gazelle.doctor.report import Report
+from gazelle.doctor.target import Target, find_target
+from gazelle.workspace import Workspace
+
+__all__ = ["examine"]
+
+
+def examine(
+    words: Sequence[str],
+    *,
+    workspace: Workspace | None = None,
+    options: Options | None = None,
+    progress: Callable[[str], None] | None = None,
+    cwd: Path | None = None,
+) -> Report:
+    """Examine a package, a file, a launch or the workspace around the current folder.
+
+    Nothing is started: no process, no socket, no thread stays behind.
+
+    Args:
+        words: ``PKG``, ``FOLDER``, ``FILE``, ``PKG FILE``, or nothing for what the current
+            folder is in; arguments (``name:=value``) are in `options`.
+        workspace: finds packages and models; made from the options' environment when None.
+        options: choices of the caller.
+        progress: told what is being looked at.
+        cwd: what relative paths start from; the current folder when None.
+
+    Raises:
+        NotFoundError: nothing has the name given.
+        GazelleError: there is nothing that can be examined.
+    """
+    options = options or Options()
+    here = Path.cwd() if cwd is None else cwd
+    workspace = workspace or Workspace.discover(environ=options.environ, cwd=here)
+    target = find_target(words, workspace, here)
+    examination = Examination(workspace, options)
+    if progress is not None:
+        examination.say = progress
+    kind = _examine(target, examination)
+    examination.diagnostics.extend(workspace.diagnostics)
+    return Report(
+        target=target.name,
+        kind=kind,
+        findings=tuple(examination.diagnostics),
+        sections=tuple(examination.sections),
+    )
+
+
+def _examine(target: Target, examination: Examination) -> str:
+    """Examine everything of a target and return the report's word for what it is."""
+    if target.packages:
+        for package in target.packages:
+            examine_package(package, examination)
+        return "package" if len(target.packages) == 1 else "workspace"
+    if target.folder is not None:
+        examine_folder(target.folder, examination)
+        return "folder"
+    kind = kind_of(target.files[0], examination.diagnostics)
+    if kind is None:
+        return "file"
+    examine_file(target.files, kind, examination)
+    return kind_word(kind)

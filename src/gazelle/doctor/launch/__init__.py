@@ -1,0 +1,7 @@
+"""Checks of ROS 1 launch files: everything that would be started, before it is."""
+
+from __future__ import annotations
+
+from gazelle.doctor.launch.examine import examine_launch
+
+__all__ = ["examine_launch"]

@@ -1,0 +1,66 @@
+"""Examining a package or folder: every file in it, each once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.doctor.examination import Examination
+from gazelle.doctor.files import examine_file
+from gazelle.doctor.kinds import Kind, kind_of, looks_like
+from gazelle.workspace import Package
+
+__all__ = ["examine_folder", "examine_package"]
+
+_PRUNED = frozenset({"__pycache__", "build", "devel", "install", "log", "node_modules"})
+# Launches come first: what they use is examined as they use it, with their arguments.
+_ORDER = (
+    Kind.LAUNCH,
+    Kind.LAUNCH_ROS2,
+    Kind.ROBOT,
+    Kind.WORLD,
+    Kind.MODEL,
+    Kind.SEMANTICS,
+    Kind.PARAMETERS,
+)
+
+
+def examine_package(package: Package, examination: Examination) -> None:
+    """Examine a package's manifest, launch files, robots, worlds, models and parameters."""
+    examine_folder(package.path, examination)
+
+
+def examine_folder(folder: Path, examination: Examination) -> None:
+    """Examine every file in a folder that is of a kind known, each once."""
+    files = [(path, _kind(path, examination)) for path in _files_below(folder)]
+    kinds = [item for item in files if item[1] is not None]
+    if not kinds:
+        text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
+        examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
+    for wanted in _ORDER:
+        for path, kind in kinds:
+            if kind is wanted and path.resolve() not in examination.seen:
+                examine_file((path,), kind, examination)
+
+
+def _files_below(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(
+            name for name in folders if name not in _PRUNED and not name.startswith(".")
+        )
+        for name in sorted(names):
+            path = Path(place) / name
+            if looks_like(path):
+                yield path
+
+
+def _kind(path: Path, examination: Examination) -> Kind | None:
+    found = Diagnostics()
+    kind = kind_of(path, found)
+    is_plain = path.suffix == ".xml" and all(item.code == "doctor.unknown-file" for item in found)
+    # Other programs keep XML files too.
+    if kind is None and not is_plain:
+        examination.diagnostics.extend(found)
+    return kind
