@@ -16,7 +16,7 @@ from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.workspace import Workspace
 
-__all__ = ["CheckedSource", "read_checked_source"]
+__all__ = ["CheckedSource", "links_below", "read_checked_source"]
 
 _SDF_ROOTS = frozenset({"model", "sdf", "world"})
 _Tags = dict[tuple[str, SourceSpan], Tag]
@@ -44,7 +44,7 @@ class CheckedSource:
             self._files.add(link.span.file)
             root = read_xml(Path(link.span.file), Diagnostics())
             if root is not None:
-                self.tags |= _links_below(root)
+                self.tags |= links_below(root)
         return self.tags.get(key)
 
 
@@ -81,7 +81,7 @@ def read_checked_source(
         root = None if expanded is None else expanded.tag(diagnostics)
     if root is None:
         return CheckedSource()
-    return CheckedSource(_models(root, context), _links_below(root), {str(path)})
+    return CheckedSource(_models(root, context), links_below(root), {str(path)})
 
 
 def _models(root: Tag, context: ReadContext) -> tuple[Model, ...]:
@@ -101,6 +101,7 @@ def _has_xacro(root: Tag) -> bool:
     return any(tag.name.startswith("xacro:") for tag in root.walk())
 
 
-def _links_below(root: Tag) -> _Tags:
+def links_below(root: Tag) -> dict[tuple[str, SourceSpan], Tag]:
+    """Return all ``<link>`` elements by name and place."""
     links = (tag for tag in root.walk() if tag.name == "link")
     return {(tag.attributes.get("name", "").strip(), tag.span): tag for tag in links}
