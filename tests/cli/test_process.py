@@ -13,13 +13,16 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import ros1_message_type
 
 _GAZELLE = [sys.executable, "-m", "gazelle.cli"]
+# What a script's `command &` does to a command: SIGINT is ignored.
+_IN_THE_BACKGROUND = ["/bin/sh", "-c", 'trap "" INT; exec "$@"', "sh"]
 
 
-def test_hz_ends_with_ctrl_c_and_no_traceback(robot: Node, pump) -> None:
+@pytest.mark.parametrize("started", [[], _IN_THE_BACKGROUND], ids=["shell", "background"])
+def test_hz_ends_with_ctrl_c_and_no_traceback(robot: Node, pump, started: list[str]) -> None:
     kind = ros1_message_type("std_msgs/String")
     publisher = robot.create_publisher("/chat", kind)
     pump(lambda: publisher.publish(kind()))
-    words = [*_GAZELLE, "rostopic", "hz", "/chat"]
+    words = [*started, *_GAZELLE, "rostopic", "hz", "/chat"]
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:

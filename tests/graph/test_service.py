@@ -103,6 +103,7 @@ def test_missing_service_is_unavailable_at_once(server: Node, caller: Node) -> N
 def test_other_type_is_told(server: Node, caller: Node) -> None:
     server.create_service("set", Trigger, lambda _request: Trigger.Response())
     client = caller.create_client("set", SetBool)
+    assert client.wait_for_service(10)
     with pytest.raises(
         ServiceUnavailableError, match=r"it has type std_srvs/srv/Trigger, the client"
     ):

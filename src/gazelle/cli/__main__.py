@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import NoReturn
 
 from gazelle.cli.main import main
@@ -12,7 +13,18 @@ __all__ = ["run"]
 
 def run() -> NoReturn:
     """Run the command of the command line and end the process."""
+    _heed_interrupts()
     end_with(main)
+
+
+def _heed_interrupts() -> None:
+    """End on SIGINT also where a script started the command with ``&``.
+
+    Shells without job control start such commands with SIGINT ignored, and Python leaves it at
+    that. rospy, rclpy and roslaunch do not, so scripts rely on ``kill -INT``.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 if __name__ == "__main__":
