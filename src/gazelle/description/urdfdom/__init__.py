@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from gazelle.description.urdfdom.model import Robot, Verdict, urdfdom_verdict
+from gazelle.description.urdfdom.model import (
+    Robot,
+    Verdict,
+    urdfdom_verdict,
+    verdict_of_element,
+)
 from gazelle.description.urdfdom.printing import EndlessTreeError, graphviz_text, tree_text
 
 __all__ = [
@@ -12,4 +17,5 @@ __all__ = [
     "graphviz_text",
     "tree_text",
     "urdfdom_verdict",
+    "verdict_of_element",
 ]

@@ -11,7 +11,7 @@ from gazelle.description.urdfdom.joints import ReadJoint, read_joint
 from gazelle.description.urdfdom.links import VisualMaterial, check_material, read_link
 from gazelle.description.urdfdom.tinyxml import Element, TinyXmlError, parse_tinyxml
 
-__all__ = ["Robot", "Verdict", "urdfdom_verdict"]
+__all__ = ["Robot", "Verdict", "urdfdom_verdict", "verdict_of_element"]
 
 _INTEGER = re.compile(r"[ \t\n\v\f\r]*[+-]?[0-9]+")
 
@@ -53,14 +53,23 @@ def urdfdom_verdict(text: str) -> Verdict:
     """
     console = Console()
     try:
-        robot = _read_robot(text, console)
+        robot = _read_robot(_robot_tag(text, console), console)
     except Rejected:
         robot = None
     return Verdict(robot, tuple(console.remarks))
 
 
-def _read_robot(text: str, console: Console) -> Robot:
-    tag = _robot_tag(text, console)
+def verdict_of_element(tag: Element) -> Verdict:
+    """Return the verdict on an outermost element that another parser has read."""
+    console = Console()
+    try:
+        robot = _read_robot(_named_robot([tag], console), console)
+    except Rejected:
+        robot = None
+    return Verdict(robot, tuple(console.remarks))
+
+
+def _read_robot(tag: Element, console: Console) -> Robot:
     name = tag.attributes.get("name")
     if name is None:
         raise console.reject(("model", 118), "No name given for the robot.")
@@ -81,6 +90,10 @@ def _robot_tag(text: str, console: Console) -> Element:
         top = parse_tinyxml(text)
     except TinyXmlError as error:
         raise console.reject(("model", 100), str(error)) from None
+    return _named_robot(top, console)
+
+
+def _named_robot(top: list[Element], console: Console) -> Element:
     tag = next((item for item in top if item.name == "robot"), None)
     if tag is None:
         message = "Could not find the 'robot' element in the xml file"

@@ -1,0 +1,117 @@
+"""A robot as an SDF model, after its fixed joints were dissolved."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from gazelle.description.sdformat.element import SdfElement
+from gazelle.description.sdformat.release import Release
+from gazelle.description.sdformat.urdf.console import Console
+from gazelle.description.sdformat.urdf.elements import copied, set_value
+from gazelle.description.sdformat.urdf.extensions import Extension, Extensions
+from gazelle.description.sdformat.urdf.joints import add_joint
+from gazelle.description.sdformat.urdf.lumping import is_reduced
+from gazelle.description.sdformat.urdf.numbers import exact_text
+from gazelle.description.sdformat.urdf.parts import add_collisions, add_inertial, add_visuals
+from gazelle.description.sdformat.urdf.robot import Link, Robot
+
+__all__ = ["Fate", "Visit", "WorldCrashError", "model_of", "visits"]
+
+_WORLD = "world"
+# The library takes masses up to this for none.
+_NO_MASS_KG = 1e-6
+
+
+class WorldCrashError(ValueError):
+    """The library reads the inertia that a link called ``world`` does not have, and crashes."""
+
+
+class Fate(enum.Enum):
+    """What becomes of a link that the conversion comes to."""
+
+    MODELLED = "modelled"
+    LUMPED = "lumped"
+    WITHOUT_INERTIAL = "without inertial"
+    WITHOUT_MASS = "without mass"
+
+
+class Visit(NamedTuple):
+    """A link and its fate; what hangs on one without inertia or mass is never visited."""
+
+    link: Link
+    fate: Fate
+
+
+def model_of(robot: Robot, extensions: Extensions, console: Console) -> SdfElement:
+    """Return the ``<model>``.
+
+    Raises:
+        WorldCrashError: see there.
+    """
+    model = SdfElement("model", {"name": robot.name})
+    for link, fate in visits(robot, extensions):
+        if fate is Fate.MODELLED:
+            _add_link(model, link, extensions, console)
+    for extension in extensions.by_reference.get("", ()):
+        is_static = extension.switches.get("static", False)
+        set_value(model, "static", "true" if is_static else "false", console)
+        model.children += [copied(blob.element) for blob in extension.blobs]
+    return model
+
+
+def visits(robot: Robot, extensions: Extensions) -> Iterator[Visit]:
+    """Yield the links from the root down, children in order of the joints' names."""
+    is_world = robot.root.name == _WORLD
+    waiting = robot.root.children[::-1] if is_world else [robot.root]
+    while waiting:
+        link = waiting.pop()
+        fate = _fate(link, extensions)
+        yield Visit(link, fate)
+        if fate in (Fate.MODELLED, Fate.LUMPED):
+            waiting += link.children[::-1]
+
+
+def _fate(link: Link, extensions: Extensions) -> Fate:
+    if link.name != _WORLD:
+        if link.inertial is None:
+            return Fate.WITHOUT_INERTIAL
+        if abs(link.inertial.mass_kg) <= _NO_MASS_KG:
+            return Fate.WITHOUT_MASS
+    hangs_on_world = link.parent is not None and link.parent.name == _WORLD
+    if hangs_on_world or link.joint_above is None:
+        return Fate.MODELLED
+    return Fate.LUMPED if is_reduced(link.joint_above, extensions) else Fate.MODELLED
+
+
+def _add_link(model: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:
+    if link.inertial is None:
+        raise WorldCrashError(link.name)
+    element = SdfElement("link", {"name": link.name})
+    if link.joint_above is not None:
+        element.add("pose").attributes["relative_to"] = link.joint_above.name
+    add_inertial(element, link.inertial)
+    add_collisions(element, link, extensions, console)
+    add_visuals(element, link, extensions, console)
+    for extension in extensions.by_reference.get(link.name, ()):
+        _extend(element, extension, console)
+    add_joint(model, link, extensions, console)
+    model.children.append(element)
+
+
+def _extend(link: SdfElement, extension: Extension, console: Console) -> None:
+    is_v9 = console.release is Release.V9
+    # sdformat 9 says this for every block, whether it is asked for or not.
+    if extension.has_gravity is not None or is_v9:
+        text = "false" if extension.has_gravity is False else "true"
+        set_value(link, "gravity", text, console)
+    factor = extension.numbers.get("dampingFactor")
+    if factor is not None or is_v9:
+        decay = link.add("velocity_decay")
+        for name in ("linear", "angular") if factor is not None else ():
+            decay.add(name, exact_text([factor or 0.0]))
+    if "selfCollide" in extension.switches:
+        text = "1" if extension.switches["selfCollide"] else "0"
+        set_value(link, "self_collide", text, console)
+    link.children += [copied(blob.element) for blob in extension.blobs]

@@ -1,0 +1,104 @@
+"""Numbers as the C++ library reads them from texts and writes them into texts."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+
+__all__ = [
+    "NumberCrashError",
+    "brief_text",
+    "exact_text",
+    "leading_integer",
+    "leading_number",
+    "streamed_numbers",
+]
+
+_DECIMAL = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_NUMBER = re.compile(
+    r"[ \t\n\v\f\r]*(?P<value>[+-]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)"
+    rf"(?:[pP][+-]?[0-9]+)?|{_DECIMAL}|[+-]?(?:inf(?:inity)?|nan))",
+    re.IGNORECASE,
+)
+_STREAMED = re.compile(rf"[ \t\n\v\f\r]*(?P<value>{_DECIMAL})")
+_INTEGER = re.compile(r"[ \t\n\v\f\r]*(?P<value>[+-]?[0-9]+)")
+_SMALLEST_NORMAL = 2.2250738585072014e-308
+
+
+class NumberCrashError(ValueError):
+    """A text at which the library ends the whole program: nobody catches what it throws.
+
+    The message is what the program prints while it ends.
+    """
+
+    def __init__(self, kind: str, function: str) -> None:
+        self.kind = kind
+        thrown = f"terminate called after throwing an instance of 'std::{kind}'"
+        super().__init__(f"{thrown}\n  what():  {function}")
+
+
+def leading_number(text: str) -> float:
+    """Return the number a text begins with; whatever follows it does not count (``std::stod``).
+
+    Raises:
+        NumberCrashError: it begins with none, or with one that no double holds.
+    """
+    found = _NUMBER.match(text)
+    if found is None:
+        raise NumberCrashError("invalid_argument", "stod")
+    word = found["value"]
+    is_hexadecimal = "x" in word.lower()
+    value = float.fromhex(word) if is_hexadecimal else float(word)
+    is_word = word.lstrip("+-")[0] in "iInN"
+    is_zero = not re.search(
+        r"[1-9a-fA-F]", word.lower().partition("p" if is_hexadecimal else "e")[0]
+    )
+    too_small = not is_zero and not math.isnan(value) and abs(value) < _SMALLEST_NORMAL
+    if (math.isinf(value) and not is_word) or too_small:
+        raise NumberCrashError("out_of_range", "stod")
+    return value
+
+
+def leading_integer(text: str) -> int:
+    """Return the integer a text begins with (``std::stoi``).
+
+    Raises:
+        NumberCrashError: it begins with none, or with one beyond 32 bits.
+    """
+    found = _INTEGER.match(text)
+    if found is None:
+        raise NumberCrashError("invalid_argument", "stoi")
+    value = int(found["value"])
+    if not -(2**31) <= value < 2**31:
+        raise NumberCrashError("out_of_range", "stoi")
+    return value
+
+
+def streamed_numbers(text: str, count: int) -> tuple[float, ...] | None:
+    """Return the first numbers of a text, None when it has fewer; the rest does not count."""
+    values: list[float] = []
+    at = 0
+    while len(values) < count:
+        found = _STREAMED.match(text, at)
+        if found is None or math.isinf(float(found["value"])):
+            return None
+        values.append(float(found["value"]))
+        at = found.end()
+    return tuple(values)
+
+
+def exact_text(values: Iterable[float]) -> str:
+    """Return numbers with up to 16 digits; a negative zero loses its sign."""
+    return " ".join(_printed(value, 16) if value else "0" for value in values)
+
+
+def brief_text(values: Iterable[float]) -> str:
+    """Return numbers with up to 6 digits, as a C++ stream writes them by itself."""
+    return " ".join(_printed(value, 6) for value in values)
+
+
+def _printed(value: float, digits: int) -> str:
+    if math.isnan(value):
+        return "-nan" if math.copysign(1.0, value) < 0.0 else "nan"
+    return f"{value:.{digits}g}"
