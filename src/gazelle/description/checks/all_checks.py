@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from gazelle.description.checks.cameras import check_cameras
 from gazelle.description.checks.inertia import check_inertia, check_mass_ratios
 from gazelle.description.checks.inertia_records import joint_records_of, records_of
 from gazelle.description.checks.inertia_source import CheckedSource, links_below
+from gazelle.description.checks.joint_values import check_joints
+from gazelle.description.checks.lumping import check_lumping
+from gazelle.description.checks.outlines import Outlines
+from gazelle.description.checks.overlaps import check_overlaps
+from gazelle.description.checks.roots import check_root
+from gazelle.description.checks.sizes import check_sizes
+from gazelle.description.checks.stance import check_stance
+from gazelle.description.checks.surfaces import check_surfaces
+from gazelle.description.checks.wheels import check_wheels
 from gazelle.description.model import Model
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostics, Severity
 
 __all__ = ["check_description"]
 
@@ -17,6 +29,7 @@ def check_description(
     *,
     diagnostics: Diagnostics,
     root: Tag | None = None,
+    step_s: float = 1e-3,
 ) -> None:
     """Report everything that is suspicious about a model, none of which a reader says.
 
@@ -27,10 +40,25 @@ def check_description(
         model: as a reader made it.
         diagnostics: receives the findings; what is wrong with mesh files is left to the engine.
         root: the element it was read from, after xacro; the links' files are read again when None.
+        step_s: of the physics.
     """
     unheard = Diagnostics()
     source = CheckedSource((model,), {} if root is None else links_below(root))
     records = records_of((model,), source.find_tag, unheard)
     for finding in check_inertia(records):
-        diagnostics.add(finding.diagnostic)
+        item = finding.diagnostic
+        harmless = finding.is_placeholder
+        diagnostics.add(replace(item, severity=Severity.INFO) if harmless else item)
     diagnostics.extend(check_mass_ratios(joint_records_of((model,), source.find_tag)))
+    outlines = Outlines(model)
+    check_sizes(model, outlines, diagnostics)
+    if model.static:
+        return
+    check_root(model, diagnostics)
+    check_lumping(model, diagnostics, root=root)
+    check_joints(model, diagnostics)
+    check_cameras(model, diagnostics)
+    check_wheels(model, diagnostics)
+    check_surfaces(model, diagnostics, step_s=step_s)
+    check_stance(model, outlines, diagnostics)
+    check_overlaps(model, outlines, diagnostics)

@@ -45,11 +45,19 @@ _LARGEST_MASS_RATIO = 1000.0
 
 
 class InertiaFinding(NamedTuple):
-    """A finding about a link, and the mass properties that would end it (None: nothing would)."""
+    """A finding about a link.
+
+    Attributes:
+        diagnostic: what is said.
+        record: the link.
+        body: the mass properties that would end it; None when nothing would.
+        is_placeholder: more inertia than the link can have, which slows it and harms nothing.
+    """
 
     diagnostic: Diagnostic
     record: LinkRecord
     body: MassProperties | None = None
+    is_placeholder: bool = False
 
 
 def check_inertia(
@@ -131,7 +139,7 @@ def _judged(record: LinkRecord, density: float | None) -> Iterator[InertiaFindin
 
 def _missing(record: LinkRecord, new: MassProperties | None) -> InertiaFinding:
     does = (
-        "Gazebo drops it with all that hangs on it"
+        f"Gazebo drops it{_lost(record)}"
         if record.source_format == "urdf"
         else "Gazebo gives it 1 kg and moments of 1 kg·m²"
     )
@@ -139,6 +147,16 @@ def _missing(record: LinkRecord, new: MassProperties | None) -> InertiaFinding:
     if new is None:
         message += "; it has no shapes to compute one from"
     return _finding("inertia.missing", message, record, record.span, new)
+
+
+def _lost(record: LinkRecord) -> str:
+    if record.is_root:
+        return ", and with it the whole robot: nothing appears"
+    if not record.below:
+        return ", and its joint"
+    names = " and ".join(f"'{name}'" for name in record.below[:3])
+    more = f" and {len(record.below) - 3} more" if len(record.below) > 3 else ""
+    return f" with all that hangs on it: {names}{more} vanish"
 
 
 def _impossible(record: LinkRecord, new: MassProperties | None) -> Iterator[InertiaFinding]:
@@ -167,7 +185,8 @@ def _misfits(
         fit = box_fit(body, points)
         if fit.is_too_large or fit.is_too_small:
             message = _box_message(record, fit)
-            yield _finding("inertia.box", message, record, written.inertia_span, new)
+            found = _finding("inertia.box", message, record, written.inertia_span, new)
+            yield found._replace(is_placeholder=not fit.is_too_small)
     if not is_inside(body.center_m, points):
         low, high = points.min(axis=0), points.max(axis=0)
         message = (

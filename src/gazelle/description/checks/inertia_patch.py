@@ -73,7 +73,8 @@ def make_patch(findings: Iterable[InertiaFinding], *, folder: Path | None = None
     """
     wanted: dict[SourceSpan | str, tuple[LinkRecord, MassProperties]] = {}
     notes = []
-    for _, record, body in findings:
+    for finding in findings:
+        record, body = finding.record, finding.body
         key = record.span or record.name
         if body is not None:
             wanted.setdefault(key, (record, body))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -68,6 +68,8 @@ class LinkRecord:
         has_unreadable: an ``<inertial>`` is there and unusable, which the reader reported.
         needs_mass: it moves and nothing it is fixed to has mass.
         is_fixed: a fixed joint ties it to another link of a URDF; both move as one body.
+        is_root: no joint moves its body.
+        below: links that hang on its body.
         span: place of the ``<link>``.
         collisions, visuals: shapes of 1 kg/m³, their mass is the volume; without the flat ones.
         points_m: (n, 3) points whose hull holds all its shapes, link frame.
@@ -81,6 +83,8 @@ class LinkRecord:
     has_unreadable: bool = False
     needs_mass: bool = True
     is_fixed: bool = False
+    is_root: bool = False
+    below: tuple[str, ...] = ()
     span: SourceSpan | None = None
     collisions: tuple[MassProperties, ...] = ()
     visuals: tuple[MassProperties, ...] = ()
@@ -134,13 +138,21 @@ def records_of(
     records: dict[tuple[str, SourceSpan | str], LinkRecord] = {}
     for model in moving:
         heads, needy = _heads(model), _needy(model, find_tag)
+        children = {joint.child for joint in model.joints}
         for link in model.links:
             name = f"{model.name}::{link.name}" if several else link.name
             record = _record(name, link, model, find_tag(link), diagnostics)
             tied = model.source_format == "urdf" and heads[link.name] != link.name
             # A model that is included many times is judged once.
             key = link.name, link.span or name
-            records.setdefault(key, replace(record, needs_mass=link.name in needy, is_fixed=tied))
+            record = replace(record, needs_mass=link.name in needy, is_fixed=tied)
+            if record.needs_mass:
+                record = replace(
+                    record,
+                    is_root=heads[link.name] not in children,
+                    below=_below(link.name, model, heads),
+                )
+            records.setdefault(key, record)
     return tuple(records.values())
 
 
@@ -177,6 +189,17 @@ def _needy(model: Model, find_tag: FindTag) -> set[str]:
             shaped = (link.name for link in links if link.collisions or link.visuals)
             needy.add(next(shaped, links[0].name))
     return needy
+
+
+def _below(name: str, model: Model, heads: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the links that hang on a link's body, in the order of the file, without it."""
+    inside = {heads[name]}
+    for _ in model.joints:
+        more = {joint.child for joint in model.joints if joint.parent in inside} - inside
+        if not more:
+            break
+        inside |= more
+    return tuple(link.name for link in model.links if link.name in inside and link.name != name)
 
 
 def _heads(model: Model) -> dict[str, str]:

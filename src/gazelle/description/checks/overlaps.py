@@ -1,0 +1,130 @@
+"""Collisions of one model that start inside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.checks.outlines import Outline, Outlines
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    JointType,
+    Link,
+    Model,
+    Sphere,
+)
+from gazelle.diagnostics import Diagnostics
+
+__all__ = ["check_overlaps", "overlap_m"]
+
+_CONVEX = (Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere)
+_TOLERATED_M = 0.001
+_ROUNDS = 64
+
+Array = NDArray[np.float64]
+
+
+def check_overlaps(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> None:
+    """Report overlaps of links that collide with each other: those with self_collide.
+
+    Meshes are left out: their hulls say little about them.
+    """
+    bodies = _bodies(model)
+    told = set[tuple[str, str]]()
+    for first, second in _pairs(model, outlines):
+        names = first.link.name, second.link.name
+        if bodies[names[0]] == bodies[names[1]] or names in told or _joined(model, bodies, names):
+            continue
+        depth = overlap_m(first.points_m, second.points_m)
+        if depth > _TOLERATED_M:
+            told.add(names)
+            text = (
+                f"with all joints at 0 the collisions of '{names[0]}' and '{names[1]}' overlap by "
+                f"{depth * 1e3:.3g} mm, and <self_collide> lets them push each other: the robot "
+                "jitters or jumps when it is spawned"
+            )
+            place = second.collision.span if second.collision else None
+            diagnostics.report("robot.self-overlap", text, place or second.link.span)
+
+
+def overlap_m(first: Array, second: Array) -> float:
+    """Return how deep two convex bodies, given by points (n, 3), are inside each other; 0 if not.
+
+    Gilbert's algorithm decides whether there is a gap. The depth is the smallest of a few hundred
+    directions, so it is an upper bound.
+    """
+    if (first.min(axis=0) > second.max(axis=0)).any():
+        return 0.0
+    if (second.min(axis=0) > first.max(axis=0)).any():
+        return 0.0
+    nearest = first.mean(axis=0) - second.mean(axis=0)
+    for _ in range(_ROUNDS):
+        length = float(np.linalg.norm(nearest))
+        if length < 1e-6:
+            break
+        corner = first[(first @ nearest).argmin()] - second[(second @ nearest).argmax()]
+        if float(corner @ nearest) > 0.0:
+            return 0.0
+        step = nearest - corner
+        share = float(nearest @ step) / max(float(step @ step), 1e-18)
+        nearest = nearest - min(1.0, max(0.0, share)) * step
+    directions = _directions()
+    reach = (first @ directions.T).max(axis=0) - (second @ directions.T).min(axis=0)
+    return max(0.0, float(reach.min()))
+
+
+def _directions() -> Array:
+    """Return unit vectors spread evenly over the sphere, and the axes."""
+    count = 400
+    index = np.arange(count) + 0.5
+    z = 1.0 - 2.0 * index / count
+    angle = np.pi * (1.0 + 5.0**0.5) * index
+    ring = np.sqrt(1.0 - z * z)
+    spread = np.stack([ring * np.cos(angle), ring * np.sin(angle), z], axis=1)
+    return np.concatenate([spread, np.eye(3), -np.eye(3)])
+
+
+def _pairs(model: Model, outlines: Outlines) -> Iterator[tuple[Outline, Outline]]:
+    colliding = [
+        item
+        for item in outlines.collisions
+        if item.collision is not None
+        and isinstance(item.collision.shape, _CONVEX)
+        and _self_collides(item.link, model)
+    ]
+    for first, second in combinations(colliding, 2):
+        if first.link.name != second.link.name:
+            yield first, second
+
+
+def _self_collides(link: Link, model: Model) -> bool:
+    return model.self_collide if link.self_collide is None else link.self_collide
+
+
+def _bodies(model: Model) -> dict[str, str]:
+    """Return for every link the first of those it is fixed to."""
+    above = {joint.child: joint for joint in model.joints if joint.type is JointType.FIXED}
+    bodies = {}
+    for link in model.links:
+        name, seen = link.name, set[str]()
+        while name in above and name not in seen:
+            seen.add(name)
+            name = above[name].parent
+        bodies[link.name] = name
+    return bodies
+
+
+def _joined(model: Model, bodies: dict[str, str], names: tuple[str, str]) -> bool:
+    """Bodies on the two ends of a joint never collide."""
+    wanted = {bodies[name] for name in names}
+    return any(
+        {bodies.get(joint.parent, joint.parent), bodies.get(joint.child, joint.child)} == wanted
+        for joint in model.joints
+    )

@@ -1,0 +1,150 @@
+"""Judges wheels by geometry: do their axles fit their shapes and each other?"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.checks.rolling import Wheel, axis_in_model, wheels_of
+from gazelle.description.model import Cylinder, Joint, JointType, Link, Model
+from gazelle.diagnostics import Diagnostics, Severity
+
+__all__ = ["check_wheels"]
+
+_LARGEST_TILT_DEG = 10.0
+_LEFT = re.compile(r"left|(?<![a-z])l(?![a-z])", re.IGNORECASE)
+_OFF_AXLE_M = 0.002
+
+
+def check_wheels(model: Model, diagnostics: Diagnostics) -> None:
+    """Report wheels that cannot roll, and pairs that turn against each other."""
+    wheels = wheels_of(model)
+    _check_swapped_axes(model, diagnostics)
+    for wheel in wheels:
+        _check_touching(wheel, model, diagnostics)
+        _check_shape(wheel.joint, wheel.link, diagnostics)
+    for left, right in _pairs(wheels):
+        _check_pair(left, right, model, diagnostics)
+
+
+def _check_touching(wheel: Wheel, model: Model, diagnostics: Diagnostics) -> None:
+    carried = [wheel.link, *_fixed_below(wheel.link, model)]
+    if any(link.collisions for link in carried) or not any(link.visuals for link in carried):
+        return
+    text = (
+        f"wheel '{wheel.link.name}' has a <visual> and no <collision>: it touches nothing, the "
+        "robot sinks in until another part of it lies on the ground"
+    )
+    fix = "copy <origin> and <geometry> of the <visual> into a <collision>"
+    diagnostics.report("robot.wheel-without-collision", text, wheel.link.span, fix=fix)
+
+
+def _check_swapped_axes(model: Model, diagnostics: Diagnostics) -> None:
+    """Report wheels whose axis is not level: a forgotten <axis> is x in URDF."""
+    for joint in model.joints:
+        link = model.link(joint.child)
+        named = re.search("wheel|tire|tyre", f"{joint.name} {joint.child}", re.IGNORECASE)
+        if link is None or not named or joint.type is not JointType.CONTINUOUS:
+            continue
+        if abs(axis_in_model(joint)[2]) >= math.sqrt(0.5):
+            _check_shape(joint, link, diagnostics)
+
+
+def _check_shape(joint: Joint, link: Link, diagnostics: Diagnostics) -> None:
+    for shape_axis, centre, what in _cylinders(link):
+        axis = axis_in_model(joint)
+        cosine = min(1.0, abs(float(axis @ shape_axis)))
+        tilt = math.degrees(math.acos(cosine))
+        if tilt > _LARGEST_TILT_DEG:
+            if abs(shape_axis[2]) > math.sqrt(0.5) and abs(axis[2]) > math.sqrt(0.5):
+                continue
+            text = (
+                f"joint '{joint.name}' turns about {_shown(axis)} of the model, but the {what} of "
+                f"wheel '{link.name}' is a cylinder about {_shown(shape_axis)}, {tilt:.0f}° off: "
+                "it wobbles like a coin instead of rolling"
+            )
+            diagnostics.report(
+                "robot.wheel-axis", text, joint.span, fix=_axis_fix(joint, shape_axis)
+            )
+            return
+        arm = centre - np.asarray(joint.T_model_joint.position_m)
+        off = float(np.linalg.norm(arm - (arm @ axis) * axis))
+        if off > _OFF_AXLE_M:
+            text = (
+                f"the {what} of wheel '{link.name}' is centred {off * 1e3:.3g} mm beside the axis "
+                f"of joint '{joint.name}': it turns like a cam, the robot hops"
+            )
+            fix = f"set <origin> of joint '{joint.name}' to the wheel's centre"
+            diagnostics.report("robot.wheel-off-centre", text, joint.span, fix=fix)
+            return
+
+
+def _axis_fix(joint: Joint, shape_axis: NDArray[np.float64]) -> str:
+    own = np.asarray(joint.T_model_joint.inverse().rotate(tuple(shape_axis)))
+    own = own * (1.0 if own[np.argmax(np.abs(own))] > 0 else -1.0)
+    words = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
+    return f'write <axis xyz="{words}"/>, or turn the cylinder by its <origin rpy="…"/>'
+
+
+def _cylinders(link: Link) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], str]]:
+    """Yield axis and centre in the model's frame; the collision counts, without one the visual."""
+    posed = [(item.shape, item.T_link_collision, "collision") for item in link.collisions]
+    posed = posed or [(item.shape, item.T_link_visual, "visual") for item in link.visuals]
+    if len(posed) != 1:
+        return
+    shape, T_link_shape, what = posed[0]
+    if isinstance(shape, Cylinder) and shape.length_m < 2.0 * shape.radius_m:
+        pose = link.T_model_link @ T_link_shape
+        yield np.asarray(pose.rotate((0.0, 0.0, 1.0))), np.asarray(pose.position_m), what
+
+
+def _pairs(wheels: Sequence[Wheel]) -> Iterator[tuple[Wheel, Wheel]]:
+    """Yield wheels that have the same name but for left and right."""
+    by_name = {wheel.joint.name: wheel for wheel in wheels if not wheel.is_caster}
+    for name, wheel in by_name.items():
+        for match in _LEFT.finditer(name):
+            other = _other_side(name, match)
+            if other in by_name:
+                yield wheel, by_name[other]
+                break
+
+
+def _other_side(name: str, match: re.Match[str]) -> str:
+    words = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "l": "r", "L": "R"}
+    return name[: match.start()] + words.get(match[0], "") + name[match.end() :]
+
+
+def _check_pair(left: Wheel, right: Wheel, model: Model, diagnostics: Diagnostics) -> None:
+    if float(left.axis @ right.axis) > -0.5:
+        return
+    text = (
+        f"the axes of '{left.joint.name}' {_shown(left.axis)} and '{right.joint.name}' "
+        f"{_shown(right.axis)} point against each other: the same speed for both turns the robot "
+        "on the spot, so a command to drive straight on spins it"
+    )
+    wrong = left if left.axis[1] < right.axis[1] else right
+    own = np.asarray(wrong.joint.T_model_joint.inverse().rotate(tuple(-wrong.axis)))
+    words = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
+    fix = f"write <axis xyz=\"{words}\"/> in joint '{wrong.joint.name}'"
+    # Without a drive it is a picture of a robot, and a peculiarity at most.
+    driven = model.plugins or model.transmissions or model.ros2_controls
+    severity = None if driven else Severity.INFO
+    diagnostics.report(
+        "robot.wheel-axes-opposed", text, wrong.joint.span, fix=fix, severity=severity
+    )
+
+
+def _fixed_below(link: Link, model: Model) -> Iterator[Link]:
+    for joint in model.joints:
+        child = model.link(joint.child)
+        if joint.parent == link.name and joint.type is JointType.FIXED and child is not None:
+            yield child
+            yield from _fixed_below(child, model)
+
+
+def _shown(axis: NDArray[np.float64]) -> str:
+    return "(" + ", ".join(f"{value:.2g}" for value in np.round(axis, 3) + 0.0) + ")"
