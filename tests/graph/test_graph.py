@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import socket
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -148,3 +149,19 @@ def test_closed_graph_is_no_longer_current(graph: Graph) -> None:
     assert Graph.current() is None
     with pytest.raises(Exception, match="the graph is closed"):
         graph.create_node("n")
+
+
+def test_graphs_larger_than_a_channel_of_the_transport_are_listed(graph: Graph, join: Join) -> None:
+    node = graph.create_node("many")
+    for number in range(400):
+        node.create_client(f"service_{number}", SetBool)
+    late = join()
+    found: list[int] = []
+    # Where zenoh's own channel of 256 places is full, it holds the lock of the whole session.
+    for one in (graph, late, join(role="client")):
+        asking = threading.Thread(
+            target=lambda one=one: found.append(len(one.entities())), daemon=True
+        )
+        asking.start()
+        asking.join(10)
+    assert [count > 400 for count in found] == [True, True, True]

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["Discovery"]
 
 _ASK_S = 2.0
+_MOST_REPLIES = 1 << 20
 
 
 class Discovery:
@@ -49,10 +50,16 @@ class Discovery:
 
     def ask(self) -> tuple[Entity, ...]:
         """Return all entities, asking the graph afresh; complete also just after joining."""
+        import zenoh
+
         found: dict[str, Entity] = {}
-        for reply in self._session.liveliness().get(self._selector, timeout=_ASK_S):
+        # What this session knows is answered before get() returns: a channel of zenoh's usual
+        # 256 places would fill up and nobody could ever empty it.
+        channel: Any = zenoh.handlers.FifoChannel(_MOST_REPLIES)
+        for reply in self._session.liveliness().get(self._selector, channel, timeout=_ASK_S):
             if reply.ok is not None:
                 _read_token(str(reply.ok.key_expr), found)
+        # The hub's last word can cut those answers short; they are among the entities known.
         with self._changed:
             return tuple((self._entities | found).values())
 
