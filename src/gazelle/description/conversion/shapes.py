@@ -1,0 +1,166 @@
+"""Shapes in SDF's words, and meshes for what URDF has no word for."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.conversion.beside import Beside
+from gazelle.description.conversion.markup import Markup, number, numbers, tidy
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Heightmap,
+    MeshShape,
+    Plane,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from gazelle.errors import GazelleError
+from gazelle.geometry import (
+    MeshPart,
+    Pose,
+    cone_mesh,
+    ellipsoid_mesh,
+    load_mesh,
+    polyline_mesh,
+)
+
+__all__ = ["add_sdf_geometry", "add_urdf_geometry", "as_mesh", "stl_bytes", "urdf_pieces"]
+
+_ONES = (1.0, 1.0, 1.0)
+
+
+def add_urdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
+    """Append the ``<geometry>`` of a shape that URDF has a word for."""
+    geometry = owner.add("geometry")
+    match shape:
+        case Box(size_m=size):
+            geometry.add("box", size=numbers(size))
+        case Sphere(radius_m=radius):
+            geometry.add("sphere", radius=number(radius))
+        case Cylinder(radius_m=radius, length_m=length):
+            geometry.add("cylinder", radius=number(radius), length=number(length))
+        case Capsule(radius_m=radius, length_m=length):
+            geometry.add("capsule", radius=number(radius), length=number(length))
+        case MeshShape():
+            mesh = geometry.add("mesh", filename=beside.address(shape.path, shape.uri))
+            if shape.scale != _ONES:
+                mesh.attributes["scale"] = numbers(shape.scale)
+        case _:
+            raise AssertionError(f"URDF has no word for {shape}")
+
+
+def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, Pose], ...]:
+    """Return shapes that URDF can say and that together are the shape; none when there are none.
+
+    Args:
+        shape: any.
+        has_capsules: the file is of a URDF version that knows ``<capsule>`` (1.2).
+
+    Returns:
+        What is added to the name, the shape, and its place in the frame of `shape`.
+    """
+    if isinstance(shape, Capsule) and not has_capsules:
+        if shape.length_m <= 0:
+            return (("", Sphere(shape.radius_m), Pose()),)
+        ends = (
+            (word, Sphere(shape.radius_m), Pose((0.0, 0.0, side * shape.length_m / 2)))
+            for word, side in (("_top", 1.0), ("_bottom", -1.0))
+        )
+        return (("", Cylinder(shape.radius_m, shape.length_m), Pose()), *ends)
+    if isinstance(shape, MeshShape) and shape.submesh:
+        return ()
+    sayable = isinstance(shape, Box | Sphere | Cylinder | Capsule | MeshShape)
+    return (("", shape, Pose()),) if sayable else ()
+
+
+def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
+    """Return a word and an STL file for a shape; None for planes, terrain and lost files."""
+    part: MeshPart | None = None
+    match shape:
+        case Ellipsoid(radii_m=radii):
+            part = ellipsoid_mesh(radii)
+        case Cone(radius_m=radius, length_m=length):
+            part = cone_mesh(radius, length)
+        case Polyline(outlines_m=outlines, height_m=height):
+            part = polyline_mesh(outlines, height)
+        case MeshShape(path=path) if path is not None:
+            return _submesh(shape)
+    if part is None:
+        return None
+    return type(shape).__name__.lower(), stl_bytes(part.vertices_m, part.faces)
+
+
+def _submesh(shape: MeshShape) -> tuple[str, bytes] | None:
+    assert shape.path is not None
+    try:
+        mesh = load_mesh(shape.path).submesh(shape.submesh, shape.center_submesh)
+    except (GazelleError, OSError, ValueError):
+        return None
+    if mesh is None:
+        return None
+    scaled = mesh.scaled(shape.scale)
+    return shape.submesh, stl_bytes(scaled.vertices_m, scaled.faces)
+
+
+def stl_bytes(vertices_m: NDArray[np.float64], faces: NDArray[np.int32]) -> bytes:
+    """Return triangles as a binary STL file."""
+    corners = np.asarray(vertices_m, dtype=np.float64)[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    record = np.zeros(len(corners), dtype=[("numbers", "<f4", (4, 3)), ("spare", "<u2")])
+    record["numbers"][:, 0], record["numbers"][:, 1:] = normals, corners
+    head = b"binary STL in metres".ljust(80)
+    return head + struct.pack("<I", len(corners)) + record.tobytes()
+
+
+def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
+    """Append the ``<geometry>`` of a shape in SDF's words."""
+    geometry = owner.add("geometry")
+    match shape:
+        case Box(size_m=size):
+            geometry.add("box").add("size", numbers(size))
+        case Sphere(radius_m=radius):
+            geometry.add("sphere").add("radius", number(radius))
+        case Cylinder() | Capsule() | Cone():
+            item = geometry.add(type(shape).__name__.lower())
+            item.add("radius", number(shape.radius_m))
+            item.add("length", number(shape.length_m))
+        case Ellipsoid(radii_m=radii):
+            geometry.add("ellipsoid").add("radii", numbers(radii))
+        case Plane(normal=normal, size_m=plane_size):
+            plane = geometry.add("plane")
+            plane.add("normal", numbers(map(tidy, normal)))
+            plane.add("size", numbers(plane_size))
+        case MeshShape():
+            _add_mesh(geometry, shape, beside)
+        case Heightmap():
+            terrain = geometry.add("heightmap")
+            terrain.add("uri", beside.address(shape.path, shape.uri))
+            terrain.add("size", numbers(shape.size_m))
+            terrain.add("pos", numbers(shape.position_m))
+        case Polyline(outlines_m=outlines, height_m=height):
+            for outline in outlines:
+                line = geometry.add("polyline")
+                for point in outline:
+                    line.add("point", numbers(point))
+                line.add("height", number(height))
+
+
+def _add_mesh(geometry: Markup, shape: MeshShape, beside: Beside) -> None:
+    mesh = geometry.add("mesh")
+    mesh.add("uri", beside.address(shape.path, shape.uri))
+    if shape.submesh:
+        submesh = mesh.add("submesh")
+        submesh.add("name", shape.submesh)
+        submesh.add("center", str(shape.center_submesh).lower())
+    if shape.scale != _ONES:
+        mesh.add("scale", numbers(shape.scale))
