@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.files import examine_file, kind_word
 from gazelle.doctor.kinds import kind_of
@@ -53,7 +54,7 @@ def examine(
     return Report(
         target=target.name,
         kind=kind,
-        findings=tuple(examination.diagnostics),
+        findings=without_superseded(tuple(examination.diagnostics)),
         sections=tuple(examination.sections),
     )
 

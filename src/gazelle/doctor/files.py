@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from gazelle.description.loader import load_models, load_world
+from gazelle.description.loader import load_models
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.descriptions import examine_models
+from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.kinds import Kind
 from gazelle.doctor.launch import examine_launch
-from gazelle.errors import UserFileError
+from gazelle.doctor.simulated import simulation_sections
 
 __all__ = ["examine_file", "kind_word"]
 
@@ -40,17 +43,27 @@ def examine_file(files: Sequence[Path], kind: Kind, examination: Examination) ->
 
 
 def _examine_world(file: Path, examination: Examination) -> None:
-    try:
-        load_world(file, workspace=examination.workspace, diagnostics=examination.diagnostics)
-    except UserFileError:
-        # Everything it holds is among the findings.
-        return
+    _bring_up(StartPlan(Program("gazebo", words=(str(file),))), file.name, examination)
 
 
 def _examine_robot(file: Path, examination: Examination) -> None:
-    load_models(
+    found = Diagnostics()
+    models = load_models(
         file,
         workspace=examination.workspace,
-        diagnostics=examination.diagnostics,
+        diagnostics=found,
         mappings=examination.options.arguments,
     )
+    examination.diagnostics.extend(found)
+    if models and not found.errors:
+        server = Program("gazebo", words=(examination.options.world,))
+        _bring_up(StartPlan(server, models=models), file.name, examination)
+
+
+def _bring_up(plan: StartPlan, subject: str, examination: Examination) -> None:
+    found = Diagnostics()
+    start = dry_start(plan, workspace=examination.workspace, diagnostics=found)
+    examination.diagnostics.extend(found)
+    if start is not None:
+        examine_models(start.world, examination)
+        examination.add(*simulation_sections(start, found, subject=subject))

@@ -21,6 +21,7 @@ from gazelle.geometry import (
     convex_hull,
     convex_parts,
     is_closed,
+    is_splitting,
     load_mesh,
     mesh_volume_m3,
 )
@@ -52,6 +53,7 @@ class _MeshKey(NamedTuple):
     submesh: str
     center: bool
     scenery: bool
+    splitting: bool
 
 
 def convex_pieces(
@@ -73,9 +75,8 @@ def convex_pieces(
         return ()
     try:
         modified = shape.path.stat().st_mtime_ns
-        key = _MeshKey(
-            shape.path, modified, shape.scale, shape.submesh, shape.center_submesh, scenery
-        )
+        part = (shape.submesh, shape.center_submesh)
+        key = _MeshKey(shape.path, modified, shape.scale, *part, scenery, is_splitting())
         result = _decomposed(key)
     except (MeshError, OSError, ValueError) as error:
         diagnostics.report(
@@ -159,6 +160,8 @@ def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:
         if parts.is_exact:
             solids = filter(_is_solid, parts.parts)
             return [Piece(np.asarray(part.vertices_m)) for part in solids], ""
+        if not is_splitting():
+            return [Piece(np.asarray(hull.vertices_m))], parts.note
     if scenery:
         prisms = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
         return [Piece(points) for points in prisms], "its surface as thin solids, for it rests"

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from gazelle.geometry.convex import ConvexParts, announcing, convex_hull, convex_parts
+from gazelle.geometry.convex import (
+    ConvexParts,
+    announcing,
+    convex_hull,
+    convex_parts,
+    is_splitting,
+    without_splitting,
+)
 from gazelle.geometry.loading import MESH_SUFFIXES, load_mesh, load_mesh_reported
 from gazelle.geometry.mass import (
     Inertia6,
@@ -88,6 +95,7 @@ __all__ = [
     "inertia_problems",
     "is_closed",
     "is_legal_inertia",
+    "is_splitting",
     "legalised_inertia",
     "load_mesh",
     "load_mesh_reported",
@@ -103,4 +111,5 @@ __all__ = [
     "sphere_mass_properties",
     "sphere_mesh",
     "spherical_shell_mass_properties",
+    "without_splitting",
 ]

@@ -19,10 +19,19 @@ from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.mesh import Mesh, MeshPart
 from gazelle.geometry.shading import group_points
 
-__all__ = ["ConvexParts", "announcing", "cache_folder", "convex_hull", "convex_parts"]
+__all__ = [
+    "ConvexParts",
+    "announcing",
+    "cache_folder",
+    "convex_hull",
+    "convex_parts",
+    "is_splitting",
+    "without_splitting",
+]
 
 _Say = Callable[[str], None]
 _announce: ContextVar[tuple[_Say, set[str]] | None] = ContextVar("announce", default=None)
+_splits: ContextVar[bool] = ContextVar("splits", default=True)
 
 _CONVEX_SHARE = 0.98
 _THRESHOLD = 0.08
@@ -64,6 +73,24 @@ def announcing(say: _Say) -> Iterator[None]:
         yield
     finally:
         _announce.reset(token)
+
+
+@contextmanager
+def without_splitting() -> Iterator[None]:
+    """Have hollow meshes taken as their hulls within a ``with`` block, unless split before.
+
+    For who wants to know what a world is made of, and not to simulate it: splitting takes seconds.
+    """
+    token = _splits.set(False)
+    try:
+        yield
+    finally:
+        _splits.reset(token)
+
+
+def is_splitting() -> bool:
+    """Tell whether meshes are split here, see `without_splitting`."""
+    return _splits.get()
 
 
 def convex_hull(vertices_m: NDArray[np.float64]) -> MeshPart:
@@ -108,6 +135,8 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
     cached = _load(file)
     if cached:
         return ConvexParts(cached, True, f"{len(cached)} convex pieces, from '{file}'")
+    if not is_splitting():
+        return ConvexParts((hull,), False, "a run splits the mesh; here the hull stands for it")
     try:
         import coacd
     except ImportError:

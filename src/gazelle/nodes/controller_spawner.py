@@ -19,7 +19,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
 from gazelle.nodes.parameters import start_node
 
-__all__ = ["run", "run_unspawner"]
+__all__ = ["is_ros2", "run", "run_unspawner", "spawner_parser"]
 
 _ROS2_WORDS = frozenset(
     {
@@ -60,12 +60,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
     The generation is told from the arguments, or from what the manager offers.
     """
-    words = _plain_words(arguments.rest)
-    if _ROS2_WORDS & set(words):
+    if is_ros2(arguments.rest):
         from gazelle.nodes.controller_spawner_ros2 import run as run_ros2
 
         return run_ros2(arguments, graph, stop)
-    options = _parser().parse_args(list(arguments.rest))
+    options = spawner_parser().parse_args(list(arguments.rest))
     node = _start(arguments, graph, stop, "spawner")
     try:
         return _Spawner(node, options, arguments, stop).run()
@@ -80,7 +79,7 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
     node = _start(arguments, graph, stop, "unspawner")
     try:
         client = ManagerClient(node, "controller_manager", stop)
-        if _ROS2_WORDS & set(_plain_words(arguments.rest)):
+        if is_ros2(arguments.rest):
             return unspawn(node, arguments.rest, stop)
         if not arguments.rest:
             raise LaunchError("usage: unspawner controller [controller ...]")
@@ -93,8 +92,9 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
         node.shutdown()
 
 
-def _plain_words(words: Sequence[str]) -> list[str]:
-    return [word.partition("=")[0] for word in words if word.startswith("-")]
+def is_ros2(words: Sequence[str]) -> bool:
+    """Tell whether these are the arguments of ROS 2's spawner."""
+    return any(word.partition("=")[0] in _ROS2_WORDS for word in words if word.startswith("-"))
 
 
 def _start(arguments: NodeArguments, graph: Graph, stop: threading.Event, default: str) -> Node:
@@ -106,7 +106,8 @@ def _start(arguments: NodeArguments, graph: Graph, stop: threading.Event, defaul
     return node
 
 
-def _parser() -> _Parser:
+def spawner_parser() -> ArgumentParser:
+    """Return the parser of ROS 1's arguments; it raises `LaunchError` for wrong ones."""
     parser = _Parser(prog="spawner", description="Controller spawner", add_help=False)
     add = parser.add_argument
     add("controllers", nargs="+", metavar="controller")

@@ -17,7 +17,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import ManagerClient
 from gazelle.nodes.parameters import start_node
 
-__all__ = ["run", "run_unspawner", "spawn", "unspawn"]
+__all__ = ["run", "run_unspawner", "spawn", "spawner_options", "unspawn"]
 
 _LATE_S = 10.0
 
@@ -62,7 +62,7 @@ def spawn(node: Node, arguments: NodeArguments, stop: threading.Event) -> int:
     Raises:
         LaunchError: the arguments are wrong.
     """
-    options = _spawner_parser().parse_args(_own_words(arguments.rest))
+    options = spawner_options(arguments.rest)
     files = [Path(one) for one in options.param_file]
     missing = next((str(one) for one in files if not one.is_file()), None)
     if missing is not None:
@@ -106,6 +106,15 @@ def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
             return 1
         node.log("info", f"Unloaded controller {name}")
     return 0
+
+
+def spawner_options(words: Sequence[str]) -> Namespace:
+    """Read the spawner's arguments; those for ROS itself are left out.
+
+    Raises:
+        LaunchError: they are wrong.
+    """
+    return _spawner_parser().parse_args(_own_words(words))
 
 
 def _spawner_parser() -> _Parser:

@@ -21,7 +21,7 @@ from gazelle.workspace import Workspace
 if TYPE_CHECKING:
     from gazelle.graph import Graph
 
-__all__ = ["serve"]
+__all__ = ["check_server_plugins", "offers_ros2", "serve"]
 
 _ROS2_PLUGINS = frozenset(
     {
@@ -99,11 +99,11 @@ def _serve_world(
         paused=options.paused,
         warm_cameras=True,
     )
-    _check_server_plugins(options, diagnostics)
+    check_server_plugins(options, diagnostics)
     _show(diagnostics, verbose=options.verbose)
     offer_gazebo_ros(
         server,
-        ros2=any(plain_name(name) in _ROS2_PLUGINS for name in options.plugins),
+        ros2=offers_ros2(options),
         report=lambda found: _show(found, verbose=options.verbose),
     )
     node.log("info", "Finished loading Gazebo ROS API Plugin.")
@@ -122,6 +122,11 @@ def _serve_world(
     return 0
 
 
+def offers_ros2(options: ServerOptions) -> bool:
+    """Tell whether the command line names a plug-in of ROS 2's gazebo_ros."""
+    return any(plain_name(name) in _ROS2_PLUGINS for name in options.plugins)
+
+
 def _node_name(name: str) -> str:
     """Gazebo's own node is called gazebo whatever the executable was."""
     return "gazebo" if name in {"gzserver", "debug", "perf"} else name
@@ -132,7 +137,8 @@ def _stop_with(stop: threading.Event, server: WorldServer) -> None:
     server.stop()
 
 
-def _check_server_plugins(options: ServerOptions, diagnostics: Diagnostics) -> None:
+def check_server_plugins(options: ServerOptions, diagnostics: Diagnostics) -> None:
+    """Report what is done with the server plug-ins that the command line names."""
     known = known_names()
     for library in options.plugins:
         name = plain_name(library)

@@ -1,19 +1,38 @@
-"""A launch file, expanded and checked."""
+"""A launch file, expanded and checked as one thing."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.descriptions import examine_models, examine_text
+from gazelle.doctor.dry_start import DryStart, dry_start
 from gazelle.doctor.examination import Examination
-from gazelle.launch.roslaunch import LaunchOptions, find_executables
+from gazelle.doctor.launch.clock_checks import check_clock
+from gazelle.doctor.launch.frame_checks import check_frames, frames_section
+from gazelle.doctor.launch.frames import frames_of
+from gazelle.doctor.launch.launched import Launched, Role, launched_from
+from gazelle.doctor.launch.name_checks import check_descriptions, check_remaps, check_topics
+from gazelle.doctor.launch.node_checks import check_nodes, nodes_section
+from gazelle.doctor.launch.node_topics import topics_of
+from gazelle.doctor.launch.plan import start_plan
+from gazelle.doctor.simulated import simulation_sections
+from gazelle.doctor.text_files import texts_known
+from gazelle.launch.config import LaunchConfig
+from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.xml1.loader import load_launch_files
 
 __all__ = ["examine_launch"]
 
 
 def examine_launch(files: Sequence[Path], examination: Examination) -> None:
-    """Expand launch files that are started together, and check what they would start."""
+    """Expand launch files that are started together, and check what they would start.
+
+    Args:
+        files: existing files of ROS 1's roslaunch.
+        examination: takes findings and tables.
+    """
     config = load_launch_files(
         files,
         examination.options.arguments,
@@ -23,4 +42,64 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
     )
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
-    find_executables(config, examination.workspace, examination.diagnostics, LaunchOptions())
+    executables = _executables(config, examination)
+    name = " ".join(file.name for file in files)
+    launched = launched_from(config, executables, name=name)
+    starts = _starts(launched, examination)
+    _examine_descriptions(launched, starts, examination)
+    _check(launched, starts, examination)
+
+
+def _executables(config: LaunchConfig, examination: Examination) -> list[Executable | None]:
+    return [
+        find_executable(
+            spec.package,
+            spec.type,
+            workspace=examination.workspace,
+            diagnostics=examination.diagnostics,
+            span=spec.span,
+            environ=examination.options.environ,
+        )
+        for spec in config.nodes
+    ]
+
+
+def _starts(launched: Launched, examination: Examination) -> dict[str, DryStart]:
+    """Bring up every simulator of the launch; keep the tables about it."""
+    found: dict[str, DryStart] = {}
+    for server in launched.of_role(Role.SIMULATOR):
+        if server.full_name in found:
+            continue
+        heard = Diagnostics()
+        plan = start_plan(launched, server, heard)
+        start = dry_start(plan, workspace=examination.workspace, diagnostics=heard)
+        examination.diagnostics.extend(heard)
+        if start is not None:
+            found[server.full_name] = start
+            examination.add(*simulation_sections(start, heard, subject=launched.name))
+    return found
+
+
+def _examine_descriptions(
+    launched: Launched, starts: dict[str, DryStart], examination: Examination
+) -> None:
+    for start in starts.values():
+        examine_models(start.world, examination)
+    if not starts:
+        texts = {launched.description(node) for node in launched.nodes}
+        for text in sorted(filter(None, texts)):
+            examine_text(text, launched.config.text_files, examination)
+
+
+def _check(launched: Launched, starts: dict[str, DryStart], examination: Examination) -> None:
+    diagnostics = examination.diagnostics
+    topics = topics_of(launched, starts)
+    check_descriptions(launched, diagnostics)
+    check_nodes(launched, diagnostics)
+    check_clock(launched, starts, diagnostics)
+    check_remaps(launched, topics, diagnostics)
+    check_topics(launched, topics, diagnostics)
+    with texts_known(launched.config.text_files):
+        frames = frames_of(launched, topics, starts, diagnostics)
+    check_frames(frames, starts, diagnostics)
+    examination.add(nodes_section(launched), frames_section(frames, launched.name))

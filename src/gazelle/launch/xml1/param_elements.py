@@ -30,7 +30,9 @@ def param(tag: Tag, scope: Scope, reading: Reading) -> None:
     if name.startswith("~") and not scope.in_node:
         scope.private_params[name] = value
     else:
-        reading.config.params[_absolute(name, scope)] = value
+        full = _absolute(name, scope)
+        reading.config.params[full] = value
+        reading.config.param_spans[full] = reading.located(tag.span, scope)
 
 
 def rosparam(tag: Tag, scope: Scope, reading: Reading) -> None:
@@ -64,7 +66,9 @@ def _load(tag: Tag, name: str, target: str, scope: Scope, reading: Reading) -> N
     if not isinstance(data, dict) and not name:
         message = f"<rosparam> without param= needs a mapping, found {type(data).__name__}"
         raise TagError("launch.bad-yaml", message, fix='add param="name"')
-    reading.config.params.update(_absolute_leaves(target, data))
+    leaves = _absolute_leaves(target, data)
+    reading.config.params.update(leaves)
+    reading.config.param_spans.update(dict.fromkeys(leaves, reading.located(tag.span, scope)))
 
 
 def _absolute_leaves(target: str, data: Any) -> dict[str, Any]:

@@ -1,0 +1,115 @@
+"""What is done with every plug-in, and which tags have no effect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+from pathlib import PurePath
+
+from gazelle.description.model import Model, PluginTag, World
+from gazelle.diagnostics import Diagnostic, SourceSpan
+from gazelle.doctor.report import Section
+from gazelle.simulator.plugins.registry import all_tables, plain_name
+from gazelle.simulator.plugins.table import PluginTable
+
+__all__ = ["plugins_section", "tags_section"]
+
+# Codes that say of an element that it has no, or not its full, effect.
+_TAG_CODES = frozenset(
+    {
+        "control.transmission-idle",
+        "engine.friction-direction",
+        "engine.idle-contact-word",
+        "engine.idle-joint-word",
+        "engine.slip",
+        "engine.velocity-decay",
+        "plugin.idle-parameter",
+        "plugin.unknown-parameter",
+        "sdf.actor",
+        "sdf.extension",
+        "sdf.not-simulated",
+        "sdf.sensor-not-simulated",
+        "simulator.sensor-not-simulated",
+        "urdf.gazebo-no-effect",
+        "urdf.old-controller",
+        "urdf.sensor-ignored",
+        "xml.unknown-attribute",
+        "xml.unknown-tag",
+    }
+)
+_MISSING_CODES = {
+    "plugin.unknown": "NOT THERE: compiled code",
+    "plugin.compiled": "NOT THERE: your C++",
+    "plugin.user-error": "your Python: fails",
+    "plugin.user-class": "your Python: fails",
+    "plugin.missing-joint": "LEFT OUT: a joint is missing",
+    "plugin.missing-link": "LEFT OUT: a link is missing",
+    "plugin.wrong-place": "LEFT OUT: stands in the wrong place",
+    "plugin.named-only": "NOT SIMULATED, known by name",
+    "plugin.without-effect": "nothing, as in Gazebo",
+}
+
+
+def plugins_section(world: World, findings: Iterable[Diagnostic], *, subject: str = "") -> Section:
+    """Return a row for every plug-in of a world: what it is and what runs in its place.
+
+    Args:
+        world: as it is after everything was spawned.
+        findings: of loading it.
+        subject: what the table is about.
+    """
+    wrong = {
+        item.span: _MISSING_CODES[item.code] for item in findings if item.code in _MISSING_CODES
+    }
+    rows = tuple(
+        (plugin.filename or plugin.name, owner, _done(plugin, wrong), _place(plugin.span))
+        for owner, plugin in _plugins(world)
+    )
+    return Section("plugins", "plug-ins", ("plug-in", "of", "what runs", "place"), rows, subject)
+
+
+def tags_section(findings: Iterable[Diagnostic], *, subject: str = "") -> Section:
+    """Return a row for every finding about a tag that has no effect."""
+    rows = tuple(
+        (_place(item.span), item.message.partition("\n")[0], item.code)
+        for item in findings
+        if item.code in _TAG_CODES
+    )
+    return Section("tags", "tags without effect", ("place", "what", "code"), rows, subject)
+
+
+def _plugins(world: World) -> Iterator[tuple[str, PluginTag]]:
+    for plugin in world.plugins:
+        yield f"world {world.name}", plugin
+    for model in world.models:
+        for plugin in model.plugins:
+            yield model.name, plugin
+        yield from _sensor_plugins(model)
+
+
+def _sensor_plugins(model: Model) -> Iterator[tuple[str, PluginTag]]:
+    for link in model.links:
+        for sensor in link.sensors:
+            for plugin in sensor.plugins:
+                yield f"{model.name} sensor {sensor.name}", plugin
+
+
+def _done(plugin: PluginTag, wrong: dict[SourceSpan | None, str]) -> str:
+    if plugin.span in wrong:
+        return wrong[plugin.span]
+    for name in (plugin.filename, plugin.name):
+        table = _tables_by_name().get(plain_name(name))
+        if table is not None:
+            return table.family
+    return "your Python"
+
+
+@cache
+def _tables_by_name() -> dict[str, PluginTable]:
+    return {plain_name(name): table for table in all_tables() for name in table.filenames}
+
+
+def _place(span: SourceSpan | None) -> str:
+    if span is None:
+        return ""
+    return f"{PurePath(span.file).name}:{span.line}" if span.line else PurePath(span.file).name

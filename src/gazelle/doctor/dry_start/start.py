@@ -1,0 +1,140 @@
+"""A simulation brought up in this process, up to its first step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.dry_start.controlling import managers_of, start_controllers
+from gazelle.doctor.dry_start.first_moments import FirstMoments
+from gazelle.doctor.dry_start.node import DryNode
+from gazelle.doctor.dry_start.records import DryStart, StartPlan
+from gazelle.doctor.dry_start.spawning import Spawning
+from gazelle.doctor.text_files import texts_known
+from gazelle.errors import GazelleError, NotFoundError, UserFileError
+from gazelle.geometry import without_splitting
+from gazelle.graph.names import resolve
+from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.pace import Mode
+from gazelle.simulator.server_main import check_server_plugins, offers_ros2
+from gazelle.simulator.server_options import ServerOptions, read_server_options
+from gazelle.simulator.sources import world_from
+from gazelle.simulator.world_server import WorldServer
+from gazelle.workspace import Workspace
+
+__all__ = ["dry_start"]
+
+
+def dry_start(
+    plan: StartPlan, *, workspace: Workspace, diagnostics: Diagnostics
+) -> DryStart | None:
+    """Bring up a simulator with its robots, plug-ins and controllers, without any process.
+
+    Everything that a run finds before its first step is found here, by the same code. Then a
+    quarter of a second passes, so that transforms and joint states can be heard.
+
+    Args:
+        plan: what a launch starts.
+        workspace: finds packages, models and worlds.
+        diagnostics: receives the findings.
+
+    Returns:
+        what came up; None when there is no world, with the reason reported.
+    """
+    node = DryNode(_node_name(plan.server.name), plan.server.namespace, plan.server.remappings)
+    for name, value in plan.parameters.items():
+        node.parameters.set(name, value)
+    options = read_server_options(plan.server.words, diagnostics)
+    # What shows while time passes is the business of the probes: it is not passed on.
+    found = Diagnostics()
+    with texts_known(plan.text_files), without_splitting():
+        server = _server(plan, options, node, workspace, found)
+        if server is None:
+            diagnostics.extend(found)
+            return None
+        try:
+            return _brought_up(plan, options, node, server, diagnostics)
+        finally:
+            server.close()
+
+
+def _brought_up(
+    plan: StartPlan,
+    options: ServerOptions,
+    node: DryNode,
+    server: WorldServer,
+    diagnostics: Diagnostics,
+) -> DryStart:
+    for model in plan.models:
+        server.spawn(model)
+    spawned, unpaused_by = _spawn_all(plan, node, server)
+    for start in plan.controllers:
+        start_controllers(start, server.controls.managers, server.diagnostics)
+    diagnostics.extend(server.diagnostics)
+    managers = managers_of(server.controls.managers)
+    world = server.engine.world
+    moments = FirstMoments()
+    moments.listen(server, node)
+    return DryStart(
+        world=world,
+        node=node,
+        paused=options.paused,
+        unpaused_by=unpaused_by,
+        managers=managers,
+        spawned=spawned,
+        transforms=moments.transforms,
+        joint_states={topic: frozenset(names) for topic, names in moments.joint_states.items()},
+        diverged=moments.diverged,
+    )
+
+
+def _server(
+    plan: StartPlan,
+    options: ServerOptions,
+    node: DryNode,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+) -> WorldServer | None:
+    try:
+        world = world_from(options.world or "empty", workspace, diagnostics)
+        server = WorldServer(
+            world, node=node, workspace=workspace, diagnostics=diagnostics, mode=Mode.LOCKSTEP
+        )
+    except NotFoundError as error:
+        text = f"the simulator '{node.full_name}' cannot start: {error}"
+        diagnostics.report("doctor.world-missing", text, plan.server.span)
+        return None
+    except UserFileError:
+        # Everything it holds is among the findings.
+        return None
+    except GazelleError as error:
+        text = f"the simulator '{node.full_name}' cannot start: {error}"
+        diagnostics.report("doctor.start-fails", text, plan.server.span)
+        return None
+    check_server_plugins(options, diagnostics)
+
+    def report(found: Diagnostics) -> None:
+        diagnostics.extend(found)
+
+    offer_gazebo_ros(server, ros2=offers_ros2(options), report=report)
+    return server
+
+
+def _spawn_all(
+    plan: StartPlan, node: DryNode, server: WorldServer
+) -> tuple[Mapping[str, str], str]:
+    spawned, unpaused_by = {}, ""
+    for program in plan.spawners:
+        name = resolve(program.name, program.namespace)
+        spawning = Spawning(program, node, lambda: [one.name for one in server.engine.world.models])
+        model = spawning.run(server.diagnostics)
+        if model:
+            spawned[name] = model
+        if spawning.unpauses:
+            unpaused_by = name
+    return spawned, unpaused_by
+
+
+def _node_name(name: str) -> str:
+    """Gazebo's own node is called gazebo whatever the executable was."""
+    return "gazebo" if name in {"gzserver", "debug", "perf"} else name

@@ -1,0 +1,98 @@
+"""Checks of time: who owns ``/clock``, and do the nodes follow it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.doctor.dry_start import DryStart
+from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+
+__all__ = ["check_clock"]
+
+_NAME = "/use_sim_time"
+_WORD = "use_sim_time"
+
+
+def check_clock(
+    launched: Launched, starts: Mapping[str, DryStart], diagnostics: Diagnostics
+) -> None:
+    """Report clocks that contradict each other.
+
+    Args:
+        launched: the launch.
+        starts: simulators that came up.
+        diagnostics: receives the findings.
+    """
+    owners = [node for node in launched.nodes if _owns_clock(node)]
+    if len(owners) > 1:
+        names = " and ".join(f"'{node.full_name}'" for node in owners)
+        text = f"{names} both publish /clock: time jumps back and forth for every node"
+        diagnostics.report("doctor.two-clocks", text, owners[1].spec.span)
+    _check_names(launched, diagnostics)
+    _check_value(launched, owners, diagnostics)
+    _check_pause(launched, starts, diagnostics)
+
+
+def _owns_clock(node: LaunchedNode) -> bool:
+    plays = (node.spec.package, node.spec.type) == ("rosbag", "play")
+    return node.role is Role.SIMULATOR or (plays and "--clock" in node.program.words)
+
+
+def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report values under names that no node of ROS 1 looks at."""
+    for name in launched.config.params:
+        last = name.rpartition("/")[2]
+        if name == _NAME:
+            continue
+        if last == _WORD:
+            text = f"parameter '{name}' has no effect: nodes of ROS 1 look at {_NAME} only"
+            fix = f'write <param name="{_NAME}" …/> with the slash'
+        elif last.replace("-", "_") != _WORD and did_you_mean(last, [_WORD]):
+            text = f"parameter '{name}' is looked at by no node; {did_you_mean(last, [_WORD])}"
+            fix = f'write <param name="{_NAME}" …/>'
+        else:
+            continue
+        diagnostics.report(
+            "doctor.sim-time-name", text, launched.config.param_spans.get(name), fix=fix
+        )
+
+
+def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Diagnostics) -> None:
+    value = launched.config.params.get(_NAME)
+    if owners and value is not True:
+        how = "not set" if value is None else f"{value!r}"
+        others = [node for node in launched.nodes if _has_a_clock(node)]
+        if not others:
+            return
+        names = ", ".join(node.full_name for node in others[:4])
+        text = f"{_NAME} is {how} while '{owners[0].full_name}' publishes /clock: nodes that start "
+        text += f"before it sets the parameter keep the wall's time ({names}), and their stamps "
+        text += "lie decades apart from the simulator's"
+        diagnostics.report("doctor.sim-time-off", text, owners[0].spec.span)
+    elif not owners and value is True:
+        text = f"{_NAME} is true and nothing in this launch publishes /clock: time stands at 0 "
+        text += "until a simulator or `rosbag play --clock` runs elsewhere"
+        diagnostics.report("doctor.no-clock", text, launched.config.param_spans.get(_NAME))
+
+
+def _has_a_clock(node: LaunchedNode) -> bool:
+    """Tell whether a node stamps or compares times on its own."""
+    return node.role in {
+        Role.STATE_PUBLISHER,
+        Role.JOINT_STATES,
+        Role.STATIC_TRANSFORM,
+        Role.SCRIPT,
+        Role.NATIVE,
+        Role.BUILTIN,
+    }
+
+
+def _check_pause(
+    launched: Launched, starts: Mapping[str, DryStart], diagnostics: Diagnostics
+) -> None:
+    for name, start in starts.items():
+        if start.paused and not start.unpaused_by:
+            node = next(item for item in launched.nodes if item.full_name == name)
+            text = f"'{name}' starts paused and nothing in this launch unpauses it"
+            diagnostics.report("doctor.paused", text, node.spec.span)

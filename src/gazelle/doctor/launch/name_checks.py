@@ -1,0 +1,153 @@
+"""Checks of names: remaps to nowhere, topics that nobody publishes, robot descriptions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.launch.node_topics import NodeTopics
+from gazelle.graph.names import resolve
+
+__all__ = ["check_descriptions", "check_remaps", "check_topics"]
+
+_WORD = "robot_description"
+_NEEDS_DESCRIPTION = {
+    Role.STATE_PUBLISHER: "ends at once",
+    Role.JOINT_STATES: "publishes nothing",
+}
+# Published from outside a launch: by hand, by RViz, by a teleoperation of its own.
+_FROM_OUTSIDE = frozenset({"cmd_vel", "clicked_point", "goal", "initialpose", "tf", "tf_static"})
+_UNREMAPPED = frozenset({Role.MODEL_SPAWNER, Role.CONTROLLER_SPAWNER, Role.VIEW})
+
+
+def check_remaps(
+    launched: Launched, topics: Sequence[NodeTopics], diagnostics: Diagnostics
+) -> None:
+    """Report remaps of names that none of the nodes they are for uses.
+
+    Only where that is sure: all those nodes are built in, simulated or complete scripts.
+    """
+    pairs: dict[tuple[str, str], list[NodeTopics]] = {}
+    for item in topics:
+        for pair in item.node.spec.remaps:
+            pairs.setdefault(pair, []).append(item)
+    for (source, target), items in pairs.items():
+        concerned = [item for item in items if not _needs_no_topics(item.node)]
+        if not concerned or any(_may_use(source, item, launched) for item in concerned):
+            continue
+        names = ", ".join(item.node.full_name for item in concerned)
+        known = {name for item in concerned for name in item.written}
+        text = f"the remap from '{source}' to '{target}' is of no use: {names} does not use "
+        text += f"'{source}'"
+        used = sorted(name for name in known if not name.startswith(("/gazebo/", "/rosout")))
+        shown = ", ".join(used[:6]) + (" …" if len(used) > 6 else "")
+        near = _nearest(resolve(source), known)
+        fix = near or (f"names in use: {shown}" if shown else "remove it")
+        diagnostics.report("doctor.remap-unused", text, concerned[0].node.spec.span, fix=fix)
+
+
+def check_topics(
+    launched: Launched, topics: Sequence[NodeTopics], diagnostics: Diagnostics
+) -> None:
+    """Report topics that the user's scripts and the simulator know under different names."""
+    if any(not item.is_complete and item.node.role is not Role.VIEW for item in topics):
+        return
+    offered = {name: kind for item in topics for name, kind in item.publishes.items()}
+    heard = {name: kind for item in topics for name, kind in item.listens.items()}
+    for item in topics:
+        if item.node.role is not Role.SCRIPT:
+            continue
+        for name, kind in item.listens.items():
+            if name not in offered and name.rpartition("/")[2] not in _FROM_OUTSIDE:
+                _report_topic(item.node, name, kind, offered, False, diagnostics)
+        for name, kind in item.publishes.items():
+            if name not in heard:
+                _report_topic(item.node, name, kind, heard, True, diagnostics)
+
+
+def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report robot descriptions that are missing, elsewhere, or still xacro."""
+    for node in launched.nodes:
+        if node.role in _NEEDS_DESCRIPTION and launched.description(node) is None:
+            _report_no_description(node, launched, diagnostics)
+    for name, value in launched.config.params.items():
+        if isinstance(value, str) and _is_unexpanded(value):
+            text = f"parameter '{name}' holds xacro that nobody has expanded: its "
+            text += "${…} and <xacro:…> mean nothing to a URDF reader"
+            place = launched.config.param_spans.get(name)
+            fix = 'write command="$(find xacro)/xacro FILE" in place of textfile='
+            diagnostics.report("doctor.description-not-expanded", text, place, fix=fix)
+
+
+def _is_unexpanded(text: str) -> bool:
+    start = text.lstrip()
+    return start.startswith("<") and "<robot" in text and "<xacro:" in text
+
+
+def _report_no_description(
+    node: LaunchedNode, launched: Launched, diagnostics: Diagnostics
+) -> None:
+    wanted = node.resolve(_WORD)
+    others = [name for name in launched.config.params if name.endswith(_WORD)]
+    text = f"'{node.full_name}' {_NEEDS_DESCRIPTION[node.role]}: there is no parameter '{wanted}'"
+    fix = f'add <param name="{_WORD}" command="…"/> above the node'
+    if others:
+        text += f"; there is {', '.join(others)}"
+        fix = f'write <remap from="{_WORD}" to="{others[0]}"/> into the node, or give it the ns'
+    diagnostics.report("doctor.no-description", text, node.spec.span, fix=fix)
+
+
+def _needs_no_topics(node: LaunchedNode) -> bool:
+    """Tell whether a node has no topics that a remap in a wide scope could be meant for."""
+    is_window = node.spec.type in {"gzclient", "gzclient.py"}
+    return node.role in _UNREMAPPED and (node.role is not Role.VIEW or is_window)
+
+
+def _may_use(source: str, item: NodeTopics, launched: Launched) -> bool:
+    node = item.node
+    if not item.is_complete:
+        return True
+    name = resolve(source, node.program.namespace, node=node.full_name)
+    if name in item.written or launched.parameters.has(name):
+        return True
+    if name.endswith(("/tf", "/tf_static", "/clock", _WORD)):
+        return True
+    return node.file is not None and _mentions(node, name.rpartition("/")[2])
+
+
+def _mentions(node: LaunchedNode, word: str) -> bool:
+    """Tell whether a script has a word anywhere: a service, a parameter or an action may be so."""
+    assert node.file is not None
+    return word in node.file.read_text(encoding="utf-8", errors="replace")
+
+
+def _report_topic(
+    node: LaunchedNode,
+    name: str,
+    kind: str,
+    others: Mapping[str, str],
+    publishes: bool,
+    diagnostics: Diagnostics,
+) -> None:
+    fitting = [item for item, other in others.items() if not kind or _same(kind, other)]
+    last = name.rpartition("/")[2]
+    same = [item for item in fitting if item.rpartition("/")[2] == last and item != name]
+    near = same[0] if same else ""
+    if not near:
+        return
+    verb, lack = ("publishes", "listens to") if publishes else ("listens to", "publishes")
+    text = f"'{node.full_name}' {verb} '{name}', which nobody in this launch {lack}; there is "
+    text += f"'{near}' of the same type"
+    fix = f'write <remap from="{name}" to="{near}"/> into the node, or correct its ns'
+    diagnostics.report("doctor.topic-elsewhere", text, node.spec.span, fix=fix)
+
+
+def _same(kind: str, other: str) -> bool:
+    return not other or kind == other.rpartition("/")[2]
+
+
+def _nearest(name: str, known: set[str]) -> str:
+    last = name.rpartition("/")[2]
+    same = sorted(item for item in known if item.rpartition("/")[2] == last)
+    return f"did you mean '{same[0]}'?" if same else did_you_mean(name, known)

@@ -1,0 +1,52 @@
+"""Checks of nodes: what ends the launch by its own end, what is started again and again."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.report import Section
+
+__all__ = ["check_nodes", "nodes_section"]
+
+_ENDS = frozenset({Role.MODEL_SPAWNER})
+_BOND = "-b"
+_REPLACEMENTS = {
+    Role.VIEW: "a window: stays alive",
+    Role.BUILTIN: "built in",
+}
+
+
+def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report nodes that are required or respawned and end by themselves."""
+    for node in launched.nodes:
+        if node.role not in _ENDS or _BOND in node.program.words:
+            continue
+        if node.spec.required:
+            text = f"'{node.full_name}' is required and ends as soon as its model is there: that "
+            text += "ends the whole launch"
+            diagnostics.report("doctor.required-ends", text, node.spec.span)
+        if node.spec.respawn:
+            text = f"'{node.full_name}' is started again after it has spawned its model, and fails "
+            text += "for ever since the model is there already"
+            diagnostics.report("doctor.respawn-ends", text, node.spec.span)
+
+
+def nodes_section(launched: Launched) -> Section:
+    """Return the table of what is started, and by what."""
+    rows = tuple(
+        (node.full_name, f"{node.spec.package}/{node.spec.type}", _runs(node), _place(node))
+        for node in launched.nodes
+    )
+    return Section("nodes", "nodes", ("node", "package/type", "what it is", "place"), rows,
+                   launched.name)  # fmt: skip
+
+
+def _runs(node: LaunchedNode) -> str:
+    if node.role is Role.SCRIPT and node.file is not None:
+        return f"your {node.file.name}"
+    return _REPLACEMENTS.get(node.role, node.role.value)
+
+
+def _place(node: LaunchedNode) -> str:
+    span = node.spec.span
+    return "" if span is None else f"{span.file.rpartition('/')[2]}:{span.line}"

@@ -1,0 +1,101 @@
+"""Which topics the nodes of a launch use: tables for known nodes, reading for users' scripts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gazelle.doctor.dry_start import DryStart
+from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.launch.script_reading import read_script
+from gazelle.graph.names import resolve
+
+__all__ = ["NodeTopics", "topics_of"]
+
+_JOINT_STATE = "sensor_msgs/msg/JointState"
+
+
+@dataclass(frozen=True, slots=True)
+class NodeTopics:
+    """Topics of one node by global name, with types; a type may be empty.
+
+    Attributes:
+        node: whose.
+        publishes, listens: after remapping.
+        written: names before remapping that its code uses, global.
+        is_complete: the node surely uses no others.
+    """
+
+    node: LaunchedNode
+    publishes: Mapping[str, str]
+    listens: Mapping[str, str]
+    written: frozenset[str]
+    is_complete: bool = True
+
+
+def topics_of(launched: Launched, starts: Mapping[str, DryStart]) -> tuple[NodeTopics, ...]:
+    """Return what is known of every node's topics.
+
+    Args:
+        launched: the launch.
+        starts: simulators that came up, by global name of their node.
+    """
+    return tuple(_topics(node, launched, starts) for node in launched.nodes)
+
+
+def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStart]) -> NodeTopics:
+    match node.role:
+        case Role.SIMULATOR:
+            return _of_simulator(node, starts.get(node.full_name))
+        case Role.SCRIPT if node.file is not None:
+            script = read_script(node.file)
+            return _named(node, dict(script.publishes), dict(script.listens), script.is_complete)
+        case Role.STATE_PUBLISHER:
+            tf = {"/tf": "tf2_msgs/msg/TFMessage", "/tf_static": "tf2_msgs/msg/TFMessage"}
+            return _named(node, tf, {"joint_states": _JOINT_STATE})
+        case Role.JOINT_STATES:
+            sources = launched.private(node, "source_list", [])
+            listens = dict.fromkeys(sources if isinstance(sources, list) else [], _JOINT_STATE)
+            return _named(node, {"joint_states": _JOINT_STATE}, listens)
+        case Role.STATIC_TRANSFORM:
+            is_latched = node.spec.package == "tf2_ros"
+            return _named(node, {"/tf_static" if is_latched else "/tf": ""}, {})
+        case Role.RELAY:
+            return _of_relay(node)
+        case Role.MODEL_SPAWNER | Role.CONTROLLER_SPAWNER:
+            return _named(node, {}, {})
+    return NodeTopics(node, {}, {}, frozenset(), is_complete=False)
+
+
+def _named(
+    node: LaunchedNode,
+    publishes: Mapping[str, str],
+    listens: Mapping[str, str],
+    is_complete: bool = True,
+) -> NodeTopics:
+    place, own = node.program.namespace, node.full_name
+    written = frozenset(resolve(name, place, node=own) for name in (*publishes, *listens))
+    return NodeTopics(
+        node,
+        {node.resolve(name): kind for name, kind in publishes.items()},
+        {node.resolve(name): kind for name, kind in listens.items()},
+        written,
+        is_complete,
+    )
+
+
+def _of_relay(node: LaunchedNode) -> NodeTopics:
+    words = [word for word in node.program.words if word != "messages"]
+    if not words:
+        return NodeTopics(node, {}, {}, frozenset(), is_complete=False)
+    last = words[-1]
+    is_number = last.replace(".", "", 1).isdigit()
+    target = last if len(words) > 1 and not is_number else f"{words[0]}_{node.spec.type}"
+    return _named(node, {target: ""}, {words[0]: ""})
+
+
+def _of_simulator(node: LaunchedNode, start: DryStart | None) -> NodeTopics:
+    if start is None:
+        return NodeTopics(node, {}, {}, frozenset(), is_complete=False)
+    own = start.node
+    return NodeTopics(node, own.offered, own.heard, frozenset(own.asked))
