@@ -39,6 +39,9 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
+    "doctor": Command(
+        "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"
+    ),
     "inertia": Command("gazelle.cli.inertia", "mass properties of bodies; check a robot's"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
     "check_urdf": Command("gazelle.cli.check_urdf", "check a robot and print its tree"),
