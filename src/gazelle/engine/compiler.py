@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,15 @@ from gazelle.engine.tyres import correct_weights
 from gazelle.engine.welds import add_weld
 from gazelle.errors import EngineError
 
-__all__ = ["SLEEP_TOLERANCE_M_S", "Compiled", "Extras", "compile_world"]
+__all__ = [
+    "SLEEP_TOLERANCE_M_S",
+    "Assembly",
+    "Compiled",
+    "Extras",
+    "assemble_world",
+    "compile_assembly",
+    "compile_world",
+]
 
 SLEEP_TOLERANCE_M_S = 2e-5
 """Below this speed for 10 steps a body rests (1 mm in 50 s)."""
@@ -75,10 +83,31 @@ class Compiled:
         apply_pair_springs(self.model, self.pairs, ids, step_s)
 
 
+class Assembly(NamedTuple):
+    """A world as a spec that is complete and not compiled yet."""
+
+    builder: SpecBuilder
+    pairs: tuple[ExplicitPair, ...]
+    motors: tuple[str, ...]
+
+
 def compile_world(
     world: World, extras: Extras = Extras(), *, step_s: float, diagnostics: Diagnostics
 ) -> Compiled:
-    """Compile a world.
+    """Compile a world; see `assemble_world`.
+
+    Raises:
+        EngineError: MuJoCo refuses the model; its words are part of the message.
+        NotFoundError: a joint names a link that is not there.
+    """
+    assembly = assemble_world(world, extras, step_s=step_s, diagnostics=diagnostics)
+    return compile_assembly(assembly)
+
+
+def assemble_world(
+    world: World, extras: Extras = Extras(), *, step_s: float, diagnostics: Diagnostics
+) -> Assembly:
+    """Build the spec of a world.
 
     Args:
         world: everything there is.
@@ -87,7 +116,7 @@ def compile_world(
         diagnostics: takes what is mapped, clipped or ignored.
 
     Raises:
-        EngineError: MuJoCo refuses the model; its words are part of the message.
+        EngineError: two models have the same name.
         NotFoundError: a joint names a link that is not there.
     """
     _check_names(world)
@@ -108,8 +137,18 @@ def compile_world(
         add_lock(spec, name, step_s)
     for pair in extras.welds:
         add_weld(spec, pair, step_s)
-    compiled = _finish(builder, _compile(spec), pairs, extras.motors)
-    compiled.retime(step_s)
+    return Assembly(builder, pairs, extras.motors)
+
+
+def compile_assembly(assembly: Assembly) -> Compiled:
+    """Compile a spec, and write what depends on the compiled masses.
+
+    Raises:
+        EngineError: MuJoCo refuses the model; its words are part of the message.
+    """
+    builder = assembly.builder
+    compiled = _finish(builder, _compile(builder.spec), assembly.pairs, assembly.motors)
+    compiled.retime(builder.step_s)
     return compiled
 
 

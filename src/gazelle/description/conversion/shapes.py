@@ -24,6 +24,7 @@ from gazelle.description.model import (
 )
 from gazelle.errors import GazelleError
 from gazelle.geometry import (
+    Mesh,
     MeshPart,
     Pose,
     cone_mesh,
@@ -32,7 +33,14 @@ from gazelle.geometry import (
     polyline_mesh,
 )
 
-__all__ = ["add_sdf_geometry", "add_urdf_geometry", "as_mesh", "stl_bytes", "urdf_pieces"]
+__all__ = [
+    "add_sdf_geometry",
+    "add_urdf_geometry",
+    "as_mesh",
+    "mesh_of",
+    "stl_bytes",
+    "urdf_pieces",
+]
 
 _ONES = (1.0, 1.0, 1.0)
 
@@ -83,6 +91,9 @@ def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, 
 
 def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
     """Return a word and an STL file for a shape; None for planes, terrain and lost files."""
+    if isinstance(shape, MeshShape):
+        mesh = mesh_of(shape)
+        return None if mesh is None else (shape.submesh, stl_bytes(mesh.vertices_m, mesh.faces))
     part: MeshPart | None = None
     match shape:
         case Ellipsoid(radii_m=radii):
@@ -91,23 +102,21 @@ def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
             part = cone_mesh(radius, length)
         case Polyline(outlines_m=outlines, height_m=height):
             part = polyline_mesh(outlines, height)
-        case MeshShape(path=path) if path is not None:
-            return _submesh(shape)
     if part is None:
         return None
     return type(shape).__name__.lower(), stl_bytes(part.vertices_m, part.faces)
 
 
-def _submesh(shape: MeshShape) -> tuple[str, bytes] | None:
-    assert shape.path is not None
+def mesh_of(shape: MeshShape) -> Mesh | None:
+    """Return a mesh file's triangles, of its submesh if one is named; None when it is unusable."""
+    if shape.path is None:
+        return None
     try:
-        mesh = load_mesh(shape.path).submesh(shape.submesh, shape.center_submesh)
+        mesh = load_mesh(shape.path)
     except (GazelleError, OSError, ValueError):
         return None
-    if mesh is None:
-        return None
-    scaled = mesh.scaled(shape.scale)
-    return shape.submesh, stl_bytes(scaled.vertices_m, scaled.faces)
+    chosen = mesh.submesh(shape.submesh, shape.center_submesh) if shape.submesh else mesh
+    return None if chosen is None else chosen.scaled(shape.scale)
 
 
 def stl_bytes(vertices_m: NDArray[np.float64], faces: NDArray[np.int32]) -> bytes:

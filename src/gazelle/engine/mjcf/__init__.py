@@ -1,0 +1,8 @@
+"""MuJoCo's own files, MJCF: worlds written as such, and such files read as worlds."""
+
+from __future__ import annotations
+
+# from gazelle.engine.mjcf.reading import is_mjcf, read_mjcf
+from gazelle.engine.mjcf.writing import to_mjcf
+
+__all__ = ["to_mjcf"]
