@@ -8,11 +8,12 @@ from pathlib import Path
 from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.files import examine_file, kind_word
-from gazelle.doctor.kinds import kind_of
+from gazelle.doctor.kinds import Kind, kind_of
 from gazelle.doctor.options import Options
 from gazelle.doctor.package_files import examine_folder, examine_package
+from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Report
-from gazelle.doctor.target import Target, find_target
+from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.workspace import Workspace
 
 __all__ = ["examine"]
@@ -49,6 +50,7 @@ def examine(
     examination = Examination(workspace, options)
     if progress is not None:
         examination.say = progress
+    check_environment(options.environ, diagnostics=examination.diagnostics)
     kind = _examine(target, examination)
     examination.diagnostics.extend(workspace.diagnostics)
     return Report(
@@ -71,5 +73,9 @@ def _examine(target: Target, examination: Examination) -> str:
     kind = kind_of(target.files[0], examination.diagnostics)
     if kind is None:
         return "file"
+    owner = package_at(target.files[0].parent, examination.workspace)
+    if kind is Kind.MANIFEST and owner is not None:
+        examine_package(owner, examination)
+        return "package"
     examine_file(target.files, kind, examination)
     return kind_word(kind)

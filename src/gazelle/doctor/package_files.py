@@ -10,33 +10,48 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.files import examine_file
 from gazelle.doctor.kinds import Kind, kind_of, looks_like
+from gazelle.doctor.packages import check_package
+from gazelle.doctor.parameters import check_package_parameters
 from gazelle.workspace import Package
 
 __all__ = ["examine_folder", "examine_package"]
 
 _PRUNED = frozenset({"__pycache__", "build", "devel", "install", "log", "node_modules"})
-# Launches come first: what they use is examined as they use it, with their arguments.
+# Launches come first: what they use is examined as they use it, with their arguments. Parameter
+# files and SRDFs are looked at together, beside the robots they are for.
 _ORDER = (
     Kind.LAUNCH,
     Kind.LAUNCH_ROS2,
     Kind.ROBOT,
     Kind.WORLD,
     Kind.MODEL,
-    Kind.SEMANTICS,
-    Kind.PARAMETERS,
 )
 
 
 def examine_package(package: Package, examination: Examination) -> None:
     """Examine a package's manifest, launch files, robots, worlds, models and parameters."""
-    examine_folder(package.path, examination)
+    workspace, diagnostics = examination.workspace, examination.diagnostics
+    examination.say(f"package {package.name}")
+    sections = check_package(package, workspace=workspace, diagnostics=diagnostics)
+    examination.add(*sections)
+    examine_folder(package.path, examination, needs_files=False)
+    # After the launches: what they load has been seen.
+    examination.say(f"parameters of {package.name}")
+    names = check_package_parameters(package, workspace=workspace, diagnostics=diagnostics)
+    examination.add(*names)
 
 
-def examine_folder(folder: Path, examination: Examination) -> None:
-    """Examine every file in a folder that is of a kind known, each once."""
+def examine_folder(folder: Path, examination: Examination, *, needs_files: bool = True) -> None:
+    """Examine every file in a folder that is of a kind known, each once.
+
+    Args:
+        folder: with all below it.
+        examination: takes findings and tables.
+        needs_files: report a folder that holds nothing to examine.
+    """
     files = [(path, _kind(path, examination)) for path in _files_below(folder)]
     kinds = [item for item in files if item[1] is not None]
-    if not kinds:
+    if not kinds and needs_files:
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
     for wanted in _ORDER:

@@ -17,6 +17,7 @@ from gazelle.doctor.launch.name_checks import check_descriptions, check_remaps, 
 from gazelle.doctor.launch.node_checks import check_nodes, nodes_section
 from gazelle.doctor.launch.node_topics import topics_of
 from gazelle.doctor.launch.plan import start_plan
+from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.text_files import texts_known
 from gazelle.launch.config import LaunchConfig
@@ -77,6 +78,7 @@ def _starts(launched: Launched, examination: Examination) -> dict[str, DryStart]
         if start is not None:
             found[server.full_name] = start
             examination.add(*simulation_sections(start, heard, subject=launched.name))
+            probe(start, plan, examination)
     return found
 
 
@@ -101,5 +103,5 @@ def _check(launched: Launched, starts: dict[str, DryStart], examination: Examina
     check_topics(launched, topics, diagnostics)
     with texts_known(launched.config.text_files):
         frames = frames_of(launched, topics, starts, diagnostics)
-    check_frames(frames, starts, diagnostics)
+    check_frames(frames, launched, starts, diagnostics)
     examination.add(nodes_section(launched), frames_section(frames, launched.name))

@@ -6,15 +6,17 @@ from collections.abc import Mapping
 
 from gazelle.description.model import Model, PluginTag
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch.frames import Edge, Frames, StatePublisher
+from gazelle.doctor.launch.launched import Launched
 from gazelle.doctor.report import Section
 
 __all__ = ["check_frames", "frames_section"]
 
 _FRAME_KEYS = ("frameName", "frame_name", "frameId", "frame_id")
 _LARGEST_TABLE = 60
+_RATE_OF_2011 = "/pr2_controller_manager/joint_state_publish_rate"
 
 
 def check_frames(frames: Frames, starts: Mapping[str, DryStart], diagnostics: Diagnostics) -> None:
@@ -22,11 +24,13 @@ def check_frames(frames: Frames, starts: Mapping[str, DryStart], diagnostics: Di
 
     Args:
         frames: of the launch.
+        launched: the launch.
         starts: simulators that came up.
         diagnostics: receives the findings.
     """
+    is_of_2011 = launched.parameters.has(_RATE_OF_2011)
     for publisher in frames.publishers:
-        _check_silent_joints(publisher, frames, starts, diagnostics)
+        _check_silent_joints(publisher, frames, starts, is_of_2011, diagnostics)
     _check_parents(frames, diagnostics)
     if frames.is_complete:
         _check_roots(frames, starts, diagnostics)
@@ -69,6 +73,7 @@ def _check_silent_joints(
     publisher: StatePublisher,
     frames: Frames,
     starts: Mapping[str, DryStart],
+    is_of_2011: bool,
     diagnostics: Diagnostics,
 ) -> None:
     published = {edge.child for edge in frames.edges}
@@ -94,7 +99,12 @@ def _check_silent_joints(
         topic = next(iter(others))
         text += f"; the simulator publishes them on {topic}"
         fix = f'write <remap from="joint_states" to="{topic}"/> into the node'
-    diagnostics.report("doctor.joint-without-state", text, publisher.node.spec.span, fix=fix)
+    severity = None
+    if is_of_2011:
+        text += "; the PR2's controller manager published them itself, Gazelle's does not"
+        severity = Severity.INFO
+    span = publisher.node.spec.span
+    diagnostics.report("doctor.joint-without-state", text, span, fix=fix, severity=severity)
 
 
 def _joints(count: int) -> str:

@@ -18,6 +18,7 @@ _NEEDS_DESCRIPTION = {
 }
 # Published from outside a launch: by hand, by RViz, by a teleoperation of its own.
 _FROM_OUTSIDE = frozenset({"cmd_vel", "clicked_point", "goal", "initialpose", "tf", "tf_static"})
+_FAILED_PARAMETERS = frozenset({"launch.bad-param", "launch.param-command-failed"})
 _UNREMAPPED = frozenset({Role.MODEL_SPAWNER, Role.CONTROLLER_SPAWNER, Role.VIEW})
 
 
@@ -68,7 +69,9 @@ def check_topics(
 
 def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
     """Report robot descriptions that are missing, elsewhere, or still xacro."""
-    for node in launched.nodes:
+    # A parameter that could not be made has been reported; what follows from it would hide it.
+    failed = [item for item in diagnostics if item.code in _FAILED_PARAMETERS]
+    for node in () if failed else launched.nodes:
         if node.role in _NEEDS_DESCRIPTION and launched.description(node) is None:
             _report_no_description(node, launched, diagnostics)
     for name, value in launched.config.params.items():
