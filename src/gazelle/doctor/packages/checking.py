@@ -1,14 +1,19 @@
-"""All checks of one package, and of the ROS that a shell has sourced."""
+"""All checks of one package."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.packages.dependency_checks import check_dependencies
+from gazelle.doctor.packages.generations import check_generations, generations_section
+from gazelle.doctor.packages.install_checks import check_install
+from gazelle.doctor.packages.manifest_checks import check_manifest
+from gazelle.doctor.packages.message_checks import check_messages
+from gazelle.doctor.packages.python_checks import check_python
+from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.report import Section
 from gazelle.workspace import Package, Workspace
 
-__all__ = ["check_environment", "check_package"]
+__all__ = ["check_package"]
 
 
 def check_package(
@@ -24,13 +29,16 @@ def check_package(
     Returns:
         The section ``generations``: which ROS each part was written for, and why.
     """
-    return ()
-
-
-def check_environment(environ: Mapping[str, str], *, diagnostics: Diagnostics) -> None:
-    """Report a sourced ROS that mixes two distributions.
-
-    Args:
-        environ: environment variables of the shell.
-        diagnostics: receives the findings.
-    """
+    for item in workspace.diagnostics.by_code("workspace.bad-manifest"):
+        if item.span is not None and item.span.file.startswith(f"{package.path}/"):
+            diagnostics.add(item)
+    if package.prefix is not None or package.is_builtin:
+        return ()
+    source = SourcePackage(package)
+    check_manifest(source, diagnostics)
+    check_install(source, diagnostics)
+    check_python(source, diagnostics)
+    check_messages(source, diagnostics)
+    check_dependencies(source, workspace, diagnostics)
+    check_generations(source, diagnostics)
+    return (generations_section(source),)

@@ -1,0 +1,150 @@
+"""Packages that are used and not declared, and declared names that are nearly others."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
+from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
+from gazelle.doctor.packages.source import SourcePackage
+from gazelle.workspace import Workspace
+
+__all__ = ["Use", "check_dependencies", "uses"]
+
+_XML = (".launch", ".launch.xml", ".xml", ".xacro", ".urdf", ".world", ".sdf", ".srdf")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_IN_XML = re.compile(
+    r"""\bpkg\s*=\s*["']([A-Za-z]\w*)["']|\$\(find(?:-pkg-share)?\s+(\w+)\s*\)
+    |package://(\w+)/""",
+    re.VERBOSE,
+)
+_IN_LAUNCH = re.compile(
+    r"""(?:get_package_share_directory|get_package_share_path|FindPackageShare|FindPackagePrefix)
+        \(\s*(?:package\s*=\s*)?["'](\w+)["']
+    |\bpackage\s*=\s*["'](\w+)["']""",
+    re.VERBOSE,
+)
+_IMPORT = re.compile(r"^[ \t]*(?:from\s+(\w+)[\w.]*\s+import|import\s+(\w+))", re.MULTILINE)
+_LINE_COMMENT = re.compile(r"#[^\n]*")
+_BUILD_ONLY = frozenset({"ament_cmake", "ament_python", "catkin", "gazebo"})
+# Whoever starts a launch file has what reads it; Gazebo's own CMake file is of no ROS package.
+_ALWAYS_THERE = frozenset(
+    {"ament_index_python", "launch", "launch_ros", "launch_xml", "launch_yaml"}
+)
+_LONG_NAME = 12
+_TEST_FOLDERS = frozenset({"test", "tests"})
+
+
+class Use(NamedTuple):
+    """A package that a file needs."""
+
+    package: str
+    span: SourceSpan
+
+
+def uses(source: SourcePackage) -> Iterator[Use]:
+    """Yield what a package's launch files, descriptions, Python and ``CMakeLists.txt`` name."""
+    for name in source.files:
+        if _TEST_FOLDERS & set(PurePosixPath(name).parts):
+            continue
+        if name.endswith(_XML) and name != "package.xml":
+            text = _COMMENT.sub(_blanked, source.text(name))
+            yield from _found(source, name, text, _IN_XML)
+        elif name.endswith(".py") and name != "setup.py":
+            text = _LINE_COMMENT.sub("", source.text(name))
+            yield from _found(source, name, text, _IN_LAUNCH)
+            for use in _found(source, name, text, _IMPORT):
+                if use.package not in sys.stdlib_module_names and is_ros_package(use.package):
+                    yield use
+    yield from _of_cmake(source)
+
+
+def check_dependencies(
+    source: SourcePackage, workspace: Workspace, diagnostics: Diagnostics
+) -> None:
+    """Report packages that are used and not declared, and declared ones that look mistyped."""
+    declared = set(source.package.depends)
+    missing: dict[str, SourceSpan] = {}
+    for use in uses(source):
+        is_own = use.package == source.package.name or use.package in _ALWAYS_THERE
+        if use.package not in declared and not is_own and _is_package(use.package, workspace):
+            missing.setdefault(use.package, use.span)
+    if missing:
+        _report_undeclared(source, missing, diagnostics)
+    _check_declared(source, workspace, diagnostics)
+
+
+def _is_package(name: str, workspace: Workspace) -> bool:
+    return is_ros_package(name) or name in workspace.packages
+
+
+def _report_undeclared(
+    source: SourcePackage, missing: dict[str, SourceSpan], diagnostics: Diagnostics
+) -> None:
+    rows = []
+    for name, span in sorted(missing.items()):
+        file = span.file.removeprefix(f"{source.folder}/")
+        rows.append(f"{name} ({file}:{span.line})")
+    text = f"the package uses and does not declare {', '.join(rows)}: rosdep installs what is "
+    text += "declared, and builds go by it"
+    tag = "exec_depend" if source.package.format >= 2 else "run_depend"
+    fix = "".join(f"<{tag}>{name}</{tag}>" for name in sorted(missing))
+    diagnostics.report("package.undeclared", text, source.manifest_span, fix=fix)
+
+
+def _check_declared(source: SourcePackage, workspace: Workspace, diagnostics: Diagnostics) -> None:
+    root = source.manifest
+    for tag in root.children if root is not None else ():
+        name = tag.text
+        if not tag.name.endswith("depend") or not name or _is_package(name, workspace):
+            continue
+        near = nearest_names(name, [*workspace.packages, *known_packages()], count=1)
+        if not near or not _is_slip(name, near[0]):
+            continue
+        text = f"<{tag.name}>{name}</{tag.name}>: there is no package '{name}' here nor one that "
+        text += f"comes with ROS (Cannot locate rosdep definition for [{name}])"
+        hint = did_you_mean(name, near)
+        diagnostics.report("package.unknown-dependency", text, tag.span, fix=hint)
+
+
+def _is_slip(name: str, other: str) -> bool:
+    """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
+    longest = max(len(name), len(other))
+    begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])
+    wrong = 1 if longest < _LONG_NAME else 2
+    return begin + end >= longest - wrong and abs(len(name) - len(other)) <= wrong
+
+
+def _same_begin(name: str, other: str) -> int:
+    pairs = enumerate(zip(name, other, strict=False))
+    return next((i for i, (a, b) in pairs if a != b), min(len(name), len(other)))
+
+
+def _found(source: SourcePackage, name: str, text: str, pattern: re.Pattern[str]) -> Iterator[Use]:
+    for found in pattern.finditer(text):
+        word = next(item for item in found.groups() if item)
+        start = found.start() + found.group().rindex(word)
+        line = text.count("\n", 0, start) + 1
+        column = start - text.rfind("\n", 0, start)
+        yield Use(word, source.span(name, line, column, len(word)))
+
+
+def _of_cmake(source: SourcePackage) -> Iterator[Use]:
+    lists = source.lists
+    for step in lists.called("find_package") if lists is not None else ():
+        if not step.words or step.is_conditional:
+            continue
+        names = [step.words[0]]
+        if names == ["catkin"]:
+            names = list(step.after("COMPONENTS", ("REQUIRED", "QUIET", "OPTIONAL_COMPONENTS")))
+        for name in names:
+            if name not in _BUILD_ONLY and is_ros_package(name):
+                yield Use(name, step.span)
+
+
+def _blanked(found: re.Match[str]) -> str:
+    return re.sub(r"[^\n]", " ", found[0])
