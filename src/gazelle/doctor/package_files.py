@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
@@ -16,6 +18,7 @@ from gazelle.workspace import Package
 
 __all__ = ["examine_folder", "examine_package"]
 
+_INCLUDE = re.compile(r"""<(?:xacro:)?include\b[^>]*\bfilename\s*=\s*["']([^"']+)""")
 _PRUNED = frozenset({"__pycache__", "build", "devel", "install", "log", "node_modules"})
 # Launches come first: what they use is examined as they use it, with their arguments. Parameter
 # files and SRDFs are looked at together, beside the robots they are for.
@@ -54,10 +57,31 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
     if not kinds and needs_files:
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
+    pieces = _included_names(path for path, kind in kinds if kind is Kind.ROBOT)
     for wanted in _ORDER:
         for path, kind in kinds:
-            if kind is wanted and path.resolve() not in examination.seen:
+            if kind is not wanted or path.resolve() in examination.seen:
+                continue
+            if kind is not Kind.ROBOT:
                 examine_file((path,), kind, examination)
+            elif path.name not in pieces:
+                _examine_robot(path, examination)
+
+
+def _examine_robot(path: Path, examination: Examination) -> None:
+    """Examine a robot; a file without links is a piece for others, and none itself."""
+    alone = replace(examination, diagnostics=Diagnostics(), sections=[])
+    examine_file((path,), Kind.ROBOT, alone)
+    if path.suffix == ".xacro" and alone.diagnostics.by_code("urdf.no-links"):
+        return
+    examination.diagnostics.extend(alone.diagnostics)
+    examination.add(*alone.sections)
+
+
+def _included_names(paths: Iterable[Path]) -> frozenset[str]:
+    """Return the names of files that xacro files include: they need what includes them."""
+    texts = (path.read_text(encoding="utf-8", errors="replace") for path in paths)
+    return frozenset(name.rpartition("/")[2] for text in texts for name in _INCLUDE.findall(text))
 
 
 def _files_below(folder: Path) -> Iterator[Path]:

@@ -19,7 +19,9 @@ _LARGEST_TABLE = 60
 _RATE_OF_2011 = "/pr2_controller_manager/joint_state_publish_rate"
 
 
-def check_frames(frames: Frames, starts: Mapping[str, DryStart], diagnostics: Diagnostics) -> None:
+def check_frames(
+    frames: Frames, launched: Launched, starts: Mapping[str, DryStart], diagnostics: Diagnostics
+) -> None:
     """Report what keeps transforms from being found.
 
     Args:
