@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
+from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.files import examine_file, kind_word
@@ -56,9 +58,18 @@ def examine(
     return Report(
         target=target.name,
         kind=kind,
-        findings=without_superseded(tuple(examination.diagnostics)),
+        findings=_once(without_superseded(tuple(examination.diagnostics))),
         sections=tuple(examination.sections),
     )
+
+
+def _once(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Keep one of findings that differ only in the includes that led to them."""
+    kept: dict[Diagnostic, Diagnostic] = {}
+    for item in findings:
+        bare = item if item.span is None else replace(item, span=replace(item.span, via=()))
+        kept.setdefault(bare, item)
+    return tuple(kept.values())
 
 
 def _examine(target: Target, examination: Examination) -> str:

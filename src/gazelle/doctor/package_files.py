@@ -18,7 +18,7 @@ from gazelle.workspace import Package
 
 __all__ = ["examine_folder", "examine_package"]
 
-_INCLUDE = re.compile(r"""<(?:xacro:)?include\b[^>]*\bfilename\s*=\s*["']([^"']+)""")
+_INCLUDE = re.compile(r"""<(?:xacro:)?include\b[^>]*\bfile(?:name)?\s*=\s*["']([^"']+)""")
 _PRUNED = frozenset({"__pycache__", "build", "devel", "install", "log", "node_modules"})
 # Launches come first: what they use is examined as they use it, with their arguments. Parameter
 # files and SRDFs are looked at together, beside the robots they are for.
@@ -58,6 +58,9 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
     pieces = _included_names(path for path, kind in kinds if kind is Kind.ROBOT)
+    included = _included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
+    # Files that others include are examined as those include them, with their arguments.
+    kinds.sort(key=lambda item: item[0].name in included)
     for wanted in _ORDER:
         for path, kind in kinds:
             if kind is not wanted or path.resolve() in examination.seen:
@@ -79,7 +82,7 @@ def _examine_robot(path: Path, examination: Examination) -> None:
 
 
 def _included_names(paths: Iterable[Path]) -> frozenset[str]:
-    """Return the names of files that xacro files include: they need what includes them."""
+    """Return the names of files that xacro or launch files include."""
     texts = (path.read_text(encoding="utf-8", errors="replace") for path in paths)
     return frozenset(name.rpartition("/")[2] for text in texts for name in _INCLUDE.findall(text))
 

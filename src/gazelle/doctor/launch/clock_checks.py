@@ -41,21 +41,19 @@ def _owns_clock(node: LaunchedNode) -> bool:
 
 def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
     """Report values under names that no node of ROS 1 looks at."""
-    for name in launched.config.params:
+    fix = f'write <param name="{_NAME}" …/> with the slash'
+    for name, value in launched.config.params.items():
         last = name.rpartition("/")[2]
-        if name == _NAME:
+        if name == _NAME or not isinstance(value, bool):
             continue
         if last == _WORD:
             text = f"parameter '{name}' has no effect: nodes of ROS 1 look at {_NAME} only"
-            fix = f'write <param name="{_NAME}" …/> with the slash'
-        elif last.replace("-", "_") != _WORD and did_you_mean(last, [_WORD]):
+        elif last.startswith("use") and did_you_mean(last, [_WORD]):
             text = f"parameter '{name}' is looked at by no node; {did_you_mean(last, [_WORD])}"
-            fix = f'write <param name="{_NAME}" …/>'
         else:
             continue
-        diagnostics.report(
-            "doctor.sim-time-name", text, launched.config.param_spans.get(name), fix=fix
-        )
+        place = launched.config.param_spans.get(name)
+        diagnostics.report("doctor.sim-time-name", text, place, fix=fix)
 
 
 def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Diagnostics) -> None:

@@ -34,18 +34,20 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
         files: existing files of ROS 1's roslaunch.
         examination: takes findings and tables.
     """
+    found = Diagnostics()
     config = load_launch_files(
         files,
         examination.options.arguments,
         workspace=examination.workspace,
-        diagnostics=examination.diagnostics,
+        diagnostics=found,
         environ=examination.options.environ,
     )
+    examination.diagnostics.extend(found)
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
     executables = _executables(config, examination)
     name = " ".join(file.name for file in files)
-    launched = launched_from(config, executables, name=name)
+    launched = launched_from(config, executables, name=name, is_whole=not found.errors)
     starts = _starts(launched, examination)
     _examine_descriptions(launched, starts, examination)
     _check(launched, starts, examination)

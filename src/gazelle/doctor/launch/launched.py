@@ -95,12 +95,14 @@ class Launched:
         nodes: in the order of the file, those included that cannot be started.
         parameters: the parameter store before any node has started.
         name: of the launch, for tables.
+        is_whole: its files were read without an error.
     """
 
     config: LaunchConfig
     nodes: tuple[LaunchedNode, ...]
     parameters: ParameterTree = field(default_factory=ParameterTree)
     name: str = ""
+    is_whole: bool = True
 
     def of_role(self, *roles: Role) -> tuple[LaunchedNode, ...]:
         """Return the nodes that have one of the roles."""
@@ -125,7 +127,11 @@ class Launched:
 
 
 def launched_from(
-    config: LaunchConfig, executables: Sequence[Executable | None], *, name: str
+    config: LaunchConfig,
+    executables: Sequence[Executable | None],
+    *,
+    name: str,
+    is_whole: bool = True,
 ) -> Launched:
     """Return the launch of a configuration.
 
@@ -133,6 +139,7 @@ def launched_from(
         config: with its nodes.
         executables: what runs each of them, in the same order.
         name: of the launch, for tables.
+        is_whole: the files were read without an error.
     """
     nodes = tuple(
         _node(spec, executable) for spec, executable in zip(config.nodes, executables, strict=True)
@@ -140,7 +147,7 @@ def launched_from(
     parameters = ParameterTree()
     for key, value in config.params.items():
         parameters.set(key, value)
-    return Launched(config, nodes, parameters, name)
+    return Launched(config, nodes, parameters, name, is_whole)
 
 
 def _node(spec: NodeSpec, executable: Executable | None) -> LaunchedNode:

@@ -18,7 +18,6 @@ _NEEDS_DESCRIPTION = {
 }
 # Published from outside a launch: by hand, by RViz, by a teleoperation of its own.
 _FROM_OUTSIDE = frozenset({"cmd_vel", "clicked_point", "goal", "initialpose", "tf", "tf_static"})
-_FAILED_PARAMETERS = frozenset({"launch.bad-param", "launch.param-command-failed"})
 _UNREMAPPED = frozenset({Role.MODEL_SPAWNER, Role.CONTROLLER_SPAWNER, Role.VIEW})
 
 
@@ -69,9 +68,8 @@ def check_topics(
 
 def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
     """Report robot descriptions that are missing, elsewhere, or still xacro."""
-    # A parameter that could not be made has been reported; what follows from it would hide it.
-    failed = [item for item in diagnostics if item.code in _FAILED_PARAMETERS]
-    for node in () if failed else launched.nodes:
+    # What follows from a file that cannot be read in full would hide why.
+    for node in launched.nodes if launched.is_whole else ():
         if node.role in _NEEDS_DESCRIPTION and launched.description(node) is None:
             _report_no_description(node, launched, diagnostics)
     for name, value in launched.config.params.items():
