@@ -33,6 +33,13 @@ def floats_from(
         diagnostics: receives ``xml.bad-number``.
     """
     words = text.split()
+    if len(words) == count and "_" not in text:
+        try:
+            good = tuple(map(float, words))
+        except ValueError:
+            good = (math.nan,)
+        if all(map(math.isfinite, good)):
+            return good
     values = [_number(word) for word in words]
     bad = [word for word, value in zip(words, values, strict=True) if value is None]
     if not bad and len(values) == count:

@@ -9,19 +9,30 @@ from xml.parsers import expat
 
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits import HOW_TO_RAISE, FileLimitError, LimitError, read_limited, scaled
 
 __all__ = ["parse_xml", "read_xml"]
 
+_MOST_BYTES = 64 << 20
+_MOST_ELEMENTS = 500_000
+_MOST_ATTRIBUTES = 1000
+# Readers go down element by element; Python itself allows a thousand calls.
+_DEEPEST = 100
+
 _FORGIVEN = "this is no XML: '--' in a comment, a bare '&' or something before <?xml …?>"
 _COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
-_LATE_DECLARATION = re.compile(rb"(?<=\S)\s*<\?xml\s[^>]*\?>")
+_LATE_DECLARATION = re.compile(rb"(?<=\S)\s*<\?xml\s[^>]{0,200}\?>")
 _BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
 
 
 def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
     """Read a file and parse it; None (and an error reported) when that is impossible."""
     try:
-        data = path.read_bytes()
+        data = read_limited(path, _MOST_BYTES)
+    except FileLimitError as error:
+        message = f"'{path}' is not read: {error.strerror}"
+        diagnostics.report("limits.file-size", message, SourceSpan(str(path)))
+        return None
     except OSError as error:
         reason = error.strerror or str(error)
         diagnostics.report(
@@ -37,29 +48,58 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     Args:
         text: the document; bytes follow their XML declaration's encoding.
         file: name for the spans.
-        diagnostics: receives ``xml.malformed``, ``xml.entity`` or ``xml.lenient``.
+        diagnostics: receives ``xml.malformed``, ``xml.entity``, ``xml.lenient`` or
+            ``limits.elements``.
     """
-    data = text.encode("utf-8") if isinstance(text, str) else text
     # A str is already decoded; an encoding named in its declaration no longer applies.
     encoding = "utf-8" if isinstance(text, str) else None
+    # Half a surrogate pair is no character; expat says where it stands.
+    data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
     try:
-        try:
-            return _parsed(data, encoding, file)
-        except expat.ExpatError as error:
-            repaired = _repaired(data)
-            if repaired == data:
-                raise
-            root = _parsed(repaired, encoding, file)
-            span = SourceSpan(file, error.lineno, error.offset + 1)
-            diagnostics.report("xml.lenient", _FORGIVEN, span)
-            return root
+        _check_size(data, file)
+        return _parsed_or_repaired(data, encoding, file, diagnostics)
     except expat.ExpatError as error:
         span = SourceSpan(file, error.lineno, error.offset + 1)
         message = f"not well-formed XML: {expat.ErrorString(error.code)}"
         diagnostics.report("xml.malformed", message, span)
+    except (LookupError, ValueError) as error:
+        # Python's own words about an encoding that is unknown or of several bytes.
+        message = f"not well-formed XML: {error}"
+        diagnostics.report("xml.malformed", message, SourceSpan(file, 1, 1))
     except _EntityError as error:
         diagnostics.report("xml.entity", f"entity '{error.name}' is refused", error.span)
+    except _TooMuchError as error:
+        diagnostics.report("limits.elements", str(error), error.span)
     return None
+
+
+def _parsed_or_repaired(
+    data: bytes, encoding: str | None, file: str, diagnostics: Diagnostics
+) -> Tag | None:
+    try:
+        return _parsed(data, encoding, file)
+    except expat.ExpatError as error:
+        repaired = _repaired(data)
+        if repaired == data:
+            raise
+        root = _parsed(repaired, encoding, file)
+        span = SourceSpan(file, error.lineno, error.offset + 1)
+        diagnostics.report("xml.lenient", _FORGIVEN, span)
+        return root
+
+
+def _check_size(data: bytes, file: str) -> None:
+    """Refuse a document by counting its tags, which is much sooner than reading half of it."""
+    if len(data) > scaled(_MOST_BYTES):
+        text = f"the document has {len(data)} bytes, the limit is {scaled(_MOST_BYTES)}"
+        raise _TooMuchError(f"{text}; {HOW_TO_RAISE}", SourceSpan(file))
+    most = scaled(_MOST_ELEMENTS)
+    # In UTF-16 end tags look different; there the elements are counted one by one.
+    if data.count(b"<") > most and b"\0" not in data[:16]:
+        count = data.count(b"<") - sum(data.count(word) for word in (b"</", b"<!", b"<?"))
+        if count > most:
+            text = f"the document has {count} elements, the limit is {most}"
+            raise _TooMuchError(f"{text}; {HOW_TO_RAISE}", SourceSpan(file))
 
 
 def _parsed(data: bytes, encoding: str | None, file: str) -> Tag | None:
@@ -74,7 +114,12 @@ def _repaired(data: bytes) -> bytes:
     These are ``--`` inside comments, as in command lines that worlds quote, ``&`` that starts no
     reference, and a licence before the declaration. Lines stay where they are.
     """
-    quiet = _COMMENT.sub(lambda found: b"<!--%b-->" % found[1].replace(b"-", b" "), data)
+    # Behind the last '-->' no comment ends, and looking for the end of each would take for ever.
+    end = data.rfind(b"-->") + 3
+    quiet = (
+        _COMMENT.sub(lambda found: b"<!--%b-->" % found[1].replace(b"-", b" "), data[: max(end, 0)])
+        + data[max(end, 0) :]
+    )
     quiet = _LATE_DECLARATION.sub(lambda found: re.sub(rb"[^\n]", b" ", found[0]), quiet)
     return _BARE_AND.sub(b"&amp;", quiet)
 
@@ -86,8 +131,16 @@ class _EntityError(Exception):
         super().__init__(name)
 
 
+class _TooMuchError(LimitError):
+    def __init__(self, text: str, span: SourceSpan) -> None:
+        self.span = span
+        super().__init__(text)
+
+
 class _Open:
     """An element whose end tag has not been seen yet."""
+
+    __slots__ = ("attributes", "children", "name", "span", "text")
 
     def __init__(self, name: str, attributes: dict[str, str], span: SourceSpan) -> None:
         self.name = name
@@ -97,10 +150,14 @@ class _Open:
         self.text: list[str] = []
 
     def close(self) -> Tag:
-        raw = "".join(self.text)
-        text = " ".join(part for part in map(str.strip, raw.split("\0")) if part)
-        children = tuple(self.children)
-        return Tag(self.name, self.span, self.attributes, children, text, raw.replace("\0", ""))
+        if not self.text:
+            return Tag(self.name, self.span, self.attributes)
+        parted = "".join(self.text)
+        raw = parted.replace("\0", "")
+        text = raw.strip()
+        if text and self.children:
+            text = " ".join(part for part in map(str.strip, parted.split("\0")) if part)
+        return Tag(self.name, self.span, self.attributes, tuple(self.children), text, raw)
 
 
 class _Builder:
@@ -110,6 +167,8 @@ class _Builder:
         self._stack: list[_Open] = []
         self._parser: Any = None
         self._line_shift = 0
+        self._left = scaled(_MOST_ELEMENTS)
+        self._most_attributes = scaled(_MOST_ATTRIBUTES)
 
     def parse(self, text: bytes, encoding: str | None) -> None:
         self._parser = self._new_parser(encoding)
@@ -133,17 +192,35 @@ class _Builder:
         return parser
 
     def _span(self, length: int = 0) -> SourceSpan:
-        line = self._parser.CurrentLineNumber + self._line_shift
-        return SourceSpan(self._file, line, self._parser.CurrentColumnNumber + 1, length)
+        parser = self._parser
+        line = parser.CurrentLineNumber + self._line_shift
+        return SourceSpan(self._file, line, parser.CurrentColumnNumber + 1, length)
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
-        self._stack.append(_Open(name, attributes, self._span(len(name) + 1)))
+        stack = self._stack
+        span = self._span(len(name) + 1)
+        self._left -= 1
+        if self._left < 0 or len(stack) >= _DEEPEST or len(attributes) > self._most_attributes:
+            raise self._too_much(name, attributes, span)
+        stack.append(_Open(name, attributes, span))
+
+    def _too_much(self, name: str, attributes: dict[str, str], span: SourceSpan) -> _TooMuchError:
+        if len(self._stack) >= _DEEPEST:
+            return _TooMuchError(f"<{name}> is nested deeper than {_DEEPEST} elements", span)
+        if self._left < 0:
+            text = f"the document has more than {scaled(_MOST_ELEMENTS)} elements"
+        else:
+            text = f"<{name}> has {len(attributes)} attributes, the limit is "
+            text += str(self._most_attributes)
+        return _TooMuchError(f"{text}; {HOW_TO_RAISE}", span)
 
     def _end(self, _name: str) -> None:
-        tag = self._stack.pop().close()
-        if self._stack:
-            self._stack[-1].children.append(tag)
-            self._stack[-1].text.append("\0")
+        stack = self._stack
+        tag = stack.pop().close()
+        if stack:
+            around = stack[-1]
+            around.children.append(tag)
+            around.text.append("\0")
         else:
             self.root = tag
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape, quoteattr
 
 from gazelle.diagnostics import SourceSpan
 
@@ -35,15 +34,17 @@ class Tag:
         """Return the first descendant reached by these child names, or None."""
         tag = self
         for name in names:
-            found = next((child for child in tag.children if child.name == name), None)
-            if found is None:
+            for child in tag.children:
+                if child.name == name:
+                    tag = child
+                    break
+            else:
                 return None
-            tag = found
         return tag
 
     def find_all(self, name: str) -> tuple[Tag, ...]:
         """Return all children of this name."""
-        return tuple(child for child in self.children if child.name == name)
+        return tuple([child for child in self.children if child.name == name])
 
     def text_of(self, *names: str, default: str = "") -> str:
         """Return the text of a descendant, `default` when it is absent or empty."""
@@ -52,12 +53,17 @@ class Tag:
 
     def walk(self) -> Iterator[Tag]:
         """Yield this tag and all descendants in document order."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
+        waiting = [self]
+        while waiting:
+            tag = waiting.pop()
+            yield tag
+            waiting += reversed(tag.children)
 
     def to_xml(self, indent: str = "") -> str:
         """Return the element as XML text, children indented by two spaces."""
+        # It brings the whole of urllib, which nobody needs who only reads.
+        from xml.sax.saxutils import escape, quoteattr
+
         attributes = "".join(f" {key}={quoteattr(value)}" for key, value in self.attributes.items())
         head = f"{indent}<{self.name}{attributes}"
         if not self.children:
