@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.description.context import ReadContext
+from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.urdfdom import Robot, urdfdom_verdict
 from gazelle.description.xacro import expand_xacro
@@ -60,6 +61,7 @@ def read_urdf_file(word: str, mappings: dict[str, str]) -> UrdfFile:
         tag = None if expanded is None else expanded.tag(diagnostics)
     else:
         text = _text_of(path)
+        tag = None if tag is None else placed(tag, exact=True)
     if tag is not None:
         folder = path.resolve().parent
         read_urdf(tag, context=ReadContext(workspace, diagnostics, str(path), folder))

@@ -10,10 +10,11 @@ from pathlib import Path
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Model, World
 from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
-from gazelle.description.text_place import TEXT_NAME, place_of_text
+from gazelle.description.source_maps import placed
+from gazelle.description.text_place import TEXT_NAME, place_of_text, read_text
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xacro import expand_xacro
-from gazelle.description.xml import Tag, parse_xml, read_xml
+from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.grouping import grouped
 from gazelle.workspace import Resolved, Workspace
@@ -111,7 +112,7 @@ def _world_of_text(
 ) -> World | None:
     place = place_of_text(text)
     context = ReadContext(workspace, diagnostics, place, None)
-    root = parse_xml(text, place, diagnostics)
+    root = read_text(text, diagnostics)
     if root is None:
         return None
     if root.name in _SDF_ROOTS:
@@ -152,7 +153,7 @@ def _models_of_text(
     text: str, workspace: Workspace | None, diagnostics: Diagnostics
 ) -> tuple[Model, ...]:
     place = place_of_text(text)
-    root = parse_xml(text, place, diagnostics)
+    root = read_text(text, diagnostics)
     context = ReadContext(workspace, diagnostics, place, None)
     return () if root is None else _models_of_root(root, context)
 
@@ -166,13 +167,16 @@ def _models_of_file(
     root = read_xml(path, diagnostics)
     if root is None:
         return ()
-    if path.suffix == ".xacro" or _has_xacro(root):
+    is_xacro = path.suffix == ".xacro" or _has_xacro(root)
+    if is_xacro:
         expanded = expand_xacro(
             path, mappings=mappings, workspace=workspace, diagnostics=diagnostics
         )
         root = None if expanded is None else expanded.tag(diagnostics)
-        if root is None:
-            return ()
+    if root is None:
+        return ()
+    if not is_xacro:
+        root = placed(root, exact=True)
     context = ReadContext(workspace, diagnostics, str(path), path.resolve().parent)
     return tuple(replace(model, file=path) for model in _models_of_root(root, context))
 

@@ -1,4 +1,7 @@
-"""The file that a text came from, so that findings about a parameter name file and line."""
+"""Where the text of a ``robot_description`` came from.
+
+Findings about a parameter name file and line by it.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,15 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-__all__ = ["TEXT_FILES_VARIABLE", "TEXT_NAME", "place_of_text"]
+from gazelle.description.source_maps import placed
+from gazelle.description.xml import Tag, parse_xml
+from gazelle.diagnostics import Diagnostics
+
+__all__ = ["TEXT_FILES_VARIABLE", "TEXT_NAME", "copy_name", "place_of_text", "read_text"]
 
 TEXT_NAME = "<robot_description>"
 TEXT_FILES_VARIABLE = "GAZELLE_TEXT_FILES"
+_COPY_SUFFIX = ".text.xml"
 
 
 def place_of_text(text: str, environ: Mapping[str, str] | None = None) -> str:
@@ -23,6 +31,32 @@ def place_of_text(text: str, environ: Mapping[str, str] | None = None) -> str:
         if name and _text_of(Path(name)) == text:
             return name
     return TEXT_NAME
+
+
+def copy_name(parameter: str) -> str:
+    """Return the name of the file that a launcher writes a parameter's text to."""
+    return f"{parameter.strip('/').replace('/', '-')}{_COPY_SUFFIX}"
+
+
+def read_text(text: str, diagnostics: Diagnostics) -> Tag | None:
+    """Parse the text of a parameter; its elements stand where the user wrote them.
+
+    That is a line of a xacro file where the text was made by xacro, else a line of the file
+    that holds the text.
+
+    Args:
+        text: the document.
+        diagnostics: receives ``xml.malformed`` and its like.
+
+    Returns:
+        The outermost element; None (and an error reported) when it is not well-formed.
+    """
+    place = place_of_text(text)
+    root = parse_xml(text, place, diagnostics)
+    if root is None:
+        return None
+    is_own_file = place != TEXT_NAME and not place.endswith(_COPY_SUFFIX)
+    return placed(root, exact=is_own_file)
 
 
 def _text_of(path: Path) -> str | None:

@@ -14,7 +14,12 @@ from typing import Any
 
 import yaml
 
-from gazelle.description.text_place import TEXT_FILES_VARIABLE, TEXT_NAME, place_of_text
+from gazelle.description.text_place import (
+    TEXT_FILES_VARIABLE,
+    TEXT_NAME,
+    copy_name,
+    place_of_text,
+)
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, NoGraphError
@@ -271,7 +276,7 @@ def _text_files(config: LaunchConfig, log_folder: Path) -> list[str]:
         if not isinstance(value, str) or not value.lstrip().startswith("<"):
             continue
         if place_of_text(value, {TEXT_FILES_VARIABLE: os.pathsep.join(files)}) == TEXT_NAME:
-            path = log_folder / f"{name.strip('/').replace('/', '-')}.xml"
+            path = log_folder / copy_name(name)
             path.write_text(value, encoding="utf-8")
             files.append(str(path))
     return files

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
-from gazelle.description.text_place import place_of_text
+from gazelle.description.text_place import place_of_text, read_text
 from gazelle.description.urdf import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
@@ -57,7 +57,8 @@ def read_description(text: str) -> Model:
     """
     diagnostics = Diagnostics()
     context = ReadContext(None, diagnostics, place_of_text(text), None)
-    model = read_urdf(text, context=context)
+    root = read_text(text, diagnostics)
+    model = None if root is None else read_urdf(root, context=context)
     if model is None:
         first = diagnostics.errors[0] if diagnostics.errors else None
         where = f" at {first.span}" if first is not None and first.span is not None else ""

@@ -1,100 +1,358 @@
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from gazelle.description.xacro import expand_xacro
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
 from gazelle.workspace import Workspace
 
 HEAD = '<robot name="f" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 LEG = '<xacro:macro name="leg" params="n"/>\n'
+ROBOTS = Path(__file__).parent / "robots"
+
+Expand = Callable[..., Diagnostics]
 
 
-def _fail(text: str, folder: Path):
-    path = folder / "one.xacro"
-    path.write_text(f"{HEAD}{text}\n</robot>", encoding="utf-8")
-    diagnostics = Diagnostics()
-    workspace = Workspace.discover(environ={}, cwd=folder)
-    assert expand_xacro(path, workspace=workspace, diagnostics=diagnostics) is None
-    (error,) = diagnostics.errors
-    return error
+@pytest.fixture
+def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Expand:
+    """Expands a text between the tags of a robot; other files are given by name."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(text: str, succeeds: bool = False, head: str = HEAD, **files: str) -> Diagnostics:
+        for name, content in files.items():
+            Path(name.replace("__", ".")).write_text(content, encoding="utf-8")
+        Path("one.xacro").write_text(f"{head}{text}\n</robot>", encoding="utf-8")
+        diagnostics = Diagnostics()
+        workspace = Workspace.discover(environ={}, cwd=tmp_path)
+        found = expand_xacro("one.xacro", workspace=workspace, diagnostics=diagnostics)
+        assert (found is not None) == succeeds
+        return diagnostics
+
+    return run
+
+
+@pytest.fixture
+def fail(expand: Expand) -> Callable[..., Diagnostic]:
+    """Expands a text that has one error."""
+
+    def run(text: str, **options: str) -> Diagnostic:
+        (error,) = expand(text, **options).errors
+        return error
+
+    return run
+
+
+Fail = Callable[..., Diagnostic]
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "words", "line"),
+    ("text", "code", "words", "place"),
     [
-        ('<a>\n<v a="${x}"/></a>', "xacro.undefined-name", "name 'x' is not defined", 3),
-        ('<v a="${1+}"/>', "xacro.bad-expression", "invalid syntax", 2),
-        ('<v a="${1/0}"/>', "xacro.bad-expression", "division by zero", 2),
-        ('<v a="$(arg p)"/>', "xacro.argument-missing", "$(arg p) has no value", 2),
-        ('<v a="$(find nopkg)"/>', "xacro.package-missing", "package 'nopkg' not found", 2),
-        ('\n<xacro:include filename="no.xacro"/>', "xacro.file-missing", "No such file", 3),
-        ("<v a=\"${xacro.load_yaml('no.yaml')}\"/>", "xacro.file-missing", "No such file", 2),
-        ("<xacro:legg/>", "xacro.unknown-macro", "unknown macro name: xacro:legg", 2),
-        (f"{LEG}<xacro:leg/>", "xacro.failed", "Undefined parameters [n]", 3),
-        (f'{LEG}<xacro:leg n="1" m="2"/>', "xacro.failed", 'Invalid parameter "m"', 3),
-        ('<v a="$(env NOT_THERE)"/>', "xacro.failed", "'NOT_THERE' is not set", 2),
-        ("<a>\n</b>", "xml.malformed", "mismatched tag", 3),
+        ('<a>\n<v a="${x}"/></a>', "xacro.undefined-name", "name 'x' is not defined", (3, 7, 4)),
+        ('<v b="1"\n   a="p ${1+}"/>', "xacro.bad-expression", "invalid syntax", (3, 9, 5)),
+        ("<v>\n a ${1/0} b</v>", "xacro.bad-expression", "division by zero", (3, 4, 6)),
+        ('<v a="$(arg p)"/>', "xacro.argument-missing", "$(arg p) has no value", (2, 7, 8)),
+        ('<v a="$(find np)"/>', "xacro.package-missing", "package 'np' not found", (2, 7, 10)),
+        ('\n<xacro:include filename="no.xacro"/>', "xacro.file-missing", "No such", (3, 26, 8)),
+        ("<v a=\"${xacro.load_yaml('n.yml')}\"/>", "xacro.file-missing", "No such", (2, 7, 27)),
+        ("<xacro:legg/>", "xacro.unknown-macro", "unknown macro name: xacro:legg", (2, 1, 11)),
+        (f"{LEG}<xacro:leg/>", "xacro.bad-call", "Undefined parameters [n]", (3, 1, 10)),
+        (f'{LEG}<xacro:leg n="1" m="2"/>', "xacro.bad-call", 'parameter "m"', (3, 18, 5)),
+        ('<v a="$(env NO_IT)"/>', "xacro.bad-substitution", "'NO_IT' is not set", (2, 7, 12)),
+        ('<v a="$(fin x)"/>', "xacro.bad-substitution", "there is no $(fin …)", (2, 7, 8)),
+        ('<xacro:if value="yes"/>', "xacro.bad-condition", "not a boolean", (2, 18, 3)),
+        ('<xacro:arg name="a"/>', "xacro.bad-element", "needs the attribute", (2, 1, 10)),
+        ('<v a="&lt; ${x" b=""/>', "xacro.bad-expression", "no closing '}'", (2, 12, 3)),
+        ("<a>\n</b>", "xml.malformed", "mismatched tag", (3, 3, 0)),
     ],
 )
-def test_failures_are_explained_at_their_line(
-    text: str, code: str, words: str, line: int, tmp_path: Path
+def test_failures_are_explained_at_their_place(
+    text: str, code: str, words: str, place: tuple[int, int, int], fail: Fail
 ) -> None:
-    error = _fail(text, tmp_path)
-    assert (error.code, error.span.file) == (code, str(tmp_path / "one.xacro"))
+    error = fail(text)
     assert words in error.message
-    assert error.span.line == line
+    assert (error.code, error.span) == (code, SourceSpan("one.xacro", *place))
 
 
-def test_undefined_name_gets_a_hint(tmp_path: Path) -> None:
-    text = '<xacro:property name="wheel_radius" value="1"/><v a="${weel_radius}"/>'
-    assert "did you mean 'wheel_radius'" in _fail(text, tmp_path).fix
+def test_expression_names_the_values_in_it(fail: Fail) -> None:
+    text = '<xacro:property name="radius" value="0.1m"/>\n<xacro:property name="mass" value="2.0"/>'
+    error = fail(f'{text}\n<v a="${{radius * mass}}"/>')
+    assert error.message == (
+        "cannot evaluate '${radius * mass}': can't multiply sequence by non-int of type 'float'; "
+        "here radius = '0.1m' (one.xacro:2), mass = 2.0 (one.xacro:3)"
+    )
+    assert error.fix == "radius is a text; write the number alone: 0.1"
 
 
-def test_unknown_macro_gets_a_hint(tmp_path: Path) -> None:
-    assert "did you mean 'leg'" in _fail(f'{LEG}<xacro:legs n="1"/>', tmp_path).fix
+def test_property_that_is_evaluated_later_is_shown_where_it_is_written(fail: Fail) -> None:
+    text = (
+        '<xacro:property name="a"\n  value="${1 / zero}"/>\n<xacro:property name="zero" value="0"/>'
+    )
+    error = fail(f'{text}\n<v a="${{a}}"/>')
+    assert (error.span.line, error.span.column, error.span.length) == (3, 10, 11)
+    assert error.fix == "give zero a value other than 0"
 
 
-def test_missing_argument_says_how_to_give_it(tmp_path: Path) -> None:
-    fix = _fail('<v a="$(arg p)"/>', tmp_path).fix
+def test_decimal_comma_has_its_own_words(fail: Fail) -> None:
+    error = fail('<xacro:property name="r" value="0,5"/><v a="${r * 2.5}"/>')
+    assert error.code == "xacro.decimal-comma"
+    assert "here r = '0,5'" in error.message
+    assert error.fix == "write the decimal sign as a dot: 0.5"
+    assert fail('<v a="${sqrt(0,25)}"/>').fix == "write the decimal sign as a dot: 0.25"
+
+
+def test_decimal_commas_that_xacro_passes_are_warned_of(expand: Expand) -> None:
+    text = '<xacro:property name="r" value="0,5"/>\n<v a="${r * 2}"/>'
+    (warning,) = expand(text, succeeds=True)
+    assert (warning.code, warning.severity) == ("xacro.decimal-comma", Severity.WARNING)
+    assert warning.message == "'0,5' is a text to xacro, not a number: '${2 * x}' of it is '0,50,5'"
+    assert (warning.span.line, warning.span.column, warning.span.length) == (2, 33, 3)
+    (pair,) = expand('<v>\n</v><w a="${0,5 * 2}"/>', succeeds=True)
+    assert pair.message.startswith("'(0, 10)' is in the result")
+    assert (pair.span.line, pair.span.column) == (3, 5)
+
+
+def test_pairs_that_are_split_are_no_decimal_commas(expand: Expand) -> None:
+    text = '<xacro:property name="p" value="0,5"/><v a="${xacro.tokenize(p)}" b="(0, 5)"/>'
+    assert not list(expand(text, succeeds=True))
+
+
+@pytest.mark.parametrize(
+    ("text", "note", "fix"),
+    [
+        ('<xacro:property name="wheel" value="1"/><v a="${weel}"/>', "", "did you mean 'wheel'?"),
+        (
+            '<v a="${x}"/>\n<xacro:property name="x" value="1"/>',
+            "; it is defined further down (one.xacro:3)",
+            "move the property above its first use",
+        ),
+        (
+            '<xacro:macro name="m" params=""><xacro:property name="x" value="1"/></xacro:macro>'
+            '<xacro:m/><v a="${x}"/>',
+            "; it is defined inside macro 'm' (one.xacro:2) and known only there",
+            'define it outside of the macro, or add scope="global" to it',
+        ),
+        (
+            '<xacro:arg name="x" default="1"/><v a="${x}"/>',
+            "; one.xacro:2 has an argument of this name",
+            "write $(arg x) for an argument",
+        ),
+        (
+            '<xacro:macro name="m" params="x"/><v a="${x}"/>',
+            "; it is a parameter of macro 'm' (one.xacro:2) and known only inside it",
+            "define the property above its use, or correct its name",
+        ),
+        ('<v a="${abs(-1)}"/>', "", "write python.abs: xacro has it there"),
+    ],
+)
+def test_undefined_name_is_looked_for(text: str, note: str, fix: str, fail: Fail) -> None:
+    error = fail(text)
+    assert error.message.endswith(f"is not defined{note}")
+    assert error.fix == fix
+
+
+def test_name_and_macro_of_a_file_nobody_includes_are_found(expand: Expand) -> None:
+    other = f'{HEAD}<xacro:property name="len_m" value="1"/>{LEG}</robot>'
+    name, macro = expand('<v a="${len_m}"/><xacro:leg n="1"/>', legs__xacro=other)
+    line = '<xacro:include filename="legs.xacro"/>'
+    assert name.fix == f"include that file above: {line}"
+    assert macro.fix == f"legs.xacro:2 defines it; include that file above: {line}"
+
+
+def test_unknown_macro_gets_a_hint(fail: Fail) -> None:
+    assert fail(f'{LEG}<xacro:legs n="1"/>').fix == "did you mean 'leg'?"
+    assert fail('<xacro:propery name="x" value="1"/>').fix == "did you mean 'property'?"
+    late = fail(f'<xacro:leg n="1"/>\n{LEG}')
+    assert late.message.endswith("; it is defined further down (one.xacro:3)")
+
+
+def test_macro_of_a_namespace_is_named_in_full(fail: Fail) -> None:
+    text = '<xacro:include filename="legs.xacro" ns="N"/><xacro:leg n="1"/>'
+    assert fail(text, legs__xacro=f"{HEAD}{LEG}</robot>").fix == (
+        "it is in a namespace here: write <xacro:N.leg …>"
+    )
+
+
+MACRO = '<xacro:macro name="m" params="a b:=1 *c"/>\n'
+TAKES = 'it is defined with params="a b:=1 *c" (one.xacro:2)'
+
+
+@pytest.mark.parametrize(
+    ("call", "message", "fix"),
+    [
+        (
+            '<xacro:m b="2"><o/></xacro:m>',
+            f"Undefined parameters [a]: macro 'm' needs a; given: b; {TAKES}",
+            'add a="…"',
+        ),
+        (
+            '<xacro:m aa="2"/>',
+            f"Invalid parameter \"aa\": macro 'm' does not have it; {TAKES}",
+            "did you mean 'a'?",
+        ),
+        (
+            '<xacro:m a="2"/>',
+            f"Not enough blocks: macro 'm' takes 1 block(s) (*c); {TAKES}",
+            "put one child element for each block into the call",
+        ),
+        (
+            '<xacro:m a="2"><o/><p/></xacro:m>',
+            f"Unused block \"p\": macro 'm' takes 1 block(s) (*c); {TAKES}",
+            'remove the child element, or add a block to the macro: params="… *block"',
+        ),
+    ],
+)
+def test_call_that_does_not_fit_shows_what_the_macro_takes(
+    call: str, message: str, fix: str, fail: Fail
+) -> None:
+    error = fail(MACRO + call)
+    assert (error.code, error.message, error.fix) == ("xacro.bad-call", message, fix)
+
+
+def test_blocks_and_forwarded_parameters_that_are_not_there(expand: Expand) -> None:
+    text = '<xacro:macro name="m" params="*hub"><xacro:insert_block name="hubb"/></xacro:macro>'
+    (block,) = expand(f"{text}<xacro:m><o/></xacro:m>").errors
+    assert block.message == 'Undefined block "hubb"; blocks known here: hub'
+    assert block.fix == "did you mean 'hub'?"
+    (forward,) = expand('<xacro:macro name="m" params="x:=^"/>\n<xacro:m/>').errors
+    assert forward.message == (
+        "macro 'm' takes 'x' from its caller (x:=^), and there is no property 'x' there"
+    )
+    assert (forward.span.line, forward.span.column) == (3, 1)
+
+
+def test_default_of_a_parameter_is_shown_in_params(fail: Fail) -> None:
+    error = fail('<xacro:macro name="m" params="a b:=${no * 2}"/>\n<xacro:m a="1"/>')
+    assert (error.span.line, error.span.column, error.span.length) == (2, 36, 9)
+    assert [item.line for item in error.span.via] == [3]
+
+
+def test_yaml_errors_are_shown_in_the_yaml_file(expand: Expand) -> None:
+    load = "<xacro:property name='c' value=\"${xacro.load_yaml('c.yaml')}\"/>\n"
+    (broken,) = expand(f'{load}<v a="${{c.a}}"/>', c__yaml="a: 1\nb: [1\nc: 3\n").errors
+    assert (broken.code, str(broken.span)) == ("xacro.bad-yaml", "c.yaml:3:2")
+    assert [str(item) for item in broken.span.via] == ["one.xacro:2:33"]
+    (key,) = expand(f'{load}<v a="${{c.wheel.radus}}"/>', c__yaml="wheel: {radius: 1}").errors
+    assert key.message.endswith("the yaml dictionary has no key 'radus'; it has radius")
+    assert key.fix == "did you mean 'radius'?"
+
+
+@pytest.mark.parametrize(
+    ("expression", "fix"),
+    [
+        ("${{'a': 1}['a']}", "xacro ends ${…} at the first '}'"),
+        ("${1 &amp;&amp; 0}", "Python writes 'and' and 'or'"),
+        ("${1 ? 2 : 3}", "Python writes 'A if CONDITION else B'"),
+        ("${ }", "write an expression between the braces"),
+        ("${2 * 5cm}", "write the number alone, without 'cm'"),
+    ],
+)
+def test_expressions_of_other_languages_get_python(expression: str, fix: str, fail: Fail) -> None:
+    assert fail(f'<v a="{expression}"/>').fix.startswith(fix)
+
+
+def test_eval_that_ends_too_soon_is_told_so(fail: Fail) -> None:
+    error = fail("<v a=\"$(eval arg('p') * 2)\"/>")
+    assert error.message == "'$(eval arg('p')' is incomplete: xacro ends $(…) at the first ')'"
+    assert error.fix == "write ${…} with xacro.arg('name') in place of $(eval …)"
+
+
+@pytest.mark.parametrize(
+    ("value", "fix"),
+    [
+        ("yes", "write true"),
+        ("none", "write false"),
+        ("TRUE", "write true"),
+        ("1 &lt; 2", "put it into braces: ${1 < 2}"),
+        ("has_arm", "write ${has_arm} for a property, $(arg has_arm) for an argument"),
+        ("1.0", "write ${1.0 != 0}"),
+    ],
+)
+def test_conditions_that_are_none_get_one(value: str, fix: str, fail: Fail) -> None:
+    assert fail(f'<xacro:if value="{value}"/>').fix == fix
+
+
+def test_property_names_that_python_does_not_take(fail: Fail) -> None:
+    error = fail('<xacro:property name="base-link" value="1"/>')
+    assert error.message.startswith("Property names must be valid python identifiers")
+    assert error.fix == "write 'base_link'"
+    twice = fail('<xacro:property name="a" value="1" default="2"/>')
+    assert twice.message == "property 'a' has more than one of value, default and remove"
+
+
+def test_missing_argument_says_how_to_give_it(fail: Fail) -> None:
+    fix = fail('<v a="$(arg p)"/>').fix
     assert fix == 'pass p:=… or write <xacro:arg name="p" default="…"/>'
+    fix = fail('<xacro:property name="p" value="1"/><v a="$(arg p)"/>').fix
+    assert fix == "p is a property (one.xacro:2:1): write ${p}"
 
 
-def test_argument_whose_default_comes_too_late_is_told_so(tmp_path: Path) -> None:
+def test_argument_whose_default_comes_too_late_is_told_so(fail: Fail) -> None:
     """Robots use $(arg name) in <robot name> and declare it below."""
     text = '<v a="$(arg p)"/><xacro:arg name="p" default="1"/>'
-    assert "with the default comes after this use" in _fail(text, tmp_path).fix
+    assert "with the default comes after this use" in fail(text).fix
 
 
-def test_error_in_a_macro_of_an_include_shows_the_way_there(tmp_path: Path) -> None:
-    (tmp_path / "inc.xacro").write_text(
-        f'{HEAD}<xacro:macro name="bad" params="n">\n<link name="${{nn}}"/>\n</xacro:macro>'
-        "</robot>",
-        encoding="utf-8",
+def test_error_in_a_macro_of_an_include_shows_the_way_there(fail: Fail) -> None:
+    bad = (
+        f'{HEAD}<xacro:macro name="bad" params="n">\n<link name="${{nn}}"/>\n</xacro:macro></robot>'
     )
-    error = _fail('<xacro:include filename="inc.xacro"/>\n\n<xacro:bad n="1"/>', tmp_path)
-    assert (Path(error.span.file).name, error.span.line, error.span.column) == ("inc.xacro", 3, 1)
-    assert [(Path(item.file).name, item.line) for item in error.span.via] == [("one.xacro", 4)]
-
-
-def test_malformed_include_names_its_own_line_and_who_includes_it(tmp_path: Path) -> None:
-    (tmp_path / "inc.xacro").write_text(f"{HEAD}<a>\n</robot>", encoding="utf-8")
-    error = _fail('<xacro:include filename="inc.xacro"/>', tmp_path)
-    assert (error.code, Path(error.span.file).name, error.span.line) == (
-        "xml.malformed",
-        "inc.xacro",
-        3,
+    error = fail(
+        '<xacro:include filename="inc.xacro"/>\n<xacro:macro name="outer" params="">'
+        '<xacro:bad n="1"/></xacro:macro>\n<xacro:outer/>',
+        inc__xacro=bad,
     )
+    assert str(error.span) == "inc.xacro:3:13"
+    assert [str(item) for item in error.span.via] == ["one.xacro:3:37", "one.xacro:4:1"]
+
+
+def test_malformed_include_names_its_own_line_and_who_includes_it(fail: Fail) -> None:
+    error = fail('<xacro:include filename="inc.xacro"/>', inc__xacro=f"{HEAD}<a>\n</robot>")
+    assert (error.code, error.span.file, error.span.line) == ("xml.malformed", "inc.xacro", 3)
     assert [item.line for item in error.span.via] == [2]
 
 
-def test_endless_recursion_ends_with_an_error(tmp_path: Path) -> None:
-    text = '<xacro:macro name="m" params=""><xacro:m/></xacro:macro>\n<xacro:m/>'
-    error = _fail(text, tmp_path)
+def test_all_problems_of_a_file_are_reported(expand: Expand) -> None:
+    text = (
+        '<v a="${one}" b="${1/0}" c="${one}"/>\n<xacro:nope/>\n<v>${two + one}</v>\n'
+        '<xacro:property name="p" value="${three}"/>\n<v a="${p}"/>\n<xacro:if value="x"/>\n'
+        '<xacro:include filename="gone.xacro"/>\n<v a="${of_gone}"/>\n<xacro:of_gone/>\n'
+        "<v a=\"$(env NOT_SET)\"/><v a='${abs(1)}'/>"
+    )
+    found = [(item.span.line, item.code.partition(".")[2]) for item in expand(text).errors]
+    assert found == [
+        (2, "undefined-name"),
+        (2, "bad-expression"),
+        (3, "unknown-macro"),
+        (7, "bad-condition"),
+        (8, "file-missing"),
+        (11, "bad-substitution"),
+        (11, "undefined-name"),
+    ]
+
+
+def test_files_that_include_each_other_are_named(fail: Fail) -> None:
+    other = f'{HEAD}<xacro:include filename="one.xacro"/></robot>'
+    error = fail('<xacro:include filename="other.xacro"/>', other__xacro=other)
     assert error.code == "xacro.recursion"
-    assert "call each other without end" in error.message
+    assert "files include each other without end: " in error.message
+    assert "other.xacro → one.xacro → other.xacro" in error.message
+
+
+def test_endless_recursion_ends_with_an_error(fail: Fail) -> None:
+    error = fail('<xacro:macro name="m" params=""><xacro:m/></xacro:macro>\n<xacro:m/>')
+    assert error.code == "xacro.recursion"
+    assert error.message == "macros call each other without end: m"
+
+
+def test_properties_that_need_each_other_are_named(fail: Fail) -> None:
+    text = '<xacro:property name="a" value="${b}"/><xacro:property name="b" value="${a}"/>'
+    error = fail(f'{text}<v a="${{a}}"/>')
+    assert error.code == "xacro.recursion"
+    assert "circular variable definition: a -> b -> a" in error.message
 
 
 def test_entities_are_refused(tmp_path: Path) -> None:
@@ -111,40 +369,38 @@ def test_missing_file_is_one_error(tmp_path: Path) -> None:
     gone = tmp_path / "gone.xacro"
     assert expand_xacro(gone, workspace=None, diagnostics=diagnostics) is None
     (error,) = diagnostics
-    assert error.code == "xacro.file-missing"
+    assert (error.code, error.span) == ("xacro.file-missing", SourceSpan(str(gone)))
     assert str(gone) in error.message
 
 
-def test_include_from_a_missing_package_is_left_out(tmp_path: Path) -> None:
-    path = tmp_path / "one.xacro"
-    path.write_text(
-        f'{HEAD}<link name="a"/>\n<xacro:include filename="$(find lidars)/x.xacro"/></robot>',
-        encoding="utf-8",
-    )
-    diagnostics = Diagnostics()
-    workspace = Workspace.discover(environ={}, cwd=tmp_path)
-    expanded = expand_xacro(path, workspace=workspace, diagnostics=diagnostics)
-    assert expanded is not None
-    assert '<link name="a"/>' in expanded.text
-    assert "xacro:include" not in expanded.text
-    (finding,) = diagnostics
+def test_prefix_that_nobody_declares_is_not_called_malformed(fail: Fail) -> None:
+    error = fail('  <xacro:property name="a" value="1"/>', head='<robot name="r">\n')
+    assert (error.code, str(error.span)) == ("xacro.no-namespace", "one.xacro:2:3")
+    assert 'xmlns:xacro="http://www.ros.org/wiki/xacro"' in error.fix
+    other = fail("<sensor:x/>", head='<robot name="r">\n')
+    assert (other.code, other.fix[:36]) == ("xml.malformed", "declare it in the outermost element:")
+
+
+def test_include_from_a_missing_package_is_left_out(expand: Expand) -> None:
+    text = '<link name="a"/>\n<xacro:include filename="$(find lidars)/x.xacro"/>'
+    (finding,) = expand(text, succeeds=True)
     assert finding.code == "xacro.include-left-out"
-    assert finding.message == "package 'lidars' not found: this include is left out"
+    assert finding.message == (
+        "package 'lidars' not found: this include is left out; the real xacro stops here"
+    )
     assert (finding.span.line, finding.span.column) == (3, 1)
 
 
-def test_macro_of_a_missing_package_says_which_package(tmp_path: Path) -> None:
-    text = '<xacro:include filename="$(find lidars)/x.xacro"/>\n<xacro:spinner/>'
-    error = _fail(text, tmp_path)
+def test_macro_of_a_missing_package_says_which_package(fail: Fail) -> None:
+    error = fail('<xacro:include filename="$(find lidars)/x.xacro"/>\n<xacro:spinner/>')
     assert error.code == "xacro.unknown-macro"
     assert error.message.endswith("; missing packages may define it: lidars")
 
 
-def test_include_of_a_missing_file_in_a_package_stays_an_error(tmp_path: Path) -> None:
+def test_include_of_a_missing_file_in_a_package_stays_an_error(fail: Fail, tmp_path: Path) -> None:
     folder = tmp_path / "src/lidars"
     folder.mkdir(parents=True)
     (folder / "package.xml").write_text(
         "<package><name>lidars</name><version>1.0.0</version></package>", encoding="utf-8"
     )
-    error = _fail('<xacro:include filename="$(find lidars)/gone.xacro"/>', tmp_path)
-    assert error.code == "xacro.file-missing"
+    assert fail('<xacro:include filename="$(find lidars)/x.xacro"/>').code == "xacro.file-missing"

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, Model, Ros2ControlTag, TransmissionTag
+from gazelle.description.text_place import read_text
 from gazelle.description.urdf.joints import read_joint
 from gazelle.description.urdf.transmissions import read_transmission
-from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 
 __all__ = ["ControlDescription", "description_of", "read_description", "read_ros2_controls"]
@@ -39,7 +39,7 @@ def read_description(text: str) -> ControlDescription | None:
     What is wrong in it was said when the robot was spawned.
     """
     diagnostics = Diagnostics()
-    robot = parse_xml(text, "<robot_description>", diagnostics)
+    robot = read_text(text, diagnostics)
     if robot is None or robot.name != "robot":
         return None
     context = ReadContext(None, diagnostics, "<robot_description>")
@@ -55,7 +55,7 @@ def read_description(text: str) -> ControlDescription | None:
 
 def read_ros2_controls(text: str) -> tuple[Ros2ControlTag, ...]:
     """Read the ``<ros2_control>`` blocks of a ``robot_description``; none when it is not a URDF."""
-    robot = parse_xml(text, "<robot_description>", Diagnostics())
+    robot = read_text(text, Diagnostics())
     if robot is None or robot.name != "robot":
         return ()
     return tuple(

@@ -10,6 +10,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.model import Link, Model
 from gazelle.description.sdf import read_sdf
 from gazelle.description.sdf.model_config import model_file_in
+from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, read_xml
@@ -79,6 +80,8 @@ def read_checked_source(
             path, mappings=mappings, workspace=workspace, diagnostics=diagnostics
         )
         root = None if expanded is None else expanded.tag(diagnostics)
+    elif root is not None:
+        root = placed(root, exact=True)
     if root is None:
         return CheckedSource()
     return CheckedSource(_models(root, context), links_below(root), {str(path)})

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.description.xacro.arguments import XacroCommand, parse_xacro_arguments
+from gazelle.description.xacro.arguments import (
+    XacroCommand,
+    parse_xacro_arguments,
+    read_xacro_arguments,
+)
 from gazelle.description.xacro.expander import Expanded, expand_xacro
 
-__all__ = ["Expanded", "XacroCommand", "expand_xacro", "parse_xacro_arguments"]
+__all__ = [
+    "Expanded",
+    "XacroCommand",
+    "expand_xacro",
+    "parse_xacro_arguments",
+    "read_xacro_arguments",
+]

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+import io
+import sys
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-__all__ = ["XacroCommand", "parse_xacro_arguments"]
+__all__ = ["XacroCommand", "parse_xacro_arguments", "read_xacro_arguments"]
 
-_WITHOUT_VALUE = frozenset({"--inorder", "-i", "--deps", "-q", "-v", "--xacro-ns", "--check-order"})
-_WITH_VALUE = frozenset({"-o", "--root-dir", "--verbosity"})
-_REMAP = ":="
+# Options of xacro before ROS Noetic, with what has become of them.
+_OLD = {
+    "--xacro-ns": "tags need the prefix 'xacro:' since ROS Melodic",
+    "--check-order": "files are always processed in order since ROS Melodic",
+    "--oldorder": "files are always processed in order since ROS Melodic",
+    "--legacy": "files are always processed in order since ROS Melodic",
+    "--includes": "processing only includes ended with ROS Kinetic",
+}
+_LONG_OUTPUT = "--output"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +32,9 @@ class XacroCommand:
         output: file to write to, empty for standard output.
         root_dir: folder that relative includes start from, empty for the current one.
         just_deps: print the files included instead of the result.
+        verbosity: 0 without warnings' places, 1 the default, from 2 on with traceback, from 3 on
+            with every property.
+        notices: options that have no effect any more, in words.
     """
 
     file: str
@@ -29,51 +42,92 @@ class XacroCommand:
     output: str = ""
     root_dir: str = ""
     just_deps: bool = False
+    verbosity: int = 1
+    notices: tuple[str, ...] = ()
 
 
-def parse_xacro_arguments(arguments: Sequence[str]) -> XacroCommand:
-    """Read the arguments after the word ``xacro``.
+def read_xacro_arguments(arguments: Sequence[str]) -> XacroCommand:
+    """Read the arguments after the word ``xacro`` as the official program does, by its own parser.
 
-    ``--inorder`` and ``--xacro-ns`` are accepted: both have been the rule since ROS Melodic.
+    Its help and its complaints go to standard output and standard error. Options of older
+    generations are accepted.
 
     Args:
         arguments: options, ``name:=value`` and the input file, in any order.
 
     Raises:
-        ValueError: an option is unknown or lacks its value, or there is not exactly one file.
+        SystemExit: ``-h`` (0) or wrong options (2); the reason has been printed.
+        RuntimeError: a word has more than one ``:=``.
     """
-    files: list[str] = []
-    mappings: dict[str, str] = {}
-    options: dict[str, str] = {}
-    rest = list(arguments)
-    while rest:
-        word = rest.pop(0)
-        name, separator, value = word.partition("=")
-        if _REMAP in word:
-            _add_mapping(word, mappings)
-        elif name in _WITH_VALUE:
-            if not separator and not rest:
-                raise ValueError(f"xacro: {name} needs a value")
-            options[name] = value if separator else rest.pop(0)
-        elif word in _WITHOUT_VALUE:
-            options[word] = word
-        elif word.startswith("-"):
-            raise ValueError(f"xacro: there is no option {word}")
-        else:
-            files.append(word)
-    if len(files) != 1:
-        raise ValueError(f"xacro: expected exactly one input file as argument, got {len(files)}")
+    from xacro import color
+    from xacro.cli import process_args
+
+    words, notices = _without_old(arguments)
+    with _program_named("xacro"), _colouring_of(color):
+        options, file = process_args(words)
     return XacroCommand(
-        files[0],
-        mappings,
-        options.get("-o", ""),
-        options.get("--root-dir", ""),
-        "--deps" in options,
+        str(file),
+        dict(options.mappings),
+        options.output or "",
+        options.root_dir or "",
+        bool(options.just_deps),
+        # "-v" counts up from the default; "--verbosity 0 -v" from there.
+        int(options.verbosity or 0),
+        notices,
     )
 
 
-def _add_mapping(word: str, mappings: dict[str, str]) -> None:
-    """Add ``name:=value``; ``_name:=value`` is a node's parameter and not for xacro."""
-    name, _, value = (part.strip() for part in word.partition(_REMAP))
-    if name and value and not (name.startswith("_") and not name.startswith("__")):
-        mappings[name] = value
+def parse_xacro_arguments(arguments: Sequence[str]) -> XacroCommand:
+    """Read the arguments after the word ``xacro`` where nobody looks at standard error.
+
+    Args:
+        arguments: as in `read_xacro_arguments`.
+
+    Raises:
+        ValueError: an option is unknown or lacks its value, or there is not exactly one file.
+    """
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+            return read_xacro_arguments(arguments)
+    except SystemExit as stop:
+        lines = said.getvalue().strip().splitlines() or [""]
+        raise ValueError(lines[-1] if stop.code else "xacro: -h asks for help only") from None
+    except RuntimeError as error:
+        raise ValueError(f"xacro: {str(error).strip()}") from error
+
+
+def _without_old(arguments: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
+    words: list[str] = []
+    notices: list[str] = []
+    for word in arguments:
+        if word in _OLD:
+            notices.append(f"option {word} has no effect: {_OLD[word]}")
+        elif word.partition("=")[0] == _LONG_OUTPUT and ":=" not in word:
+            notices.append(f"option {_LONG_OUTPUT} is not xacro's; its name there is -o")
+            words += ["-o", *word.split("=", 1)[1:]]
+        else:
+            words.append(word)
+    return words, tuple(notices)
+
+
+@contextlib.contextmanager
+def _colouring_of(color: Any) -> Iterator[None]:
+    """Let complaints have colour where they go to; the library asks where they went at import."""
+    before = color.is_tty
+    color.is_tty = lambda _stream: sys.stderr.isatty()
+    try:
+        yield
+    finally:
+        color.is_tty = before
+
+
+@contextlib.contextmanager
+def _program_named(name: str) -> Iterator[None]:
+    """Let help and complaints name the program, whoever runs it."""
+    before: Any = sys.argv
+    sys.argv = [name, *before[1:]]
+    try:
+        yield
+    finally:
+        sys.argv = before

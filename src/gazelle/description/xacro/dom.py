@@ -7,11 +7,14 @@ from types import FrameType
 from typing import Any, NamedTuple
 from xml.dom import expatbuilder, minidom
 
+from gazelle.description.xacro.repairs import Repairs
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["EntityRefusedError", "Tracker", "node_in", "place_of"]
 
 _KEY = "gazelle:place"
+# A stack of hundreds of calls says no more than its innermost part.
+_DEEPEST = 12
 
 
 class EntityRefusedError(Exception):
@@ -25,9 +28,10 @@ class EntityRefusedError(Exception):
 
 
 class _Stamp(NamedTuple):
-    """What is stored with an element."""
+    """What is stored with an element: the start tag's place, and the calls that copied it."""
 
-    span: SourceSpan
+    base: SourceSpan
+    via: tuple[SourceSpan, ...]
 
 
 class Tracker:
@@ -35,36 +39,60 @@ class Tracker:
 
     Attributes:
         calls: places of the includes and macro calls being worked on, outermost first.
+        files: the files parsed, in order.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, repairs: Repairs) -> None:
         self.calls: list[SourceSpan] = []
+        self.files: list[str] = []
+        self._repairs = repairs
+        self._via: tuple[SourceSpan, ...] = ()
+        self._paths: list[tuple[SourceSpan, ...]] = []
 
-    def parse_file(self, stream: Any, file: str) -> minidom.Document:
-        """Parse an open file.
+    def parse(self, text: str | bytes, file: str) -> minidom.Document:
+        """Parse a document.
+
+        Args:
+            text: the document.
+            file: name for the places.
 
         Raises:
             xml.parsers.expat.ExpatError: it is not well-formed.
             EntityRefusedError: it declares an entity.
         """
-        return _Builder(self, file).parseFile(stream)
+        self.files.append(file)
+        builder = _Builder(self, file)
+        document: minidom.Document = builder.parseString(text)
+        for element, place in builder.elements if self._repairs.touch(file) else ():
+            self._repairs.apply(element, place)
+        return document
 
-    def parse_text(self, text: str | bytes, file: str) -> minidom.Document:
-        """Parse a text; errors as in `parse_file`."""
-        return _Builder(self, file).parseString(text)
+    def enter(self, place: SourceSpan) -> None:
+        """Note that the include or macro call at a place is being worked on from here on."""
+        self.calls.append(place)
+        # A call by name is worked on twice, by the library's two functions for it; a macro that
+        # calls itself again and again says so once.
+        repeated = self._via[:1] == (place,)
+        self._paths.append(self._via)
+        self._via = self._via if repeated else (place, *self._via[: _DEEPEST - 1])
 
-    def stamp(self, element: Any, span: SourceSpan) -> None:
+    def leave(self) -> None:
+        """Note that the innermost include or macro call has been worked on."""
+        self.calls.pop()
+        self._via = self._paths.pop()
+
+    def stamp(self, element: Any, base: SourceSpan, via: tuple[SourceSpan, ...]) -> None:
         """Note where an element stands; copies of it get the calls of their own time."""
-        element.setUserData(_KEY, _Stamp(span), self)
+        element.setUserData(_KEY, _Stamp(base, via), self)
 
     def handle(self, _operation: int, _key: str, stamp: _Stamp, _source: Any, copy: Any) -> None:
         """Stamp a copy that minidom has just made of a stamped element."""
         if copy is not None:
-            self.stamp(copy, replace(stamp.span, via=self.via() or stamp.span.via))
+            copy.setUserData(_KEY, _Stamp(stamp.base, self._via or stamp.via), self)
 
     def via(self) -> tuple[SourceSpan, ...]:
         """Return the calls being worked on, innermost first."""
-        return tuple(reversed(self.calls))
+        return self._via
 
 
 def place_of(node: Any) -> SourceSpan | None:
@@ -72,8 +100,8 @@ def place_of(node: Any) -> SourceSpan | None:
     while node is not None:
         stamp = node.getUserData(_KEY) if node.nodeType == minidom.Node.ELEMENT_NODE else None
         if stamp is not None:
-            found: SourceSpan = stamp.span
-            return found
+            base: SourceSpan = stamp.base
+            return replace(base, via=stamp.via) if stamp.via else base
         node = node.parentNode
     return None
 
@@ -92,6 +120,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 
     def __init__(self, tracker: Tracker, file: str) -> None:
         super().__init__()
+        self.elements: list[tuple[Any, SourceSpan]] = []
         self._tracker = tracker
         self._file = file
 
@@ -99,14 +128,10 @@ class _Builder(expatbuilder.ExpatBuilderNS):
         super().start_element_handler(name, attributes)
         element: Any = self.curNode
         parser = self.getParser()
-        span = SourceSpan(
-            self._file,
-            parser.CurrentLineNumber,
-            parser.CurrentColumnNumber + 1,
-            len(element.tagName) + 1,
-            self._tracker.via(),
-        )
-        self._tracker.stamp(element, span)
+        line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+        base = SourceSpan(self._file, line, column, len(element.tagName) + 1)
+        self.elements.append((element, base))
+        self._tracker.stamp(element, base, self._tracker.via())
 
     def entity_decl_handler(self, entity: str, *_rest: Any) -> None:
         parser = self.getParser()

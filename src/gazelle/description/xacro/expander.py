@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import time
+import traceback
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import ModuleType
 from typing import Any
+from xml.parsers.expat import ExpatError
 
-from gazelle.description.xacro.dom import place_of
-from gazelle.description.xacro.problems import report_failure, report_printed
-from gazelle.description.xacro.session import run_session
-from gazelle.description.xml import Tag, parse_xml
+from gazelle.description.xacro.explaining import Finding
+from gazelle.description.xacro.failure import Failure
+from gazelle.description.xacro.leftovers import report_leftovers
+from gazelle.description.xacro.problems import (
+    found_failure,
+    repaired,
+    report_failure,
+    report_left_out,
+    report_printed,
+)
+from gazelle.description.xacro.repairs import Repairs
+from gazelle.description.xacro.session import Console, run_session
+from gazelle.description.xacro.writing import Written, written
+from gazelle.description.xml import Tag, parse_xml, with_places
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.workspace import Workspace
 
 __all__ = ["Expanded", "expand_xacro"]
+
+_MOST_ERRORS = 20
+_SEARCH_S = 2.0
+_TRACEBACK_FROM = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,26 +42,43 @@ class Expanded:
     Attributes:
         text: the result, as ``xacro`` prints it.
         file: the input file, as it was named.
-        source_map: line of `text`, from 1, on which an element starts → the place in the xacro
-            files where it was written; `SourceSpan.via` holds the macro calls and includes that
-            brought it there, innermost first. The banner's lines have no entry.
+        places: where each element of `text` was written, in document order, None where that is
+            not known; `SourceSpan.via` holds the macro calls and includes that brought it there,
+            innermost first.
+        lines: the line of `text`, from 1, on which each element starts.
         dependencies: the other files read, in the order they were read.
     """
 
     text: str
     file: str
-    source_map: Mapping[int, SourceSpan] = field(default_factory=dict, repr=False)
+    places: tuple[SourceSpan | None, ...] = field(default=(), repr=False)
+    lines: tuple[int, ...] = field(default=(), repr=False)
     dependencies: tuple[str, ...] = ()
+
+    @property
+    def source_map(self) -> dict[int, SourceSpan]:
+        """Line of `text` → place of the first element that starts on it."""
+        found: dict[int, SourceSpan] = {}
+        for line, place in zip(self.lines, self.places, strict=True):
+            if place is not None:
+                found.setdefault(line, place)
+        return found
 
     def tag(self, diagnostics: Diagnostics) -> Tag | None:
         """Return the result as elements whose places are those of the xacro files."""
         root = parse_xml(self.text, self.file, diagnostics)
-        return None if root is None else self._placed(root)
+        return None if root is None else with_places(root, self.places)
 
-    def _placed(self, tag: Tag) -> Tag:
-        children = tuple(self._placed(child) for child in tag.children)
-        span = self.source_map.get(tag.span.line, tag.span)
-        return Tag(tag.name, span, tag.attributes, children, tag.text)
+
+@dataclass(frozen=True)
+class _Task:
+    """One file to be expanded, and how."""
+
+    file: str
+    arguments: dict[str, str]
+    workspace: Workspace | None
+    root_dir: str
+    verbosity: int
 
 
 def expand_xacro(
@@ -53,6 +88,8 @@ def expand_xacro(
     workspace: Workspace | None,
     diagnostics: Diagnostics,
     root_dir: str = "",
+    verbosity: int = 1,
+    console: Console | None = None,
 ) -> Expanded | None:
     """Expand a xacro file in this process with the official library.
 
@@ -60,44 +97,97 @@ def expand_xacro(
         path: the file; stands in the result's banner as it is written here.
         mappings: values of ``<xacro:arg>`` by name.
         workspace: finds packages for ``$(find)``.
-        diagnostics: receives errors, and the warnings that xacro prints.
+        diagnostics: receives errors, all that can be found at once, and warnings.
         root_dir: folder that a relative `path` and ``$(cwd)`` start from, empty for the
             current one.
+        verbosity: 0 to 4, as the program's ``--verbosity``.
+        console: receives what the official program prints to standard error, its warnings and
+            the head of an error; they are no diagnostics then.
 
     Returns:
         The result; None when xacro fails, with the reason reported at its place.
     """
-    file = str(path)
     values = {str(name): str(value) for name, value in (mappings or {}).items()}
-    with run_session(workspace, root_dir) as (library, session):
+    task = _Task(str(path), values, workspace, root_dir, verbosity)
+    result = _first_run(task, diagnostics, console)
+    if isinstance(result, Expanded):
+        return result
+    _report_all(task, result, diagnostics)
+    return None
+
+
+def _first_run(
+    task: _Task, diagnostics: Diagnostics, console: Console | None
+) -> Expanded | tuple[Failure, Finding]:
+    with _session(task, console, None) as (library, session):
         try:
-            document: Any = library.process_file(file, mappings=values)
-            text = document.toprettyxml(indent="  ")
+            document: Any = library.process_file(
+                task.file, mappings=session.arguments, verbosity=task.verbosity
+            )
+            result = written(document)
         # The library evaluates expressions of the file: anything can be raised in there.
         except Exception as error:  # noqa: BLE001
-            report_printed(session, file, diagnostics)
-            report_failure(error, library, session, workspace, diagnostics)
-            return None
-        report_printed(session, file, diagnostics)
+            if console is None:
+                report_printed(session, task.file, diagnostics)
+            else:
+                _print_failure(error, library, task.verbosity, console)
+            report_left_out(session, task.file, diagnostics)
+            return found_failure(error, library, session, task.file)
         dependencies = tuple(dict.fromkeys(str(item) for item in library.all_includes))
-    return Expanded(text, file, _source_map(document, text, file), dependencies)
+    if console is None:
+        report_printed(session, task.file, diagnostics)
+    report_left_out(session, task.file, diagnostics)
+    report_leftovers(result, session, task.file, task.arguments, diagnostics)
+    return _expanded(result, task.file, dependencies)
 
 
-def _source_map(document: Any, text: str, file: str) -> dict[int, SourceSpan]:
-    """Pair the elements of the document with those of the text: both are in document order."""
-    root = parse_xml(text, file, Diagnostics())
-    if root is None:
-        return {}
-    places: dict[int, SourceSpan] = {}
-    for element, tag in zip(_elements(document.documentElement), root.walk(), strict=False):
-        place = place_of(element)
-        if place is not None:
-            places.setdefault(tag.span.line, place)
-    return places
+def _expanded(result: Written, file: str, dependencies: tuple[str, ...]) -> Expanded:
+    return Expanded(result.text, file, tuple(result.places), tuple(result.lines), dependencies)
 
 
-def _elements(element: Any) -> Iterator[Any]:
-    yield element
-    for child in element.childNodes:
-        if child.nodeType == child.ELEMENT_NODE:
-            yield from _elements(child)
+def _session(task: _Task, console: Console | None, repairs: Repairs | None) -> Any:
+    return run_session(
+        task.workspace,
+        arguments=dict(task.arguments),
+        root_dir=task.root_dir,
+        verbosity=task.verbosity,
+        console=console,
+        repairs=repairs,
+    )
+
+
+def _report_all(task: _Task, first: tuple[Failure, Finding], diagnostics: Diagnostics) -> None:
+    """Report a failure, then those that show when it is taken out, and so on."""
+    repairs = Repairs()
+    end_s = time.monotonic() + _SEARCH_S
+    found: tuple[Failure, Finding] | None = first
+    for _ in range(_MOST_ERRORS):
+        if found is None:
+            return
+        failure, finding = found
+        report_failure(failure, finding, repairs, diagnostics)
+        if not repaired(failure, finding, repairs) or time.monotonic() > end_s:
+            return
+        found = _next_failure(task, repairs)
+
+
+def _next_failure(task: _Task, repairs: Repairs) -> tuple[Failure, Finding] | None:
+    with _session(task, None, repairs) as (library, session):
+        try:
+            library.process_file(task.file, mappings=session.arguments)
+        # As in the first run.
+        except Exception as error:  # noqa: BLE001
+            return found_failure(error, library, session, task.file)
+    return None
+
+
+def _print_failure(error: Exception, library: ModuleType, verbosity: int, console: Console) -> None:
+    """Print what the official program prints when it fails, without its advice."""
+    if isinstance(error, ExpatError):
+        library.error(f"XML parsing error: {error}", alt_text=None)
+    else:
+        library.error(str(error) or repr(error))
+    if verbosity > 0:
+        library.print_location()
+    if verbosity >= _TRACEBACK_FROM and not isinstance(error, ExpatError):
+        console("\n" + "".join(traceback.format_exception(error)))

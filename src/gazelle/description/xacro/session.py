@@ -6,24 +6,46 @@ replaced is put back at its end.
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
-from types import FrameType, ModuleType
+from types import CodeType, FrameType, ModuleType
 from typing import Any
 
 from gazelle.description.xacro.dom import Tracker, node_in, place_of
+from gazelle.description.xacro.repairs import UNKNOWN, UNKNOWN_NAME, Repairs
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 from gazelle.workspace.installed import installed_source
 
-__all__ = ["Session", "causes_of", "run_session"]
+__all__ = ["Console", "Session", "causes_of", "run_session"]
 
 _LOCK = threading.RLock()
+
+Console = Callable[[str], None]
+"""Takes what the official program prints to standard error, piece by piece."""
+
+
+class AskedFor(dict[str, str]):
+    """Values of arguments that note which names the files ask for."""
+
+    def __init__(self, values: dict[str, str]) -> None:
+        super().__init__(values)
+        self.names: set[object] = set()
+
+    def __getitem__(self, name: str) -> str:
+        self.names.add(name)
+        return super().__getitem__(name)
+
+    def __contains__(self, name: object) -> bool:
+        self.names.add(name)
+        return super().__contains__(name)
 
 
 @dataclass
@@ -32,49 +54,82 @@ class Session:
 
     Attributes:
         tracker: places of elements, and the calls being worked on.
+        arguments: values given to ``<xacro:arg>``.
         printed: lines that the library and ``xacro.message`` would have printed, with the
             place that was being worked on.
         left_out: the missing packages of includes that were left out, with the includes' places.
+        properties: last place of each property by name, and by name and text of its value.
+        macros: last place of each macro by name.
+        addresses: what ``xmlns:xacro`` is in the root elements, with their places.
     """
 
-    tracker: Tracker = field(default_factory=Tracker)
+    tracker: Tracker
+    arguments: AskedFor
     printed: list[tuple[str, SourceSpan | None]] = field(default_factory=list)
     left_out: list[tuple[NotFoundError, SourceSpan | None]] = field(default_factory=list)
+    properties: dict[str | tuple[str, str], SourceSpan] = field(default_factory=dict)
+    macros: dict[str, SourceSpan] = field(default_factory=dict)
+    addresses: dict[str, SourceSpan] = field(default_factory=dict)
 
 
 @contextmanager
-def run_session(workspace: Workspace | None, root_dir: str) -> Iterator[tuple[ModuleType, Session]]:
+def run_session(
+    workspace: Workspace | None,
+    *,
+    arguments: dict[str, str],
+    root_dir: str = "",
+    verbosity: int = 1,
+    console: Console | None = None,
+    repairs: Repairs | None = None,
+) -> Iterator[tuple[ModuleType, Session]]:
     """Lend the library, prepared for one run, and the session that listens to it.
 
     Args:
         workspace: finds packages for ``$(find)``; None finds none.
-        root_dir: folder that relative paths and ``$(cwd)`` mean.
+        arguments: values of ``<xacro:arg>``.
+        root_dir: folder that relative paths and ``$(cwd)`` mean, the current one when empty.
+        verbosity: 0 to 4, as the program's ``--verbosity``.
+        console: receives what the library prints, in colour where standard error is a terminal.
+        repairs: what is taken out of the files.
     """
     import xacro
     from xacro import color, substitution_args
 
-    session = Session()
+    repairs = repairs or Repairs()
+    session = Session(Tracker(repairs), AskedFor(arguments))
     find = _finder(workspace)
     table: Any = substitution_args._eval_dict
     with _LOCK:
-        changes = _replacements(xacro, session, root_dir)
-        changes += [(color, "print", _printer(session)), (color, "is_tty", lambda _stream: False)]
+        changes = _replacements(xacro, session, root_dir, verbosity)
+        print_ = _printer(session, console)
+        changes += [(xacro, "print", print_), (color, "print", print_)]
         changes += [(substitution_args, "_eval_find", find)]
-        with _swapped(changes), _swapped_item(table, "find", find), _deeper_recursion():
+        if console is None:
+            changes.append((color, "is_tty", lambda _stream: False))
+        symbols: Any = xacro._global_symbols
+        unknown = dict.fromkeys([UNKNOWN_NAME, *repairs.names], UNKNOWN)
+        finding = _swapped_items(table, {"find": find})
+        naming = _swapped_items(symbols, unknown)
+        with _swapped(changes), finding, naming, _deeper_recursion():
             yield xacro, session
 
 
-def _replacements(library: Any, session: Session, root_dir: str) -> list[tuple[Any, str, Any]]:
+def _replacements(
+    library: Any, session: Session, root_dir: str, verbosity: int
+) -> list[tuple[Any, str, Any]]:
     tracker = session.tracker
     return [
-        (library, "parse", _parser(library, tracker)),
+        (library, "parse", _parser(library, session)),
+        (library, "safe_eval", _remembering_evaluator(library)),
+        (library, "eval_text", _quick_for_plain(library.eval_text)),
         (library, "handle_macro_call", _tracked(library.handle_macro_call, tracker)),
         (library, "process_include", _tracked(library.process_include, tracker)),
+        (library, "grab_property", _noting(library.grab_property, _note_property, session)),
+        (library, "grab_macro", _noting(library.grab_macro, _note_macro, session)),
         (library, "get_include_files", _lenient(library.get_include_files, session)),
         (library, "abs_filename_spec", _found_source(library.abs_filename_spec)),
-        (library, "print", _printer(session)),
-        (library, "root_dir", root_dir or "."),
-        (library, "verbosity", 1),
+        (library, "root_dir", root_dir or os.curdir),
+        (library, "verbosity", verbosity),
         (library, "all_includes", []),
     ]
 
@@ -96,13 +151,15 @@ def _swapped(changes: list[tuple[Any, str, Any]]) -> Iterator[None]:
 
 
 @contextmanager
-def _swapped_item(table: Any, key: str, value: Any) -> Iterator[None]:
-    before = table[key]
-    table[key] = value
+def _swapped_items(table: Any, items: dict[str, Any]) -> Iterator[None]:
+    before = {key: table[key] for key in items if key in table}
+    table.update(items)
     try:
         yield
     finally:
-        table[key] = before
+        for key in items:
+            del table[key]
+        table.update(before)
 
 
 @contextmanager
@@ -125,46 +182,117 @@ def _finder(workspace: Workspace | None) -> Callable[[str], str]:
     return find
 
 
-def _parser(library: Any, tracker: Tracker) -> Callable[..., Any]:
+def _parser(library: Any, session: Session) -> Callable[..., Any]:
+    tracker = session.tracker
+
     def parse(inp: Any, filename: str | None = None) -> Any:
         if inp is not None:
-            return tracker.parse_text(inp, filename or "<xacro>") if isinstance(inp, str) else inp
-        path = Path(library.root_dir, str(filename))
+            return tracker.parse(inp, filename or "<xacro>") if isinstance(inp, str) else inp
+        path = os.path.join(library.root_dir, str(filename))  # noqa: PTH118
         try:
-            stream = path.open("rb")
+            # The error shall name the file as the library's would: with "./".
+            with open(path, "rb") as stream:  # noqa: PTH123
+                data = stream.read()
         except OSError as error:
             # As the library does: the missing file is not "the file being worked on".
             library.filestack.pop()
             raise library.XacroException(f"{error.strerror}: {path}", exc=error) from error
-        with stream:
-            return tracker.parse_file(stream, str(filename))
+        document = tracker.parse(data, str(filename))
+        root: Any = document.documentElement
+        address, place = root.getAttribute("xmlns:xacro"), place_of(root)
+        if address and place is not None:
+            session.addresses.setdefault(address, place)
+        return document
 
     return parse
+
+
+def _remembering_evaluator(library: Any) -> Callable[..., Any]:
+    """Evaluate as the library does, but compile each expression once.
+
+    Most expressions of a robot stand in macros that are called many times.
+    """
+
+    @lru_cache(maxsize=4096)
+    def compiled(text: str) -> CodeType:
+        return compile(text, "<expression>", "eval")
+
+    def safe_eval(expr: str, symbols: Any, locals_: Any = None) -> Any:
+        code = compiled(expr.strip())
+        invalid_names = [name for name in code.co_names if name.startswith("__")]
+        if invalid_names:
+            raise library.XacroException("Use of invalid name(s): ", ", ".join(invalid_names))
+        symbols.update(__builtins__={})
+        # This is what xacro is: expressions of the file, without builtins.
+        return eval(code, symbols, locals_)  # noqa: S307
+
+    return safe_eval
+
+
+def _quick_for_plain(eval_text: Callable[[str, Any], Any]) -> Callable[[str, Any], Any]:
+    """Pass texts without a dollar sign through, as the library's lexer would, only sooner."""
+
+    def quick(text: str, symbols: Any) -> Any:
+        return text if text and "$" not in text else eval_text(text, symbols)
+
+    return quick
 
 
 def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., Any]:
     """Keep a call's place on the tracker's stack while it runs; after an error it stays there."""
 
     def call(element: Any, *rest: Any) -> Any:
+        # Most elements are no macro calls, of which the library's function would only say so.
+        if not element.tagName.startswith("xacro:"):
+            return False
         place = place_of(element)
         if place is None:
             return function(element, *rest)
         # Without its own way there: the stack below holds that already.
-        tracker.calls.append(replace(place, via=()))
+        tracker.enter(replace(place, via=()))
         result = function(element, *rest)
-        tracker.calls.pop()
+        tracker.leave()
         return result
 
     return call
+
+
+def _noting(
+    function: Callable[..., Any], note: Callable[[Any, Session], None], session: Session
+) -> Callable[..., Any]:
+    """Note where a property or macro stands when the library reads it."""
+
+    def grab(element: Any, table: Any) -> None:
+        note(element, session)
+        function(element, table)
+
+    return grab
+
+
+def _note_property(element: Any, session: Session) -> None:
+    place = place_of(element)
+    if place is not None:
+        name = element.getAttribute("name")
+        session.properties[name] = place
+        for attribute in ("value", "default"):
+            if element.hasAttribute(attribute):
+                session.properties[name, element.getAttribute(attribute)] = place
+
+
+def _note_macro(element: Any, session: Session) -> None:
+    place = place_of(element)
+    if place is not None:
+        session.macros[element.getAttribute("name")] = place
 
 
 def _found_source(function: Callable[[str], str]) -> Callable[[str], str]:
     """Find files of source packages where they lie before they are installed."""
 
     def absolute(filename: str) -> str:
-        path = Path(function(filename))
+        name = function(filename)
+        path = Path(name)
         source = None if path.exists() else installed_source(path.absolute())
-        return str(path if source is None else source)
+        return name if source is None else str(source)
 
     return absolute
 
@@ -205,9 +333,11 @@ def causes_of(error: BaseException) -> Iterator[BaseException]:
             queue += [getattr(item, "exc", None), item.__cause__, item.__context__]
 
 
-def _printer(session: Session) -> Callable[..., None]:
+def _printer(session: Session, console: Console | None) -> Callable[..., None]:
     def print_(*words: Any, **_options: Any) -> None:
         line = " ".join(str(word) for word in words)
+        if console is not None:
+            console(f"{line}\n")
         session.printed.append((line, _place_below(sys._getframe(1))))
 
     return print_

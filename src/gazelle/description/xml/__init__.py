@@ -3,7 +3,27 @@
 from __future__ import annotations
 
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from, int_from
+from gazelle.description.xml.places import (
+    attribute_holding,
+    attribute_span,
+    text_span,
+    with_places,
+    written_attributes,
+)
 from gazelle.description.xml.reader import parse_xml, read_xml
 from gazelle.description.xml.tag import Tag
 
-__all__ = ["Tag", "bool_from", "float_from", "floats_from", "int_from", "parse_xml", "read_xml"]
+__all__ = [
+    "Tag",
+    "attribute_holding",
+    "attribute_span",
+    "bool_from",
+    "float_from",
+    "floats_from",
+    "int_from",
+    "parse_xml",
+    "read_xml",
+    "text_span",
+    "with_places",
+    "written_attributes",
+]

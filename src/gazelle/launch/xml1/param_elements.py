@@ -133,6 +133,7 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
 
 
 def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
+    from gazelle.description.source_maps import remember
     from gazelle.description.xacro import expand_xacro, parse_xacro_arguments
 
     try:
@@ -150,6 +151,7 @@ def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
     if expanded is None or len(reading.diagnostics.errors) > errors_before:
         message = f"Cannot load command parameter [{name}]: xacro failed on '{command.file}'"
         raise TagError("launch.param-command-failed", message)
+    remember(expanded)
     return expanded.text
 
 

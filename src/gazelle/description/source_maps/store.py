@@ -1,0 +1,128 @@
+"""Source maps as files in the user's cache folder: few, small, whole or not there at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from gazelle.description.source_maps.record import SourceMap, digest_of, sketch_of
+from gazelle.diagnostics import SourceSpan
+
+__all__ = ["load_map", "save_map", "sketches"]
+
+_VERSION = 1
+_MOST_FILES = 64
+_MOST_BYTES = 32_000_000
+
+
+def save_map(source_map: SourceMap) -> None:
+    """Keep a map; without a word when the folder cannot be written, since it is a help only."""
+    head = json.dumps({"version": _VERSION, "sketch": sketch_of(source_map.keys)})
+    data = f"{head}\n{json.dumps(_packed(source_map), separators=(',', ':'))}\n"
+    folder = _folder()
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        number, name = tempfile.mkstemp(dir=folder, prefix=".new-")
+        with os.fdopen(number, "w", encoding="utf-8") as stream:
+            stream.write(data)
+        Path(name).replace(folder / f"{digest_of(source_map.keys)}.json")
+        _drop_oldest(folder)
+
+
+def load_map(name: str) -> SourceMap | None:
+    """Return the map of this digest, None when there is none that can be read.
+
+    Places in files that have changed since are left out.
+    """
+    try:
+        lines = (_folder() / f"{name}.json").read_text(encoding="utf-8").split("\n")
+        return _unpacked(json.loads(lines[1]))
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def sketches() -> Iterator[tuple[str, list[int]]]:
+    """Yield the digest and the sketch of every map kept."""
+    for path in sorted(_folder().glob("*.json")):
+        try:
+            with path.open(encoding="utf-8") as stream:
+                head = json.loads(stream.readline())
+            if head["version"] == _VERSION:
+                yield path.stem, head["sketch"]
+        except (OSError, ValueError, LookupError, TypeError):
+            continue
+
+
+def _folder() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "gazelle" / "xacro_maps"
+
+
+def _packed(source_map: SourceMap) -> dict[str, Any]:
+    """Return a map as numbers that point into tables of files, places and ways there."""
+    files: dict[str, int] = {}
+    places: dict[tuple[int, ...], int] = {}
+    ways: dict[tuple[int, ...], int] = {}
+
+    def place_number(span: SourceSpan) -> int:
+        # The folder a later process runs in is another one.
+        file = files.setdefault(os.path.abspath(span.file), len(files))  # noqa: PTH100
+        key = (file, span.line, span.column, span.length)
+        return places.setdefault(key, len(places))
+
+    elements: list[tuple[int, int]] = []
+    for span in source_map.places:
+        if span is None:
+            elements.append((-1, -1))
+            continue
+        way = tuple(place_number(call) for call in span.via)
+        elements.append((place_number(span), ways.setdefault(way, len(ways))))
+    return {
+        "files": [[name, *_state(name)] for name in files],
+        "places": list(places),
+        "ways": list(ways),
+        "keys": source_map.keys,
+        "elements": elements,
+    }
+
+
+def _unpacked(data: dict[str, Any]) -> SourceMap:
+    names = [name if [size, time] == _state(name) else "" for name, size, time in data["files"]]
+    spans = [
+        SourceSpan(names[file], line, column, length)
+        for file, line, column, length in data["places"]
+    ]
+    ways = [tuple(spans[index] for index in way if spans[index].file) for way in data["ways"]]
+    places: list[SourceSpan | None] = []
+    for place, way in data["elements"]:
+        span = spans[place] if place >= 0 else None
+        known = span is not None and span.file
+        places.append(_with_way(span, ways[way]) if span is not None and known else None)
+    return SourceMap(tuple(data["keys"]), tuple(places))
+
+
+def _with_way(span: SourceSpan, way: tuple[SourceSpan, ...]) -> SourceSpan:
+    return SourceSpan(span.file, span.line, span.column, span.length, way)
+
+
+def _state(name: str) -> list[int]:
+    """Return what changes when a file is edited."""
+    try:
+        found = Path(name).stat()
+    except OSError:
+        return [-1, -1]
+    return [found.st_size, found.st_mtime_ns]
+
+
+def _drop_oldest(folder: Path) -> None:
+    found = [(path.stat().st_mtime_ns, path.stat().st_size, path) for path in folder.iterdir()]
+    total = 0
+    for index, (_, size, path) in enumerate(sorted(found, reverse=True)):
+        total += size
+        if index >= _MOST_FILES or (total > _MOST_BYTES and index):
+            path.unlink(missing_ok=True)

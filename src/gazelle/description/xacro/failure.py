@@ -1,0 +1,163 @@
+"""What was being worked on when the library failed, read from the error's frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from types import FrameType, ModuleType, TracebackType
+from typing import Any
+
+from gazelle.description.xacro.dom import node_in, place_of
+from gazelle.description.xacro.session import Session, causes_of
+from gazelle.description.xml import attribute_holding, attribute_span, text_span
+from gazelle.diagnostics import SourceSpan
+
+__all__ = ["Failure", "failure_of"]
+
+_TEXT_NODE = 3
+
+
+@dataclass
+class Failure:
+    """A failed run.
+
+    Attributes:
+        error: what the library raised.
+        causes: it and what it wraps, outermost first.
+        session: the run.
+        files: the files being read, outermost first.
+        node: the DOM node being worked on.
+        element: place of the element being worked on, without the way there.
+        text: the value or text whose evaluation failed, as it is written; empty when none.
+        attribute: the attribute that holds `text`, empty for the text of the element.
+        part: the piece of `text` that failed, ``${…}`` or ``$(…)``; empty when none.
+        expression: what stood in the innermost ``${…}``, empty when none.
+        symbols: names known to the expression.
+        macros: macros known there.
+        macro: the macro of a call that failed.
+        locals: variables of the innermost frames by name of the function.
+    """
+
+    error: Exception
+    causes: tuple[BaseException, ...]
+    session: Session
+    files: tuple[str, ...]
+    node: Any = None
+    element: SourceSpan | None = None
+    text: str = ""
+    attribute: str = ""
+    part: str = ""
+    expression: str = ""
+    symbols: Any = None
+    macros: Any = None
+    macro: Any = None
+    locals: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    @property
+    def via(self) -> tuple[SourceSpan, ...]:
+        """The way to `element`, innermost first."""
+        calls = tuple(call for call in self.session.tracker.via() if call != self.element)
+        own = place_of(self.node)
+        return calls or (own.via if own is not None else ())
+
+    @property
+    def span(self) -> SourceSpan:
+        """The exact place: of the expression, of the attribute or text, or of the element."""
+        if self.element is None:
+            return SourceSpan(self.files[-1])
+        found = replace(self.element, via=self.via)
+        if self.text and self.attribute:
+            return attribute_span(found, self.attribute, self.part)
+        return text_span(found, self.part or self.text.strip()) if self.text else found
+
+    def attribute_place(self, name: str, *, whole: bool = False) -> SourceSpan:
+        """Return the place of an attribute of the element being worked on."""
+        if self.element is None:
+            return self.span
+        return attribute_span(replace(self.element, via=self.via), name, whole=whole)
+
+    def cause(self, *types: type[BaseException]) -> Any:
+        """Return the first cause of these types, None when there is none."""
+        return next((item for item in self.causes if isinstance(item, types)), None)
+
+
+def failure_of(error: Exception, library: ModuleType, session: Session, file: str) -> Failure:
+    """Read the frames of an error, while the library's stacks are still as they were then.
+
+    Args:
+        error: what the library raised.
+        library: the xacro module.
+        session: the run.
+        file: the input file.
+    """
+    files = tuple(str(name) for name in library.filestack or [file])
+    failure = Failure(error, tuple(causes_of(error)), session, files)
+    for frame in _frames(error, str(library.__file__)):
+        _look_at(frame, failure)
+    if failure.text and failure.element is not None and not failure.attribute:
+        failure.attribute = attribute_holding(failure.element, failure.text)
+    return failure
+
+
+def _frames(error: Exception, file: str) -> Iterator[FrameType]:
+    """Yield the library's frames, outermost first, on to those of the errors wrapped."""
+    seen: set[int] = set()
+    for item in causes_of(error):
+        traceback: TracebackType | None = item.__traceback__
+        while traceback is not None:
+            frame = traceback.tb_frame
+            if frame.f_code.co_filename == file and id(frame) not in seen:
+                seen.add(id(frame))
+                yield frame
+            traceback = traceback.tb_next
+
+
+def _look_at(frame: FrameType, failure: Failure) -> None:
+    name, local = frame.f_code.co_name, frame.f_locals
+    failure.locals[name] = local
+    if isinstance(local.get("macros"), dict):
+        failure.macros = local["macros"]
+    if name == "eval_text":
+        failure.text = failure.text or str(local.get("text", ""))
+        failure.symbols = local.get("symbols")
+    elif name in {"handle_expr", "handle_extension"}:
+        _note_part(name, str(local.get("s", "")), failure)
+    elif name == "_resolve_":
+        _work_on_property(local, failure)
+    elif name == "eval_default_arg":
+        failure.macro = local["macro"]
+        _work_on(failure.macro.body, failure)
+        failure.attribute = "params"
+    else:
+        failure.macro = local.get("m", failure.macro)
+        table = local.get("symbols", local.get("table"))
+        failure.symbols = table if isinstance(table, dict) else failure.symbols
+        if (node := node_in(frame)) is not None:
+            _work_on(node, failure)
+
+
+def _note_part(kind: str, inside: str, failure: Failure) -> None:
+    is_expression = kind == "handle_expr"
+    part = f"${{{inside}}}" if is_expression else f"$({inside})"
+    if is_expression or not failure.expression:
+        failure.expression = inside if is_expression else ""
+    if not failure.part or part in failure.text:
+        failure.part = part
+
+
+def _work_on(node: Any, failure: Failure) -> None:
+    failure.node = node
+    place = place_of(node)
+    failure.element = None if place is None else replace(place, via=())
+    failure.text = failure.attribute = failure.part = failure.expression = ""
+
+
+def _work_on_property(local: dict[str, Any], failure: Failure) -> None:
+    """Turn to the place of a property whose value is evaluated at its first use."""
+    key, table = local["key"], local["self"]
+    value = dict.get(table, key)
+    properties = failure.session.properties
+    place = properties.get((key, value)) if isinstance(value, str) else None
+    if place is not None:
+        failure.element = replace(place, via=())
+        failure.text = failure.attribute = failure.part = failure.expression = ""
