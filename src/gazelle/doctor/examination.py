@@ -28,6 +28,7 @@ class Examination:
         diagnostics: receives every finding.
         sections: tables of the report, in the order made.
         seen: files that have been examined, alone or as part of something else.
+        is_wide: a whole package is looked at, and nobody has given arguments for its files.
         say: told what is being looked at, for a person who waits.
     """
 
@@ -36,6 +37,7 @@ class Examination:
     diagnostics: Diagnostics = field(default_factory=Diagnostics)
     sections: list[Section] = field(default_factory=list)
     seen: set[Path] = field(default_factory=set)
+    is_wide: bool = False
     say: Callable[[str], None] = _say_nothing
 
     def see(self, path: Path) -> bool:

@@ -52,6 +52,7 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
         examination: takes findings and tables.
         needs_files: report a folder that holds nothing to examine.
     """
+    examination.is_wide = True
     files = [(path, _kind(path, examination)) for path in _files_below(folder)]
     kinds = [item for item in files if item[1] is not None]
     if not kinds and needs_files:

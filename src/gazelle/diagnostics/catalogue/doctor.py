@@ -31,6 +31,14 @@ ENTRIES = (
         "name a package, a folder with robots, worlds or launch files, or a file",
     ),
     Entry(
+        "doctor.needs-arguments",
+        "info",
+        "A launch file of a package needs arguments",
+        "It has arguments without defaults, so nobody can start it without knowing them.",
+        "examine it with its arguments",
+        "requires the 'NAME' arg to be set",
+    ),
+    Entry(
         "doctor.bad-arguments",
         "error",
         "A node is started with arguments that it refuses",
@@ -85,7 +93,7 @@ ENTRIES = (
         "Its joints are not controlled; the robot collapses or stands still.",
         "load its parameters below the controller manager's namespace, with names and joints that "
         "there are",
-        "Failed to load controller / Could not load controller … because the type was not specified",
+        "Failed to load controller / Could not load controller because the type was not specified",
     ),
     Entry(
         "doctor.no-description",

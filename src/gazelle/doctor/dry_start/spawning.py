@@ -45,12 +45,12 @@ class Spawning:
 
     def run(self, diagnostics: Diagnostics) -> str:
         """Spawn; report what goes wrong and return the name of the model that came, if one did."""
-        before = self._models()
+        before, errors = self._models(), len(diagnostics.errors)
         words = [word for word in self._program.words if word not in _BOND_WORDS]
         code = spawn_model(words, self._node, self._stop)
         new = [name for name in self._models() if name not in before]
         if code:
-            self._report(diagnostics)
+            self._report(diagnostics, is_explained=len(diagnostics.errors) > errors)
         elif not new and self._node.waits_for:
             text = f"'{self._node.full_name}' waits for {self._node.waits_for}"
             diagnostics.report("doctor.spawn-waits", text, self._program.span)
@@ -87,10 +87,12 @@ class Spawning:
             text = f"model '{wanted}', which no spawner before it brings; there are: {listed}"
             self.give_up(text)
 
-    def _report(self, diagnostics: Diagnostics) -> None:
+    def _report(self, diagnostics: Diagnostics, *, is_explained: bool) -> None:
         said = [text for level, text in self._node.said if level in {"error", "fatal"}]
         status = [text for _, text in self._node.said if text.startswith("Spawn status: ")]
         reason = status[-1].removeprefix("Spawn status: ") if status else "; ".join(said)
+        if is_explained:
+            reason = "SpawnModel: Failure - its description has errors, which are listed too"
         text = f"'{self._node.full_name}' cannot bring its model into the world: {reason}"
         diagnostics.report("doctor.spawn-fails", text, self._program.span)
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.controlling import managers_of, start_controllers
 from gazelle.doctor.dry_start.first_moments import FirstMoments
 from gazelle.doctor.dry_start.node import DryNode
@@ -102,7 +103,8 @@ def _server(
         )
     except NotFoundError as error:
         text = f"the simulator '{node.full_name}' cannot start: {error}"
-        diagnostics.report("doctor.world-missing", text, plan.server.span)
+        near = _nearest_file(Path(options.world))
+        diagnostics.report("doctor.world-missing", text, plan.server.span, fix=near)
         return None
     except UserFileError:
         # Everything it holds is among the findings.
@@ -133,6 +135,13 @@ def _spawn_all(
         if spawning.unpauses:
             unpaused_by = name
     return spawned, unpaused_by
+
+
+def _nearest_file(path: Path) -> str:
+    """Return what of the same folder may have been meant, empty when nothing is near."""
+    if not path.parent.is_dir():
+        return ""
+    return did_you_mean(path.name, (item.name for item in path.parent.iterdir()))
 
 
 def _node_name(name: str) -> str:

@@ -42,15 +42,33 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
         diagnostics=found,
         environ=examination.options.environ,
     )
-    examination.diagnostics.extend(found)
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
+    if examination.is_wide and _report_required(config, examination):
+        return
+    examination.diagnostics.extend(found)
     executables = _executables(config, examination)
     name = " ".join(file.name for file in files)
     launched = launched_from(config, executables, name=name, is_whole=not found.errors)
     starts = _starts(launched, examination)
     _examine_descriptions(launched, starts, examination)
     _check(launched, starts, examination)
+
+
+def _report_required(config: LaunchConfig, examination: Examination) -> bool:
+    """Tell of a file that means nothing without arguments; True when it is one."""
+    needed = [item for item in config.args if item.default is None and item.value is None]
+    given = examination.options.arguments
+    missing = [item for item in needed if item.name not in given]
+    if not missing:
+        return False
+    file = Path(config.files[0])
+    words = " ".join(f"{item.name}:=…" for item in missing)
+    text = f"'{file.name}' needs arguments and is not examined: "
+    text += ", ".join(f"{item.name} ({item.doc})" if item.doc else item.name for item in missing)
+    fix = f"examine it with them: gazelle doctor {file} {words}"
+    examination.diagnostics.report("doctor.needs-arguments", text, missing[0].span, fix=fix)
+    return True
 
 
 def _executables(config: LaunchConfig, examination: Examination) -> list[Executable | None]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from gazelle.description.model import Model, PluginTag
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
+from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch.frames import Edge, Frames, StatePublisher
 from gazelle.doctor.launch.launched import Launched
@@ -183,8 +183,8 @@ def _check_sensor_frames(model: Model, frames: Frames, diagnostics: Diagnostics)
                     continue
                 text = f"sensor '{sensor.name}' on link '{link.name}' stamps its data with frame "
                 text += f"'{name}', which no tf leads to"
-                near = did_you_mean(name, known) or f"write <{tag.name}>{link.name}</{tag.name}>"
-                diagnostics.report("doctor.sensor-frame", text, tag.span, fix=near)
+                fix = f"write <{tag.name}>{link.name}</{tag.name}>"
+                diagnostics.report("doctor.sensor-frame", text, tag.span, fix=fix)
 
 
 def _frame_tag(plugin: PluginTag) -> Tag | None:

@@ -27,7 +27,7 @@ class Edge:
     Attributes:
         by: the node that publishes it.
         how: ``static``, ``joint NAME`` or ``moving``.
-        span: place of what makes it: a joint, a node.
+        span: place of the node.
     """
 
     parent: str
@@ -186,7 +186,7 @@ def _edges_of(publisher: StatePublisher) -> list[Edge]:
             f"{publisher.prefix}{joint.child}",
             publisher.node.full_name,
             "static" if joint.type is JointType.FIXED else f"joint {joint.name}",
-            joint.span,
+            publisher.node.spec.span,
         )
         for joint in publisher.model.joints
         if joint.name not in silent

@@ -1,0 +1,92 @@
+"""One examination as a whole: nothing is left behind, nothing is said twice."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import threading
+
+import pytest
+
+from gazelle.diagnostics import Severity
+
+from .conftest import FIXTURES, Examine, Write
+
+NAMES = FIXTURES / "pain_23_namespaces" / "clean"
+
+
+def test_nothing_is_started(examined: Examine, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_args: object, **_keys: object) -> None:
+        raise AssertionError("the doctor starts nothing")
+
+    monkeypatch.setattr(socket.socket, "connect", refuse)
+    monkeypatch.setattr(socket.socket, "bind", refuse)
+    monkeypatch.setattr(subprocess.Popen, "__init__", refuse)
+    before, environ = threading.enumerate(), dict(os.environ)
+    report = examined(NAMES, "pain_23_namespaces", "robot.launch")
+    assert report.exit_code == 0
+    assert threading.enumerate() == before
+    assert dict(os.environ) == environ
+
+
+def test_controllers_that_spawners_name_run(examined: Examine) -> None:
+    report = examined(NAMES, "pain_23_namespaces", "robot.launch")
+    (table,) = [section for section in report.sections if section.name == "controllers"]
+    assert [row[1:4:2] for row in table.rows] == [
+        ("joint_states", "active"),
+        ("left", "active"),
+        ("right", "active"),
+    ]
+
+
+def test_frames_of_simulator_and_nodes_make_one_tree(examined: Examine) -> None:
+    folder = FIXTURES / "pain_13_frames" / "clean"
+    report = examined(folder, "pain_13_frames", "robot.launch")
+    (table,) = [section for section in report.sections if section.name == "frames"]
+    assert table.rows[0] == ("odom → base_link", "moving", "/gazebo")
+    assert ("  base_link → laser_link", "static", "/state_publisher") in table.rows
+    assert len(table.rows) == 5
+
+
+def test_every_plugin_has_a_row_that_says_what_runs(examined: Examine) -> None:
+    folder = FIXTURES / "pain_17_plugins" / "broken"
+    report = examined(folder, "pain_17_plugins", "robot.launch")
+    tables = {section.name: section for section in report.sections}
+    assert tables["plugins"].rows == (
+        ("libgazebo_ros_diff_drive.so", "robot", "diff_drive", "robot.urdf:101"),
+        ("libarm_cannon.so", "robot", "NOT THERE: compiled code", "robot.urdf:117"),
+    )
+    assert [row[0] for row in tables["tags"].rows] == ["robot.urdf:113"]
+
+
+def test_finding_of_a_file_that_two_launches_include_is_said_once(
+    written: Write, examined: Examine
+) -> None:
+    part = '<launch><node pkg="nowhere" type="t" name="n"/></launch>'
+    whole = '<launch><include file="$(find bot)/launch/part.launch"/></launch>'
+    folder = written(
+        **{
+            "launch__one.launch": whole,
+            "launch__part.launch": part,
+            "launch__two.launch": whole,
+        }
+    )
+    found = examined(folder, "bot").findings
+    assert [item.code for item in found if item.severity is Severity.ERROR] == [
+        "launch.package-missing"
+    ]
+
+
+def test_robot_alone_is_brought_up_in_an_empty_world(examined: Examine) -> None:
+    folder = FIXTURES / "pain_17_plugins" / "broken" / "pain_17_plugins"
+    report = examined(folder, "urdf/robot.urdf")
+    assert report.kind == "robot"
+    assert "plugin.unknown" in [item.code for item in report.findings]
+    assert report.exit_code == 1
+
+
+def test_world_alone_is_brought_up(examined: Examine) -> None:
+    folder = FIXTURES / "pain_03_uris" / "clean" / "pain_03_uris"
+    report = examined(folder, "worlds/field.world")
+    assert (report.kind, report.exit_code) == ("world", 0)
