@@ -48,5 +48,6 @@ COMMANDS: dict[str, Command] = {
     "urdf_to_graphviz": Command("gazelle.cli.urdf_to_graphviz", "draw a robot's tree"),
     "urdf_to_graphiz": Command("gazelle.cli.urdf_to_graphiz", "old name of urdf_to_graphviz"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
+    "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

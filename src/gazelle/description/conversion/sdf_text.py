@@ -10,7 +10,7 @@ from gazelle.description.conversion.gazebo_blocks import plugin_markup
 from gazelle.description.conversion.losses import head_comments, report_addresses
 from gazelle.description.conversion.markup import Markup, number, numbers, tidy
 from gazelle.description.conversion.part_text import add_light, add_material, add_surface
-from gazelle.description.conversion.plain_names import with_plain_names
+from gazelle.description.conversion.plain_names import free_name, with_plain_names
 from gazelle.description.conversion.sensor_text import add_pose, add_sensor
 from gazelle.description.conversion.shapes import add_sdf_geometry
 from gazelle.description.model import (
@@ -141,8 +141,12 @@ class _ModelWriter:
         self._add_inertial(item, link, model)
         for collision in link.collisions:
             self._add_collision(item, collision)
+        taken = [collision.name for collision in link.collisions]
         for visual in link.visuals:
-            self._add_visual(item, visual)
+            # Since SDF 1.7 the parts of a link must have different names, whatever they are.
+            name = f"{visual.name}_visual" if visual.name in taken else visual.name
+            taken.append(free_name(name, taken))
+            self._add_visual(item, replace(visual, name=taken[-1]))
         for sensor in link.sensors:
             add_sensor(item, sensor, sensor.T_link_sensor, self.diagnostics)
         for light in link.lights:

@@ -54,6 +54,14 @@ ENTRIES = (
         "Could not load resource ... Unable to open file",
     ),
     Entry(
+        "convert.sdformat",
+        "warning",
+        "What Gazebo's own library says while it turns a file into SDF",
+        "URDF and SDF become SDF of a release the way Gazebo itself does it, with its remarks: "
+        "links lumped or dropped, elements it does not know.",
+        "correct the source when Gazebo shall read it as it is meant",
+    ),
+    Entry(
         "convert.mjcf-outside",
         "info",
         "Something that moves the robot is not part of the MJCF file",

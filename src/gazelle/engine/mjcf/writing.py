@@ -26,28 +26,10 @@ from gazelle.errors import EngineError
 __all__ = ["to_mjcf"]
 
 # Attributes that are names, however much they look like numbers.
-_NAMES = frozenset(
-    [
-        "name",
-        "class",
-        "mesh",
-        "material",
-        "texture",
-        "hfield",
-        "joint",
-        "joint1",
-        "joint2",
-        "body",
-        "body1",
-        "body2",
-        "geom1",
-        "geom2",
-        "target",
-        "file",
-        "tendon",
-        "site",
-    ]
-)
+_NAMES = frozenset({
+    "body", "body1", "body2", "class", "file", "geom1", "geom2", "hfield", "joint", "joint1",
+    "joint2", "material", "mesh", "name", "site", "target", "tendon", "texture",
+})  # fmt: skip
 # Kept in single precision by MuJoCo; the model has them as they were meant.
 _COLOURS = frozenset({"emission", "rgba", "shininess", "specular"})
 _START = "start"
@@ -191,14 +173,15 @@ def _report_outside(world: World, found: Diagnostics) -> None:
             found.report("convert.mjcf-outside", message, model.span)
     for joint in described_slips(world):
         message = (
-            f"wheel '{joint}' slips in Gazelle by a device that acts between the steps; in the file "
-            "it only has its friction"
+            f"wheel '{joint}' slips in Gazelle by a device that acts between the steps; in the "
+            "file it only has its friction"
         )
         found.report("convert.left-out", message)
 
 
 def _outside(model: Model) -> list[str]:
-    sensors = [item for part in (*model.links, *model.joints) for item in part.sensors]
+    sensors = [sensor for link in model.links for sensor in link.sensors]
+    sensors += [sensor for joint in model.joints for sensor in joint.sensors]
     counts = {
         "plug-in": len(model.plugins) + sum(len(item.plugins) for item in sensors),
         "sensor": len(sensors),

@@ -1,0 +1,110 @@
+"""A compiled MJCF with the names its parts get and the place of everything at zero."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.conversion.plain_names import free_name
+from gazelle.diagnostics import Diagnostics
+from gazelle.engine.library import drained_warnings, mujoco
+from gazelle.engine.mjcf.sources import MjcfSource, read_source
+from gazelle.geometry import Pose
+
+__all__ = ["CompiledMjcf", "compiled_mjcf", "pose_from"]
+
+_FOLDERS = {"mesh": "meshdir", "texture": "texturedir"}
+
+
+class CompiledMjcf:
+    """What MuJoCo makes of a file.
+
+    Attributes:
+        spec: MuJoCo's spec.
+        model: MuJoCo's model.
+        data: its data with every hinge and slide at 0 and everything else where it starts.
+        source: the file with its places.
+        bodies: name of each body.
+        joints: name of each joint; different from all names of bodies.
+        renamed: names of joints that had to be changed, old and new.
+    """
+
+    def __init__(self, spec: Any, model: Any, source: MjcfSource) -> None:
+        self.spec = spec
+        self.model = model
+        self.source = source
+        self.data = mujoco.MjData(model)
+        kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+        for index in range(model.njnt):
+            if int(model.jnt_type[index]) in kinds:
+                self.data.qpos[model.jnt_qposadr[index]] = 0.0
+        mujoco.mj_kinematics(model, self.data)
+        self.bodies = _names([model.body(i).name for i in range(model.nbody)], "body", ())
+        own = [model.joint(i).name for i in range(model.njnt)]
+        self.joints = _names(own, "joint", self.bodies)
+        self.renamed = [
+            (old, new) for old, new in zip(own, self.joints, strict=True) if old and old != new
+        ]
+
+    def body_pose(self, body: int) -> Pose:
+        """Return where a body is in the world."""
+        return pose_from(self.data.xpos[body], self.data.xquat[body])
+
+    def joints_of(self, body: int) -> range:
+        """Return a body's joints, the outermost first."""
+        start = int(self.model.body_jntadr[body])
+        return range(start, start + int(self.model.body_jntnum[body])) if start >= 0 else range(0)
+
+    def file_of(self, kind: str, element: Any) -> Path | None:
+        """Return the file of a spec's mesh or texture; None when it has none."""
+        if not element.file:
+            return None
+        compiler = self.spec.compiler
+        folder = getattr(compiler, _FOLDERS[kind], "") or ""
+        name = Path(element.file).name if compiler.strippath else element.file
+        base = self.source.path.parent
+        found = [path for path in (base / folder / name, base / name) if path.is_file()]
+        return found[0].resolve() if found else None
+
+
+def compiled_mjcf(path: Path, diagnostics: Diagnostics) -> CompiledMjcf | None:
+    """Read and compile a file; None (reported) when that is impossible."""
+    source = read_source(path, diagnostics)
+    if source is None:
+        return None
+    try:
+        spec = mujoco.MjSpec.from_file(str(path))
+        # Both take things out of the model that a converted file shall have.
+        spec.compiler.fusestatic = False
+        spec.compiler.discardvisual = False
+        model = spec.compile()
+    except (ValueError, mujoco.FatalError, mujoco.UnexpectedError) as error:
+        words = " ".join(str(error).split())
+        message = f"MuJoCo refuses the file: {words}"
+        diagnostics.report("convert.mjcf", message, source.root.span)
+        return None
+    for warning in drained_warnings():
+        message = f"MuJoCo warns: {' '.join(warning.split())}"
+        diagnostics.report("engine.mujoco-warning", message, source.root.span)
+    return CompiledMjcf(spec, model, source)
+
+
+def pose_from(position: NDArray[np.float64], quat_wxyz: NDArray[np.float64]) -> Pose:
+    """Return a pose from MuJoCo's numbers."""
+    x, y, z = (float(value) for value in position)
+    qw, qx, qy, qz = (float(value) for value in quat_wxyz)
+    return Pose((x, y, z), (qx, qy, qz, qw))
+
+
+def _names(own: list[str], word: str, taken: tuple[str, ...]) -> tuple[str, ...]:
+    """Return a name for each element: its own, or one with a number for those without."""
+    found: list[str] = []
+    for index, name in enumerate(own):
+        wanted = name or f"{word}_{index}"
+        if wanted in taken:
+            wanted = f"{wanted}_joint"
+        found.append(free_name(wanted, (*taken, *found, *(other for other in own if not name))))
+    return tuple(found)
