@@ -466,7 +466,7 @@ def test_wheel_of_another_shape_has_no_radius():
 
 def test_exchanged_sides_are_reported():
     bench = _bench(model=_model(left_y=-0.3))
-    (found,) = bench.diagnostics
+    (found,) = bench.diagnostics.by_code("control.wheels-exchanged")
     assert found.code == "control.wheels-exchanged"
     assert (
         "'left' is named as a left wheel and stands 0.6 m to the right of 'right'" in found.message

@@ -30,7 +30,7 @@ def test_moving_link_without_inertial_gets_a_block(judge) -> None:
     assert found.only.code == "inertia.missing"
     assert found.only.message == (
         "link 'a' moves and has no <inertial>: Gazebo drops it, and with it the whole robot: "
-            "nothing appears"
+        "nothing appears"
     )
     assert found.place == ("robot.urdf", 2, 3)
     assert '<mass value="6"/>' in found.only.fix

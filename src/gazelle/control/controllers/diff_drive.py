@@ -19,7 +19,7 @@ from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
 from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.urdf_geometry import joint_distance_m, wheel_radius_m
-from gazelle.control.wheels.wheel_measures import measure, report_exchanged
+from gazelle.control.wheels.wheel_measures import measure, report_exchanged, report_misfits
 
 __all__ = ["DiffDriveController"]
 
@@ -117,7 +117,8 @@ class DiffDriveController(Controller):
         key = "wheel_separation_multiplier"
         self._multipliers[key] = parameters.number(key)
         self._apply_multipliers()
-        report_exchanged(self.context, self._left[0], self._right[0])
+        report_exchanged(self.context, left, right)
+        report_misfits(self.context, left, right)
 
     def _apply_multipliers(self) -> None:
         multipliers = self._multipliers

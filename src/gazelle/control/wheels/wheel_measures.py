@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.wheels.urdf_geometry import joint_offset_m
+from gazelle.control.wheels.urdf_geometry import joint_distance_m, joint_offset_m, wheel_radius_m
 
-__all__ = ["measure", "positive", "report_exchanged"]
+__all__ = ["measure", "positive", "report_exchanged", "report_misfits"]
+
+# Joint frames stand anywhere along the axle; a tyre gives way.
+_TOLERATED = {"wheel_separation": 0.1, "wheel_radius": 0.05}
 
 
 def positive(context: ControllerContext, key: str) -> float:
@@ -54,6 +58,31 @@ def report_exchanged(context: ControllerContext, left: str, right: str) -> None:
         text = f"'{left}' is named as a left wheel and stands {-gap:g} m to the right of '{right}'"
         text += ": the base turns right when it is told to turn left"
         context.parameters.report("control.wheels-exchanged", text, fix="exchange the names")
+
+
+def report_misfits(context: ControllerContext, left: str, right: str) -> None:
+    """Report a separation or radius that the robot's geometry contradicts; multipliers aside."""
+    model = context.robot.model
+    if model.joint(left) is None or model.joint(right) is None:
+        return
+    measured = {"wheel_separation": joint_distance_m(model, left, right)}
+    with suppress(ControllerError):  # of a mesh no radius is known
+        measured["wheel_radius"] = wheel_radius_m(model, left)
+    for key, truth in measured.items():
+        if not context.parameters.has(key) or truth <= 0.0:
+            continue
+        value = context.parameters.number(key)
+        if abs(value - truth) <= _TOLERATED[key] * truth:
+            continue
+        what = (
+            f"'{left}' and '{right}' stand {truth:.4g} m apart"
+            if key == "wheel_separation"
+            else f"the wheel of '{left}' has a radius of {truth:.4g} m"
+        )
+        does = "yaw rates" if key == "wheel_separation" else "speeds"
+        text = f"{key} is {value:g} m, but {what}: {does} and odometry are off by a factor of "
+        text += f"{truth / value:.3g}" if key == "wheel_radius" else f"{value / truth:.3g}"
+        context.parameters.report("control.wheel-geometry", text, fix=f"write {key}: {truth:.4g}")
 
 
 def _checked(context: ControllerContext, key: str, value: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 from gazelle.description.checks.cameras import check_cameras
 from gazelle.description.checks.inertia import check_inertia, check_mass_ratios
@@ -18,7 +19,7 @@ from gazelle.description.checks.stance import check_stance
 from gazelle.description.checks.surfaces import check_surfaces
 from gazelle.description.checks.wheels import check_wheels
 from gazelle.description.model import Model
-from gazelle.description.xml import Tag
+from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity
 
 __all__ = ["check_description"]
@@ -39,7 +40,7 @@ def check_description(
     Args:
         model: as a reader made it.
         diagnostics: receives the findings; what is wrong with mesh files is left to the engine.
-        root: the element it was read from, after xacro; the links' files are read again when None.
+        root: the element it was read from, after xacro; the files are read again when None.
         step_s: of the physics.
     """
     unheard = Diagnostics()
@@ -55,10 +56,21 @@ def check_description(
     if model.static:
         return
     check_root(model, diagnostics)
-    check_lumping(model, diagnostics, root=root)
+    check_lumping(model, diagnostics, root=_root_of(model) if root is None else root)
     check_joints(model, diagnostics)
     check_cameras(model, diagnostics)
     check_wheels(model, diagnostics)
     check_surfaces(model, diagnostics, step_s=step_s)
     check_stance(model, outlines, diagnostics)
     check_overlaps(model, outlines, diagnostics)
+
+
+def _root_of(model: Model) -> Tag | None:
+    """Return the ``<robot>`` of a model's file; None when xacro makes it."""
+    if model.source_format != "urdf" or model.span is None:
+        return None
+    path = Path(model.span.file)
+    root = read_xml(path, Diagnostics()) if path.is_file() else None
+    if root is None or root.name != "robot":
+        return None
+    return None if any(tag.name.startswith("xacro:") for tag in root.walk()) else root

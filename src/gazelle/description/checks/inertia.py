@@ -156,7 +156,7 @@ def _lost(record: LinkRecord) -> str:
         return ", and its joint"
     names = " and ".join(f"'{name}'" for name in record.below[:3])
     more = f" and {len(record.below) - 3} more" if len(record.below) > 3 else ""
-    return f" with all that hangs on it: {names}{more} vanish"
+    return f" with all that hangs on it: {names}{more} vanish{'es' * (len(record.below) == 1)}"
 
 
 def _impossible(record: LinkRecord, new: MassProperties | None) -> Iterator[InertiaFinding]:

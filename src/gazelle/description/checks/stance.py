@@ -65,6 +65,9 @@ def check_stance(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> 
     driven = [wheel for wheel in wheels if not wheel.is_caster]
     if len(driven) < 2 or any(joint.parent == "world" for joint in model.joints):
         return
+    touchable = {item.link.name for item in outlines.collisions}
+    if not all(touchable & {wheel.link.name, *_below(wheel.link, model)} for wheel in driven):
+        return  # said of the wheel
     stance = stance_of(model, outlines)
     if stance is None:
         return
@@ -108,8 +111,9 @@ def _report_hanging(
     names = " and ".join(
         f"'{wheel.link.name}' ({gap * 1e3:.3g} mm above)" for wheel, gap in hanging
     )
+    does = "do" if len(hanging) > 1 else "does"
     others = ", ".join(sorted({f"'{item.link.name}'" for item in on_ground}))
-    text = f"on level ground the robot rests on {others}; drive wheel {names} does not touch it"
+    text = f"on level ground the robot rests on {others}; drive wheel {names} {does} not touch it"
     if stance.tilt_deg > 3.0:
         text += f" (it leans over by {stance.tilt_deg:.0f}°)"
     fix = (

@@ -3,5 +3,6 @@
 from __future__ import annotations
 
 from gazelle.doctor.probes.all_probes import run_probes
+from gazelle.doctor.probes.robots import stood_on_ground
 
-__all__ = ["run_probes"]
+__all__ = ["run_probes", "stood_on_ground"]

@@ -1,20 +1,27 @@
-"""Every probe, one after the other, in a simulation of its own."""
+"""Every probe, one after the other, in one simulation of its own."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator, Sequence
 
-from gazelle.description.model import World
-from gazelle.diagnostics import Diagnostics
+from gazelle.description.model import Model, World
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.doctor.dry_start.node import DryNode
+from gazelle.doctor.probes.controllers import probe_controllers
+from gazelle.doctor.probes.drive import probe_drive, twist_topics
 from gazelle.doctor.probes.idle_drift import probe_idle_drift
 from gazelle.doctor.probes.robots import robots_of
+from gazelle.doctor.probes.spawn import probe_spawn
 from gazelle.doctor.report import Section
-from gazelle.errors import SimulationDivergedError
+from gazelle.errors import EngineError, SimulationDivergedError
 from gazelle.simulator.parameter_input import Parameters
 from gazelle.simulator.simulation import Simulation
 from gazelle.workspace import Workspace
 
 __all__ = ["run_probes"]
+
+Tell = Callable[[str], None]
 
 
 def run_probes(
@@ -23,7 +30,7 @@ def run_probes(
     workspace: Workspace,
     parameters: Parameters | None = None,
     diagnostics: Diagnostics,
-    progress: Callable[[str], None] | None = None,
+    progress: Tell | None = None,
     seed: int = 0,
 ) -> tuple[Section, ...]:
     """Let a world run for some seconds of simulated time and report what its robots do.
@@ -38,19 +45,66 @@ def run_probes(
 
     Returns:
         a table for each probe that had something to look at.
+
+    Raises:
+        GazelleError: a parameter file cannot be read.
     """
-    tell = progress or (lambda text: None)
     robots = robots_of(world)
     if not robots:
         return ()
-    unheard = Diagnostics()
-    sections = []
-    with Simulation(
-        world, workspace=workspace, diagnostics=unheard, seed=seed, parameters=parameters
-    ) as simulation:
-        try:
-            tell("probe: idle drift")
-            sections.append(probe_idle_drift(simulation, robots, diagnostics))
-        except SimulationDivergedError as error:
-            diagnostics.report("probe.diverged", str(error))
+    sections: list[Section] = []
+    node, unheard = DryNode(), Diagnostics()
+    try:
+        with Simulation(
+            world,
+            workspace=workspace,
+            diagnostics=unheard,
+            node=node,
+            seed=seed,
+            parameters=parameters,
+        ) as simulation:
+            for section in _probed(simulation, node, robots, diagnostics, progress or _silent):
+                sections.append(section)
+    except SimulationDivergedError as error:
+        diagnostics.report("probe.diverged", str(error), _place(str(error), robots))
+    except EngineError as error:
+        diagnostics.report("probe.not-built", f"the world cannot be built: {error}", world.span)
     return tuple(section for section in sections if section.rows)
+
+
+def _probed(
+    simulation: Simulation,
+    node: DryNode,
+    robots: Sequence[Model],
+    diagnostics: Diagnostics,
+    tell: Tell,
+) -> Iterator[Section]:
+    tell("probe: spawn")
+    yield probe_spawn(simulation, robots, diagnostics)
+    tell("probe: idle drift")
+    yield probe_idle_drift(simulation, robots, diagnostics)
+    # From the start again: an arm that hangs down by now would hide that it sags.
+    simulation.reset()
+    if simulation.server.controls.managers:
+        tell("probe: controllers")
+        yield probe_controllers(simulation, robots, diagnostics)
+    topics = twist_topics(node.heard)
+    if topics:
+        tell("probe: velocity commands")
+        yield probe_drive(simulation, robots, topics, diagnostics)
+
+
+def _place(text: str, robots: Sequence[Model]) -> SourceSpan | None:
+    """Return the place of the link that an error names as ``model::link``."""
+    named = re.search(r"link '([^']+)::([^':]+)'", text)
+    if named is None:
+        return None
+    for robot in robots:
+        link = robot.link(named[2]) if robot.name == named[1] else None
+        if link is not None:
+            return link.span
+    return None
+
+
+def _silent(text: str) -> None:
+    """Take progress that nobody wants to hear."""

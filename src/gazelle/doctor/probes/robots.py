@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from gazelle.description.model import JointType, Model, World
+from dataclasses import replace
 
-__all__ = ["robots_of"]
+from gazelle.description.checks.outlines import Outlines
+from gazelle.description.model import JointType, Model, World
+from gazelle.geometry import Pose
+
+__all__ = ["robots_of", "stood_on_ground"]
+
+_CLEARANCE_M = 1e-3
 
 
 def robots_of(world: World) -> tuple[Model, ...]:
@@ -12,6 +18,20 @@ def robots_of(world: World) -> tuple[Model, ...]:
     moving = tuple(model for model in world.models if not model.static and model.links)
     robots = tuple(model for model in moving if model.plugins or _has_moving_joint(model))
     return robots or moving
+
+
+def stood_on_ground(model: Model) -> Model:
+    """Return a model that nobody has placed, lifted until no collision reaches below z = 0."""
+    if any(joint.parent == "world" for joint in model.joints):
+        return model
+    pose = model.T_world_model
+    points = [pose.transform(item.points_m) for item in Outlines(model).collisions]
+    lowest = min((float(item[:, 2].min()) for item in points), default=0.0)
+    if lowest >= 0.0:
+        return model
+    x, y, z = pose.position_m
+    lifted = Pose((x, y, z - lowest + _CLEARANCE_M), pose.quat_xyzw)
+    return replace(model, T_world_model=lifted)
 
 
 def _has_moving_joint(model: Model) -> bool:

@@ -1,0 +1,103 @@
+"""The front of all checks: clean fixtures and robots that run well raise nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from tests.description.checks.pain import FIXTURES, OWN, examined, finding, place
+
+from gazelle.description.checks import SUPERSEDED_CODES, check_description
+from gazelle.description.model import Model
+from gazelle.diagnostics import Diagnostics, Severity
+
+CLEAN = [path for pain in OWN for path in sorted((FIXTURES / pain / "clean").glob("*.urdf"))]
+BROKEN = [path for pain in OWN for path in sorted((FIXTURES / pain / "broken").glob("*.urdf"))]
+# Of these the plug-in is wrong, which the simulator and the probes say.
+SEEN_BY_PROBES = {"backwards.urdf", "radius_as_diameter.urdf", "swapped.urdf"}
+KNOWN_TO_RUN = {
+    "catkin_ws/src/urdf_tutorial/urdf/mobile_robot.urdf": set(),
+    "catkin_ws/src/urdf_exam/urdf/mira_gazebo.urdf": set(),
+    "catkin_ws/src/urdf_exam/urdf/mira_gazebo_camera.urdf": set(),
+    "catkin_ws/src/urdf_exam/urdf/mira_gazebo_controller.urdf": set(),
+    # 4 g of caster below 22 kg.
+    "catkin_ws/src/slam_robot/urdf/slam_robot_gazebo.urdf": {"inertia.mass-ratio"},
+    # SDF's defaults: 1 kg for everything.
+    "gazebo_models/my_robot/model.sdf": {"inertia.missing"},
+    "ros2_ws/src/luck_description/urdf/luck_description.urdf": set(),
+    "turtlebot3_ws/src/turtlebot3/turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro": set(),
+    "turtlebot3_ws/src/turtlebot3/turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro": set(),
+}
+
+
+@pytest.mark.parametrize("path", CLEAN, ids=lambda path: f"{path.parts[-3]}/{path.name}")
+def test_clean_robot_has_no_finding(path: Path) -> None:
+    assert list(examined(path)) == []
+
+
+@pytest.mark.parametrize("path", BROKEN, ids=lambda path: f"{path.parts[-3]}/{path.name}")
+def test_broken_robot_has_findings_with_place_and_fix(path: Path) -> None:
+    found = list(examined(path))
+    assert bool(found) == (path.name not in SEEN_BY_PROBES)
+    for item in found:
+        assert item.span is not None
+        assert item.span.file == str(path)
+        assert item.span.line > 1
+        assert item.fix
+
+
+@pytest.mark.parametrize("name", KNOWN_TO_RUN)
+def test_robot_that_runs_well_has_no_warning_but_true_ones(name: str, workspaces_dir: Path) -> None:
+    found = examined(workspaces_dir / name)
+    warned = {item.code for item in found if item.severity > Severity.INFO}
+    assert warned == KNOWN_TO_RUN[name]
+
+
+def test_static_model_is_spared_what_needs_motion() -> None:
+    found = Diagnostics()
+    check_description(Model("wall", static=True), diagnostics=found)
+    assert list(found) == []
+
+
+def test_more_inertia_than_fits_is_a_notice_only() -> None:
+    item = finding("pain_05_tensor/placeholder.urdf")
+    assert (item.code, item.severity) == ("inertia.box", Severity.INFO)
+    assert "too large for its shapes of 0.3 × 0.05 × 0.05 m" in item.message
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "words", "line"),
+    [
+        ("triangle.urdf", "inertia.triangle", "0.0001 + 0.0001 < 0.006", "<inertia ixx="),
+        ("gram_millimetres.urdf", "inertia.units", "in g·mm², not kg·m²", "<inertial>"),
+        ("millimetre_origin.urdf", "inertia.units", "centre of mass is in milli", "<inertial>"),
+        ("zero_mass.urdf", "inertia.mass", "'arm' has a mass of 0 kg", "<mass "),
+    ],
+)
+def test_bad_mass_properties_come_with_a_block(file: str, code: str, words: str, line: str) -> None:
+    item = finding(f"pain_05_tensor/{file}")
+    assert item.code == code
+    assert words in item.message
+    assert place(item).startswith(line)
+    assert item.fix.startswith('paste into <link name="arm">\n<inertial>')
+    assert '<mass value="0.75"/>' in item.fix
+    assert '<origin xyz="0.15 0 0" rpy="0 0 0"/>' in item.fix
+
+
+def test_negative_moment_is_an_error() -> None:
+    found = examined(FIXTURES / "pain_05_tensor/broken/negative.urdf")
+    (item,) = found.by_code("inertia.not-positive")
+    assert item.severity is Severity.ERROR
+    assert "A link named ... has invalid inertia." in item.phrase
+
+
+def test_mass_ratio_names_both_bodies() -> None:
+    item = finding("pain_05_tensor/mass_ratio.urdf")
+    assert item.code == "inertia.mass-ratio"
+    assert "'base_footprint' of 4 kg and 'bead' of 0.002 kg: 1 to 2,000" in item.message
+    assert place(item).startswith('<joint name="thread"')
+    assert "give 'bead' at least 0.004 kg" in item.fix
+
+
+def test_codes_of_readers_that_are_said_again_are_named() -> None:
+    assert {"urdf.no-inertia", "urdf.bad-inertia"} <= SUPERSEDED_CODES

@@ -1,0 +1,34 @@
+"""Units, scales and places of shapes."""
+
+from __future__ import annotations
+
+from tests.description.checks.pain import FIXTURES, examined, finding, place
+
+
+def test_mesh_in_millimetres_gets_a_scale() -> None:
+    item = finding("pain_20_optical/mesh_in_millimetres.urdf")
+    assert item.code == "robot.mesh-unit"
+    assert "link 'lid' is 200 m long by its mesh, other links are 0.4 m" in item.message
+    assert "the mesh is in millimetres" in item.message
+    assert place(item).startswith("<geometry><mesh filename=")
+    assert 'write scale="0.001 0.001 0.001" into <mesh>' in item.fix
+
+
+def test_mesh_that_is_scaled_twice_is_reported() -> None:
+    item = finding("pain_20_optical/mesh_scaled_twice.urdf")
+    assert item.code == "robot.mesh-unit"
+    assert "is 0.2 mm long by its mesh: the file is in metres already" in item.message
+    assert item.fix == "remove the mesh's scale"
+
+
+def test_collision_beside_the_visual_is_reported() -> None:
+    item = finding("pain_20_optical/collision_apart.urdf")
+    assert item.code == "robot.collision-apart"
+    assert "the collision of link 'arm' stands 0.45 m beside what is seen" in item.message
+    assert place(item) == "<collision>"
+
+
+def test_collision_of_another_size_is_reported() -> None:
+    found = examined(FIXTURES / "pain_20_optical/broken/collision_ten_times.urdf")
+    (item,) = found.by_code("robot.size-mismatch")
+    assert "is 10 times larger than what is seen: 3 × 0.5 × 0.5 against" in item.message

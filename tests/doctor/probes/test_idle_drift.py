@@ -1,0 +1,49 @@
+"""Idle robots stay where they are, or are told of."""
+
+from __future__ import annotations
+
+import pytest
+from tests.doctor.probes.worlds import block, ground, probed, robot
+
+from gazelle.diagnostics import Severity
+
+
+def test_block_on_level_ground_is_still() -> None:
+    sections, found = probed(ground(), block(0.1))
+    assert sections["probe_idle_drift"].rows == (("cube", "0 mm", "0°", "block (0 mm)", "still"),)
+    assert list(found) == []
+
+
+def test_rover_on_its_wheels_is_still() -> None:
+    sections, found = probed(ground(), robot("pain_15_contact/clean/rover.urdf", 0.001))
+    assert sections["probe_idle_drift"].rows[0][4] == "still"
+    assert list(found) == []
+
+
+def test_block_on_a_slippery_slope_is_told_with_its_contact() -> None:
+    sections, found = probed(ground(roll_rad=0.2), block(0.12, mu=0.02))
+    (item,) = found
+    assert item.code == "probe.idle-drift"
+    assert item.message.startswith("robot 'cube' moved 1")
+    assert "in 10 s without a command; link 'block' moved most" in item.message
+    assert item.message.endswith("it touches 'block::c' and 'ground::link::collision'")
+    assert sections["probe_idle_drift"].rows[0][4] == "moves"
+
+
+def test_soft_wheel_creeps() -> None:
+    _, found = probed(ground(), robot("pain_15_contact/broken/soft.urdf", 0.001))
+    (item,) = found
+    assert item.code == "probe.idle-drift"
+    assert "'left_wheel::left_wheel_collision' and 'ground::link::collision'" in item.message
+    assert item.span is not None
+    assert item.span.file.endswith("soft.urdf")
+
+
+def test_robot_without_ground_falls() -> None:
+    _, found = probed(block(0.1))
+    (item,) = found
+    assert (item.code, item.severity) == ("probe.falls", Severity.ERROR)
+    # 9.8 m/s² from 2.2 s to 12.2 s.
+    assert item.message == "robot 'cube' falls: 706 m in 10 s, and nothing touches it"
+    assert pytest.approx(706, abs=1) == 9.8 / 2 * (12.201**2 - 2.201**2)
+    assert item.fix.startswith("put a ground plane into the world")
