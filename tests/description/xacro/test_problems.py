@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -201,7 +202,7 @@ TAKES = 'it is defined with params="a b:=1 *c" (one.xacro:2)'
         (
             '<xacro:m a="2"><o/><p/></xacro:m>',
             f"Unused block \"p\": macro 'm' takes 1 block(s) (*c); {TAKES}",
-            'remove the child element, or add a block to the macro: params="… *block"',
+            'remove the child element, or add a block to the macro: params="… *p"',
         ),
     ],
 )
@@ -404,3 +405,72 @@ def test_include_of_a_missing_file_in_a_package_stays_an_error(fail: Fail, tmp_p
         "<package><name>lidars</name><version>1.0.0</version></package>", encoding="utf-8"
     )
     assert fail('<xacro:include filename="$(find lidars)/x.xacro"/>').code == "xacro.file-missing"
+
+
+BROKEN = [
+    ("arm", "inc/common.xacro", "width**2 * length", "width**2 * lenght",
+     "inc/common.xacro:16:30", "undefined-name", 2),
+    ("arm", "config/joints.yaml", "effort: 20", "efort: 20",
+     "inc/common.xacro:23:64", "bad-expression", 2),
+    ("arm", "config/joints.yaml", "fore: 0.35}", "fore: 0.35",
+     "config/joints.yaml:8:1", "bad-yaml", 2),
+    ("arm", "inc/macro.xacro", "*origin config", "origin config",
+     "arm.urdf.xacro:7:3", "bad-call", 0),
+    ("rover", "rover.urdf.xacro", "sides[side]}", "sides[side]",
+     "rover.urdf.xacro:20:24", "bad-expression", 1),
+    ("rover", "rover.urdf.xacro", "names[1:]", "names",
+     "rover.urdf.xacro:22:7", "recursion", 1),
+    ("sensors", "sensors.urdf.xacro", 'default="true"', 'default="on"',
+     "sensors.urdf.xacro:19:20", "bad-condition", 0),
+    ("sensors", "sensors.urdf.xacro", "</content>", "</content><x/>",
+     "sensors.urdf.xacro:20:5", "bad-call", 0),
+    ("namespaces", "two.urdf.xacro", "small.gripper name", "smal.gripper name",
+     "two.urdf.xacro:10:3", "unknown-macro", 0),
+    ("namespaces", "gripper.xacro", "0.1 * scale", "0,1 - scale",
+     "gripper.xacro:8:49", "decimal-comma", 1),
+    ("scopes", "scopes.urdf.xacro", 'scope="global"', 'scope="local"',
+     "scopes.urdf.xacro:17:46", "undefined-name", 0),
+    ("scopes", "scopes.urdf.xacro", "count + 1", "count + '1'",
+     "scopes.urdf.xacro:6:41", "bad-expression", 2),
+    ("dynamic", "dynamic.urdf.xacro", "make_$(arg kind)", "make$(arg kind)",
+     "dynamic.urdf.xacro:12:3", "unknown-macro", 0),
+    ("dynamic", "dynamic.urdf.xacro", "['radius']", "['radus']",
+     "dynamic.urdf.xacro:15:55", "bad-expression", 0),
+    ("lazy", "lazy.urdf.xacro", "width + eager", "area + eager",
+     "lazy.urdf.xacro:3:3", "recursion", 0),
+    ("lazy", "lazy.urdf.xacro", '<xacro:shape><x area="${area}"/>', "<xacro:shape>",
+     "lazy.urdf.xacro:14:3", "bad-call", 0),
+    ("launchlike", "robot.urdf.xacro", "*.gazebo", "*.gazbo",
+     "robot.urdf.xacro:7:3", "unknown-macro", 0),
+    ("launchlike", "plugins.gazebo.xacro", "round(", "rond(",
+     "plugins.gazebo.xacro:10:24", "undefined-name", 1),
+    ("loops", "grid.sdf.xacro", "j + 1", "j", "grid.sdf.xacro:13:9", "recursion", 2),
+    ("loops", "grid.sdf.xacro", 'n="3"', 'm="3"', "grid.sdf.xacro:22:23", "bad-call", 0),
+    ("reuse", "reuse.urdf.xacro", "<xacro:inner/>", '<xacro:inner name="x"/>',
+     "reuse.urdf.xacro:12:18", "bad-call", 1),
+    ("reuse", "reuse.urdf.xacro", "list[-1]", "list[3]",
+     "reuse.urdf.xacro:17:71", "bad-expression", 0),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("robot", "file", "good", "bad", "place", "code", "calls"),
+    BROKEN,
+    ids=lambda item: str(item)[:20],
+)
+def test_robots_broken_in_two_ways_each(
+    robot: str, file: str, good: str, bad: str, place: str, code: str, calls: int,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    folder = tmp_path / robot
+    shutil.copytree(ROBOTS / robot, folder)
+    text = (folder / file).read_text(encoding="utf-8")
+    assert good in text
+    (folder / file).write_text(text.replace(good, bad, 1), encoding="utf-8")
+    monkeypatch.chdir(folder)
+    (main,) = [*folder.glob("*.urdf.xacro"), *folder.glob("*.sdf.xacro")]
+    diagnostics = Diagnostics()
+    expand_xacro(main.name, workspace=None, diagnostics=diagnostics)
+    found = diagnostics.by_code(f"xacro.{code}")
+    assert [(str(item.span), len(item.span.via)) for item in found] == [(place, calls)]
+    assert len(diagnostics.errors) == (code != "decimal-comma")

@@ -14,7 +14,7 @@ from gazelle.diagnostics import SourceSpan
 
 __all__ = ["Failure", "failure_of"]
 
-_TEXT_NODE = 3
+_DEEPEST = 12
 
 
 @dataclass
@@ -26,6 +26,7 @@ class Failure:
         causes: it and what it wraps, outermost first.
         session: the run.
         files: the files being read, outermost first.
+        macro_stack: the innermost of the macros being expanded.
         node: the DOM node being worked on.
         element: place of the element being worked on, without the way there.
         text: the value or text whose evaluation failed, as it is written; empty when none.
@@ -42,6 +43,7 @@ class Failure:
     causes: tuple[BaseException, ...]
     session: Session
     files: tuple[str, ...]
+    macro_stack: tuple[Any, ...]
     node: Any = None
     element: SourceSpan | None = None
     text: str = ""
@@ -91,7 +93,8 @@ def failure_of(error: Exception, library: ModuleType, session: Session, file: st
         file: the input file.
     """
     files = tuple(str(name) for name in library.filestack or [file])
-    failure = Failure(error, tuple(causes_of(error)), session, files)
+    stack = tuple((library.macrostack or [])[-_DEEPEST:])
+    failure = Failure(error, tuple(causes_of(error)), session, files, stack)
     for frame in _frames(error, str(library.__file__)):
         _look_at(frame, failure)
     if failure.text and failure.element is not None and not failure.attribute:

@@ -260,11 +260,11 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
 def _noting(
     function: Callable[..., Any], note: Callable[[Any, Session], None], session: Session
 ) -> Callable[..., Any]:
-    """Note where a property or macro stands when the library reads it."""
+    """Note where a property or macro stands when the library has read it."""
 
     def grab(element: Any, table: Any) -> None:
-        note(element, session)
         function(element, table)
+        note(element, session)
 
     return grab
 

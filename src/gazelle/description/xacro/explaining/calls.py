@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 from gazelle.description.xacro.dom import place_of
@@ -15,7 +17,7 @@ from gazelle.description.xacro.explaining.finding import (
 )
 from gazelle.description.xacro.failure import Failure
 from gazelle.description.xacro.sources import definitions_in, files_beside
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import SourceSpan, did_you_mean
 
 __all__ = ["explain_call"]
 
@@ -55,7 +57,10 @@ def _unfit(text: str, macro: Any, failure: Failure) -> Finding:
     message = f"{text}: macro '{name}' takes {len(blocks)} block(s) ({listed(blocks)})"
     fix = "put one child element for each block into the call"
     if text.startswith("Unused block"):
-        fix = f'remove the child element, or add a block to the macro: params="… *{"block"}"'
+        block = text.split('"')[1]
+        fix = f'remove the child element, or add a block to the macro: params="… *{block}"'
+        if block in macro.params:
+            fix = f"'{block}' is a value in params; write *{block} there for a block"
     return Finding("xacro.bad-call", f"{message}; {_signature(macro)}", span, fix, name)
 
 
@@ -125,27 +130,29 @@ def _undefined_block(text: str, failure: Failure) -> Finding:
 
 def _endless(failure: Failure) -> Finding:
     files = list(failure.files)
+    span = _endless_place(failure)
     if len(set(files)) < len(files):
         last = files[-1]
         start = max(index for index, name in enumerate(files[:-1]) if name == last)
         message = "files include each other without end: " + " → ".join(files[start:])
         fix = "include the file once, from the file above both"
-        calls = failure.session.tracker.via()
-        span = calls[0] if calls else failure.span
         return Finding("xacro.recursion", message, span, fix, last)
-    calls = failure.session.tracker.via()
     message = "macros or properties call each other without end"
-    names = list(dict.fromkeys(_called(failure)))
-    if names:
-        message = f"macros call each other without end: {listed(names)}"
-    return Finding("xacro.recursion", message, calls[0] if calls else failure.span)
+    names = [_name_of(macro) for macro in failure.macro_stack]
+    repeated = [name for name in names if names.count(name) > 1]
+    if repeated:
+        message = f"macros call each other without end: {listed(repeated)}"
+    return Finding("xacro.recursion", message, span)
 
 
-def _called(failure: Failure) -> list[str]:
-    import xacro
-
-    stack = xacro.macrostack or []
-    return [_name_of(macro) for macro in stack[-12:]]
+def _endless_place(failure: Failure) -> SourceSpan:
+    """Return the innermost call that is made again and again, and how one gets there."""
+    calls = failure.session.tracker.calls
+    counts = Counter(calls)
+    again = [index for index, call in enumerate(calls) if counts[call] > 1]
+    if not again:
+        return failure.span
+    return replace(calls[again[-1]], via=tuple(reversed(calls[: again[0]])))
 
 
 def _signature(macro: Any) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from typing import Any
 
 from gazelle.description.xacro.explaining.finding import Finding, one_line, short_place
 from gazelle.description.xacro.failure import Failure
+from gazelle.diagnostics import did_you_mean
 
 __all__ = ["explain_expression"]
 
@@ -46,6 +48,8 @@ def explain_expression(failure: Failure) -> Finding | None:
 def _reason(cause: BaseException) -> str:
     if isinstance(cause, SyntaxError):
         return str(cause.msg)
+    if isinstance(cause, KeyError):
+        return f"there is no key {cause}"
     return one_line(str(cause)) or type(cause).__name__
 
 
@@ -93,6 +97,9 @@ def _remedy(failure: Failure, cause: BaseException, values: list[tuple[str, Any]
         return f"give {' or '.join(zeros)} a value other than 0" if zeros else ""
     if isinstance(cause, SyntaxError):
         return _syntax_remedy(failure, cause)
+    if isinstance(cause, KeyError):
+        keys = [str(key) for _, value in values if isinstance(value, dict) for key in _keys(value)]
+        return did_you_mean(str(cause.args[0]), keys)
     for name, value in values:
         unit = _WITH_UNIT.fullmatch(value) if isinstance(value, str) else None
         if unit is not None:
@@ -100,6 +107,12 @@ def _remedy(failure: Failure, cause: BaseException, values: list[tuple[str, Any]
         if isinstance(value, str) and isinstance(cause, TypeError):
             return f"{name} is a text and no number; correct its value"
     return ""
+
+
+def _keys(table: dict[Any, Any]) -> Iterator[Any]:
+    for key, value in table.items():
+        yield key
+        yield from _keys(value) if isinstance(value, dict) else ()
 
 
 def _syntax_remedy(failure: Failure, cause: SyntaxError) -> str:
