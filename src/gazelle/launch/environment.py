@@ -15,8 +15,10 @@ __all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment
 ROS_COMMANDS = (
     "check_urdf",
     "gazebo",
+    "gz",
     "gzclient",
     "gzserver",
+    "ign",
     "ros2",
     "rosclean",
     "roscore",

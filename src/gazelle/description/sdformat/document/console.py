@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from gazelle.description.sdformat.release import Release
 
-__all__ = ["Code", "Console", "SdfError"]
+__all__ = ["Code", "Console", "SdfError", "error_line"]
 
 
 class Code:
@@ -68,6 +68,17 @@ class SdfError(NamedTuple):
             + (f"[{place}]: " if place else "")
             + (f"Msg: {self.message}")
         )
+
+
+def error_line(error: SdfError, release: Release) -> str:
+    """Return the line that a release prints for an error.
+
+    Release 9 prints no places, and its numbers have no `Code.ATTRIBUTE_INCORRECT_TYPE`.
+    """
+    if release is Release.V12:
+        return str(error)
+    number = error.code - (error.code > Code.ATTRIBUTE_INCORRECT_TYPE)
+    return f"Error Code {number} Msg: {error.message}"
 
 
 # Lines of sdformat 9.3 and 12.3 that a message comes from: both print them.

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.description.sdformat.document.console import Code, Console, SdfError
+from gazelle.description.sdformat.document.console import Code, Console, SdfError, error_line
 from gazelle.description.sdformat.document.including import read_include
 from gazelle.description.sdformat.document.model_folder import model_file, version_numbers
 from gazelle.description.sdformat.document.printing import to_text
@@ -109,7 +109,7 @@ class _Includer:
             return Document(None, "", (), console)
         document = _read(data, str(path), console, self.find, (*self.chain, resolved))
         for item in document.errors:
-            console.plain(str(item))
+            console.plain(error_line(item, console.release))
         return document
 
 

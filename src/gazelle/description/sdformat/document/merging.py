@@ -90,7 +90,7 @@ def merge_into(
     pose = _placed_pose(document, top, reading)
     scope = f"_merged__{top.attributes['name']}__model__"
     frame = _proxy_frame(top, scope, _first_link(top, ""))
-    frame.children[0].text = printed_pose(pose)
+    frame.children[0].text = printed_pose(pose, signed_zero=True)
     parent.children.append(frame)
     for part in top.children:
         _refer_to_proxy(part, scope)

@@ -40,7 +40,7 @@ class PoseNotation(NamedTuple):
     quaternion: bool = False
 
     @property
-    def count(self) -> int:
+    def size(self) -> int:
         """How many numbers it takes."""
         return 7 if self.quaternion else 6
 
@@ -91,7 +91,7 @@ def bool_of(text: str) -> bool | None:
 
 def pose_of(text: str, notation: PoseNotation = _RADIANS) -> Pose:
     """Return the pose that a text means, metres and radians unless `notation` says other."""
-    numbers = [float(word) for word in text.split()] or [0.0] * notation.count
+    numbers = [float(word) for word in text.split()] or [0.0] * notation.size
     x, y, z = numbers[:3]
     if notation.quaternion:
         qx, qy, qz, qw = numbers[3:]
@@ -205,7 +205,7 @@ def _is_pose(text: str, attributes: Mapping[str, str], console: Console) -> bool
         )
         console.error("degrees-of-quaternion", message)
         return False
-    return not any(map(bool, _pose_faults(text, form, notation.count, console)))
+    return not any(map(bool, _pose_faults(text, form, notation.size, console)))
 
 
 def _pose_faults(text: str, form: str, count: int, console: Console) -> Iterator[str]:

@@ -59,7 +59,7 @@ _SENSORS = frozenset(
         "wideanglecamera",
         "wireless_receiver",
         "wireless_transmitter",
-    }  # fmt: skip
+    }
 )
 _LIGHTS = ("point", "spot", "directional")
 _EMITTERS = ("point", "box", "cylinder", "ellipsoid")

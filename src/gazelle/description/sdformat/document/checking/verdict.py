@@ -158,7 +158,7 @@ def _checked_models(loaded: Loaded) -> list[ModelScope]:
 def _check_ends(model: ModelScope, scope: Scope, errors: list[SdfError]) -> None:
     """Report joints whose ends are nothing, or one and the same."""
     links = {link.name for link in model.links}
-    others = {item.name for item in (*model.joints, *model.frames)}
+    others = {joint.name for joint in model.joints} | {frame.name for frame in model.frames}
     nested = {one.name for one in model.models}
     place = f"in model with name[{model.name}]"
     for joint in model.joints:

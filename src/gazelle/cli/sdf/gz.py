@@ -1,0 +1,135 @@
+"""``gz``: Gazebo 11's tool, of which Gazelle has ``gz sdf``."""
+
+from __future__ import annotations
+
+import sys
+from getopt import GetoptError, gnu_getopt
+from pathlib import Path
+
+from gazelle.cli.sdf.other_commands import GZ_INSTEAD
+from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
+from gazelle.description.sdformat.document import to_text
+from gazelle.description.sdformat.document.console import error_line
+from gazelle.description.sdformat.document.describing import described_specification
+from gazelle.description.sdformat.release import Release
+
+__all__ = ["main"]
+
+_OLD = Release.V9
+_UNKNOWN = 255
+_HELP = """This tool modifies various aspects of a running Gazebo simulation.
+
+  Usage:  gz <command>
+
+List of commands:
+
+  help      Print this help text.
+  sdf       Converts between SDF versions, and provides info about SDF files
+
+
+Use "gz help <command>" to print help for a command."""
+_SDF_HELP = """ gz sdf [options]
+
+\tIntrospect, convert, and output SDF files.
+\tUse the -v option to specify the version of
+\tSDF for use with other options.
+
+Options:
+  --verbose             Print extra information
+  -h [ --help ]         Print this help message
+  -d [ --describe ]     Print SDF format for given version(-v).
+  -c [ --convert ] arg  In place conversion of arg to the latest SDF version.
+  -o [ --doc ]          Print HTML SDF. Use -v to specify version.
+  -k [ --check ] arg    Validate arg.
+  -v [ --version ] arg  Version of SDF to use with other options.
+  -p [ --print ] arg    Print arg, useful for debugging and as a conversion 
+                        tool.
+  --no-findings         Gazelle: leave out its own findings behind the output.
+"""  # noqa: W291
+_SHORT = "hdc:ok:v:p:"
+_LONG = ["verbose", "help", "describe", "convert=", "doc", "check=", "version=", "print="]
+_NAMES = {
+    "-h": "help", "-d": "describe", "-c": "convert", "-o": "doc", "-k": "check", "-v": "version",
+    "-p": "print",
+}  # fmt: skip
+
+
+def main(argv: list[str]) -> int:
+    """Run a command of ``gz``.
+
+    Returns:
+        0 for every command there is, also when a file is wrong, as the original does; 255 for
+        others.
+    """
+    name = argv[0] if argv else ""
+    if name == "sdf":
+        return _run_sdf(argv[1:])
+    if name == "help" and argv[1:] == ["sdf"]:
+        say([_SDF_HELP])
+        return 0
+    if name in GZ_INSTEAD:
+        say([f"gazelle: gz {name} is not here; use {GZ_INSTEAD[name]}"])
+        return _UNKNOWN
+    say([_HELP])
+    return 0 if name == "help" else _UNKNOWN
+
+
+def _run_sdf(words: list[str]) -> int:
+    words, is_quiet = take_quiet(words)
+    try:
+        pairs, _rest = gnu_getopt(words, _SHORT, _LONG)
+    except GetoptError:
+        say(["Invalid arguments"])
+        return 0
+    options = {_NAMES.get(name, name.lstrip("-")): value for name, value in pairs}
+    version = options.get("version", "1.7")
+    if version != "1.7":
+        say([f"gazelle: gz sdf knows SDF 1.7 only, not {version}; ign sdf knows 1.9"])
+        return _UNKNOWN
+    word = options.get("check", options.get("print", ""))
+    if "check" in options:
+        _check(word)
+    elif "describe" in options:
+        sys.stdout.write(described_specification(_OLD))
+    elif "doc" in options or "convert" in options:
+        return _say_missing(options)
+    elif "print" in options:
+        _print(word)
+    else:
+        say([_SDF_HELP])
+    if word and not is_quiet:
+        report_findings(word)
+    return 0
+
+
+def _check(word: str) -> None:
+    if _text_of(word) is not None:
+        print("Check complete")
+
+
+def _print(word: str) -> None:
+    text = _text_of(word)
+    if text is not None:
+        sys.stdout.write(text)
+
+
+def _text_of(word: str) -> str | None:
+    """Return a file as sdformat 9 prints it; None, said why, when it refuses it."""
+    if not Path(word).exists():
+        say([f"Error: File doesn't exist[{word}]"])
+    document = read_for(word, _OLD)
+    say(document.console.lines)
+    say(error_line(error, _OLD) for error in document.errors)
+    if document.root is None:
+        say(["Error: SDF parsing the xml failed"])
+        return None
+    return to_text(document.root, _OLD)
+
+
+def _say_missing(options: dict[str, str]) -> int:
+    if "convert" in options:
+        file = options["convert"]
+        say([f"gazelle: gz sdf does not rewrite '{file}' in place; use gz sdf -p {file} > NEW.sdf"])
+    else:
+        say(["gazelle: gz sdf has no HTML; use gz sdf -d, or sdformat.org/spec"])
+    return _UNKNOWN

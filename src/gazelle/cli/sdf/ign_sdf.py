@@ -1,0 +1,226 @@
+"""``ign sdf``: options and output of sdformat 12's program."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from getopt import GetoptError, gnu_getopt
+from pathlib import Path
+
+from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
+from gazelle.description.sdformat.document import Document, to_text
+from gazelle.description.sdformat.document.checking import load, name_problems
+from gazelle.description.sdformat.document.checking.attached import attached_graph
+from gazelle.description.sdformat.document.checking.relative import relative_graph
+from gazelle.description.sdformat.document.console import Code, SdfError
+from gazelle.description.sdformat.document.describing import described_specification
+from gazelle.description.sdformat.document.inertial_stats import inertial_stats
+from gazelle.description.sdformat.document.rewriting import (
+    Snap,
+    with_angles_in_degrees,
+    with_includes,
+)
+from gazelle.description.sdformat.document.specification import specification
+from gazelle.description.sdformat.release import Release
+
+__all__ = ["USAGE", "run_sdf"]
+
+_FAILED = 255
+_NEW = Release.V12
+_SNAP_LIMIT_DEG = 360
+USAGE = """Utilities for SDF files.
+
+  ign sdf [options]
+
+Options:
+
+  -k [ --check ] arg                Check if an SDFormat file is valid.
+  -d [ --describe ] [SPEC VERSION]  Print the aggregated SDFormat spec description. Default version (1.9).
+  -g [ --graph ] <pose, frame> arg  Print the PoseRelativeTo or FrameAttachedTo graph. (WARNING: This is for advanced
+                                    use only and the output may change without any promise of stability)
+  -p [ --print ] arg                Print converted arg.
+      -i [ --preserve-includes ]    Preserve included tags when printing converted arg (does not preserve merge-includes).
+      --degrees                     Pose rotation angles are printed in degrees.
+      --snap-to-degrees arg         Snap pose rotation angles to this specified interval in degrees. This value must be
+                                    larger than 0, less than or equal to 360, and larger than the defined snap tolerance.
+      --snap-tolerance arg          Used in conjunction with --snap-to-degrees, specifies the tolerance at which snapping
+                                    occurs. This value must be larger than 0, less than 360, and less than the defined
+                                    degrees value to snap to. If unspecified, its default value is 0.01.
+  --inertial-stats  arg             Prints moment of inertia, centre of mass, and total mass from a model sdf file.
+  --no-findings                     Gazelle: leave out its own findings behind the output.
+  -h [ --help ]                     Print this help message.
+  --force-version <VERSION>         Use a specific library version.
+  --versions                        Show the available versions."""  # noqa: E501
+_SHORT = "hk:dpg:i"
+_LONG = [
+    "help", "check=", "describe", "print", "graph=", "preserve-includes", "degrees",
+    "snap-to-degrees=", "snap-tolerance=", "inertial-stats=",
+]  # fmt: skip
+_NAMES = {"-k": "check", "-d": "describe", "-p": "print", "-g": "graph", "-i": "preserve-includes"}
+
+
+def run_sdf(words: list[str]) -> int:
+    """Run ``ign sdf`` with the words behind ``sdf``; return its exit code."""
+    words, is_quiet = take_quiet(words)
+    try:
+        pairs, rest = gnu_getopt(words, _SHORT, _LONG)
+    except GetoptError:
+        return _usage()
+    options = {_NAMES.get(name, name.lstrip("-")): value for name, value in pairs}
+    if "h" in options or "help" in options:
+        print(USAGE)
+        return 0
+    if "check" in options:
+        return _told(_check, options["check"], is_quiet=is_quiet)
+    if "inertial-stats" in options:
+        return _told(_print_stats, options["inertial-stats"], is_quiet=is_quiet)
+    if "describe" in options:
+        return _describe(rest[0] if rest else "1.9")
+    if "print" in options and rest:
+        return _print(rest[-1], options, is_quiet=is_quiet)
+    if "graph" in options and rest:
+        kind = options["graph"]
+        return _told(lambda word: _print_graph(kind, word), rest[0], is_quiet=is_quiet)
+    return _usage()
+
+
+def _usage() -> int:
+    print(USAGE)
+    return _FAILED
+
+
+def _told(action: Callable[[str], int], word: str, *, is_quiet: bool) -> int:
+    code = action(word)
+    if not is_quiet:
+        report_findings(word)
+    return code
+
+
+def _check(word: str) -> int:
+    path = str(Path(word).absolute())
+    document = read_for(path, _NEW)
+    say(document.console.lines)
+    if document.root is None:
+        unread = SdfError(Code.FILE_READ, f"Unable to read file:{path}")
+        say([*document.errors, unread])
+        return _FAILED
+    loaded = load(document)
+    say(loaded.console.lines)
+    errors = [*document.errors, *loaded.errors]
+    problems = [] if errors else name_problems(document)
+    say([*errors, *problems])
+    if not errors:
+        # The file is read a second time and says everything again.
+        say(document.console.lines)
+    if errors or problems:
+        return _FAILED
+    print("Valid.")
+    return 0
+
+
+def _print(word: str, options: dict[str, str], *, is_quiet: bool) -> int:
+    try:
+        snap = _snap_of(options)
+    except ValueError as error:
+        print(error)
+        return _FAILED
+    document = _existing(word)
+    if document is None:
+        return _FAILED
+    say(_said(document))
+    if document.root is None:
+        say(["Error: SDF parsing the xml failed."])
+        return _told(lambda _word: _FAILED, word, is_quiet=is_quiet)
+    root = with_includes(document) if "preserve-includes" in options else document.root
+    if snap is not None or "degrees" in options:
+        root = with_angles_in_degrees(root, specification(_NEW), snap)
+    sys.stdout.write(to_text(root, _NEW))
+    return _told(lambda _word: 0, word, is_quiet=is_quiet)
+
+
+def _snap_of(options: dict[str, str]) -> Snap | None:
+    """Return how angles are snapped.
+
+    Raises:
+        ValueError: in the words of the program.
+    """
+    if "snap-to-degrees" not in options:
+        return None
+    interval = _number(options["snap-to-degrees"])
+    tolerance = _number(options.get("snap-tolerance", "0.01"))
+    if not 0 < interval <= _SNAP_LIMIT_DEG or interval != int(interval):
+        raise ValueError(
+            "Degree interval to snap to must be more than 0, and less than or equal to 360."
+        )
+    if not 0 <= tolerance <= _SNAP_LIMIT_DEG:
+        raise ValueError("Rotation snapping tolerance must be more than 0, and less than 360.")
+    if interval < tolerance:
+        raise ValueError("Rotation snapping tolerance must be larger than the snapping tolerance.")
+    return Snap(int(interval), tolerance)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return -1.0
+
+
+def _existing(word: str) -> Document | None:
+    path = Path(word).absolute()
+    if not path.exists():
+        say([f"Error: File [{path}] does not exist."])
+        return None
+    return read_for(str(path), _NEW)
+
+
+def _said(document: Document) -> list[str]:
+    return [*document.console.lines, *map(str, document.errors)]
+
+
+def _print_graph(kind: str, word: str) -> int:
+    document = _existing(word)
+    if document is None:
+        return _FAILED
+    say(document.console.lines)
+    loaded = load(document) if document.root is not None else None
+    if loaded is not None:
+        say([*loaded.console.lines, *document.errors, *loaded.errors])
+    if kind not in ("pose", "frame"):
+        say(['Only "pose" and "frame" graph types are supported'])
+        return 0
+    subject = None if loaded is None else loaded.worlds[0] if loaded.worlds else loaded.model
+    if subject is None:
+        print("digraph {\n}\n")
+        return 0
+    errors: list[SdfError] = []
+    build = relative_graph if kind == "pose" else attached_graph
+    dot = build(subject, errors).graph.to_dot()
+    say(errors)
+    print(dot)
+    return 0
+
+
+def _print_stats(word: str) -> int:
+    document = _existing(word)
+    if document is None or document.root is None:
+        say([] if document is None else _said(document))
+        return _FAILED
+    loaded = load(document)
+    say([*document.console.lines, *loaded.console.lines, *document.errors, *loaded.errors])
+    if loaded.worlds:
+        say(["Error: Expected a model file but received a world file."])
+        return _FAILED
+    if loaded.model is None:
+        say(["Error: Could not find the model."])
+        return _FAILED
+    sys.stdout.write(inertial_stats(loaded.model))
+    return 0
+
+
+def _describe(version: str) -> int:
+    if version != "1.9":
+        say([f"gazelle: ign sdf describes SDF 1.9 only, not {version}; gz sdf -d describes 1.7"])
+        return _FAILED
+    sys.stdout.write(described_specification(_NEW))
+    return 0
