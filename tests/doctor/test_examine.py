@@ -8,10 +8,9 @@ import subprocess
 import threading
 
 import pytest
+from tests.doctor.conftest import FIXTURES, Examine, Write
 
 from gazelle.diagnostics import Severity
-
-from .conftest import FIXTURES, Examine, Write
 
 NAMES = FIXTURES / "pain_23_namespaces" / "clean"
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from tests.doctor.conftest import FIXTURES, Examine, codes
 
 from gazelle.doctor import Report
-
-from .conftest import FIXTURES, Examine, codes
 
 # Pain, launch file, code, severity, file and line of the place, words of message and fix.
 BROKEN = [
@@ -56,7 +55,7 @@ BROKEN = [
      "the remap from 'jointstates' to '/rover/joint_states' is of no use",
      "did you mean '/joint_states'?"),
     ("23_namespaces", "robot", "doctor.topic-elsewhere", "warning", "robot.launch:12",
-     "'/listener' listens to '/scan', which nobody in this launch publishes; there is '/rover/scan'",
+     "listens to '/scan', which nobody in this launch publishes; there is '/rover/scan'",
      'to="/rover/scan"'),
     ("23_namespaces", "controllers", "doctor.controller-fails", "error", "controllers.launch:8",
      "cannot load controller 'lefft'", "did you mean 'left'?"),

@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.doctor.conftest import FIXTURES, Examine, Write, codes
 
 from gazelle.doctor.target import find_target, package_at
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.workspace import Workspace
-
-from .conftest import FIXTURES, Examine, Write, codes
 
 FRAMES = FIXTURES / "pain_13_frames" / "clean"
 
@@ -64,7 +63,7 @@ def test_three_words_that_are_no_files_are_refused() -> None:
 
 
 def test_empty_folder_says_what_can_be_named(tmp_path: Path) -> None:
-    with pytest.raises(GazelleError, match="gazelle doctor PACKAGE | FOLDER | FILE"):
+    with pytest.raises(GazelleError, match=r"gazelle doctor PACKAGE \| FOLDER \| FILE"):
         find_target([], _workspace(tmp_path), tmp_path)
 
 

@@ -66,8 +66,7 @@ def _brought_up(
     server: WorldServer,
     diagnostics: Diagnostics,
 ) -> DryStart:
-    for model in plan.models:
-        server.spawn(model)
+    _bring_in(plan, server)
     spawned, unpaused_by = _spawn_all(plan, node, server)
     for start in plan.controllers:
         start_controllers(start, server.controls.managers, server.diagnostics)
@@ -120,6 +119,15 @@ def _server(
 
     offer_gazebo_ros(server, ros2=offers_ros2(options), report=report)
     return server
+
+
+def _bring_in(plan: StartPlan, server: WorldServer) -> None:
+    for model in plan.models:
+        try:
+            server.spawn(model)
+        except GazelleError as error:
+            text = f"model '{model.name}' cannot be brought into the world: {error}"
+            server.diagnostics.report("doctor.spawn-fails", text, model.span)
 
 
 def _spawn_all(

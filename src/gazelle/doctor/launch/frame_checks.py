@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gazelle.description.model import Model, PluginTag
+from gazelle.description.model import JointType, Model, PluginTag
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.dry_start import DryStart
@@ -105,8 +105,15 @@ def _check_silent_joints(
     if is_of_2011:
         text += "; the PR2's controller manager published them itself, Gazelle's does not"
         severity = Severity.INFO
+    elif not starts and len(silent) == _moving(publisher):
+        text += "; right where another launch brings the robot to life"
+        severity = Severity.INFO
     span = publisher.node.spec.span
     diagnostics.report("doctor.joint-without-state", text, span, fix=fix, severity=severity)
+
+
+def _moving(publisher: StatePublisher) -> int:
+    return sum(joint.type is not JointType.FIXED for joint in publisher.model.joints)
 
 
 def _joints(count: int) -> str:

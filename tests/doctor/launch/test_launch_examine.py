@@ -1,0 +1,163 @@
+"""Launches made wrong in one way, in text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from xml.sax.saxutils import escape
+
+import pytest
+from tests.doctor.conftest import Examine, Write, codes
+
+from gazelle.doctor import Report
+from gazelle.doctor.dry_start import start as start_module
+from gazelle.errors import EngineError
+
+Launch = Callable[..., Report]
+
+WORLD = '<include file="$(find gazebo_ros)/launch/empty_world.launch">{}</include>'
+QUIET = WORLD.format('<arg name="gui" value="false"/>')
+_LINK = (
+    '<link name="{}"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" '
+    'iyz="0" izz="0.01"/></inertial></link>'
+)
+
+
+def _description(*parts: str) -> str:
+    text = escape(f"<robot name='r'>{''.join(parts)}</robot>", {'"': "&quot;"})
+    return f'<param name="robot_description" value="{text}"/>'
+
+
+ROBOT = _description(_LINK.format("a"))
+ROLLING = _description(
+    _LINK.format("a"),
+    _LINK.format("b"),
+    '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>',
+)
+SPAWN = '<node name="spawn" pkg="gazebo_ros" type="spawn_model" args="{}"{}/>'
+ARGS = "-urdf -model r -param robot_description"
+STATES = '<node name="rsp" pkg="robot_state_publisher" type="robot_state_publisher"/>'
+
+
+@pytest.fixture
+def launched(written: Write, examined: Examine) -> Launch:
+    """Examines the text of a launch file."""
+
+    def run(*elements: str, **files: str) -> Report:
+        folder = written(**{"one.launch": f"<launch>{''.join(elements)}</launch>"}, **files)
+        return examined(folder, "bot", "one.launch")
+
+    return run
+
+
+def test_robot_in_an_empty_world_is_clean(launched: Launch) -> None:
+    assert codes(launched(QUIET, ROBOT, SPAWN.format(ARGS, ""))) == []
+
+
+@pytest.mark.parametrize(
+    ("word", "code"), [("required", "doctor.required-ends"), ("respawn", "doctor.respawn-ends")]
+)
+def test_spawner_that_ends_is_neither_required_nor_respawned(
+    launched: Launch, word: str, code: str
+) -> None:
+    assert codes(launched(QUIET, ROBOT, SPAWN.format(ARGS, f' {word}="true"'))) == [code]
+    # With -b it stays and takes its model away in the end.
+    assert codes(launched(QUIET, ROBOT, SPAWN.format(f"{ARGS} -b", f' {word}="true"'))) == []
+
+
+def test_paused_world_is_a_notice_unless_a_spawner_unpauses(launched: Launch) -> None:
+    paused = WORLD.format('<arg name="paused" value="true"/>')
+    assert "doctor.paused" in codes(launched(paused, ROBOT, SPAWN.format(ARGS, "")), "info")
+    spawn = SPAWN.format(f"{ARGS} -unpause", "")
+    assert "doctor.paused" not in codes(launched(paused, ROBOT, spawn), "info")
+
+
+@pytest.mark.parametrize(
+    ("args", "reason"),
+    [
+        ("-urdf -model r -topic description", "a description on topic /description"),
+        (f"{ARGS} -wait table", "model 'table', which no spawner before it brings"),
+        (f"{ARGS} -gazebo_namespace /gazbo", "service /gazbo/spawn_urdf_model"),
+    ],
+)
+def test_spawner_that_waits_for_ever_is_told(launched: Launch, args: str, reason: str) -> None:
+    report = launched(QUIET, ROBOT, SPAWN.format(args, ""))
+    (found,) = [item for item in report.findings if item.code == "doctor.spawn-waits"]
+    assert reason in found.message
+
+
+@pytest.mark.parametrize(
+    ("args", "reason"),
+    [
+        ("-urdf -model r -param description", "the parameter is '/description'"),
+        ("-urdf -param robot_description", "the following arguments are required: -model"),
+        ("-sdf -model r -file /nowhere.sdf", "specified file /nowhere.sdf does not exist"),
+        ("-sdf -model r -database no_such_model", "Failure"),
+    ],
+)
+def test_spawner_that_fails_says_why(launched: Launch, args: str, reason: str) -> None:
+    report = launched(QUIET, ROBOT, SPAWN.format(args, ""))
+    (found,) = [item for item in report.findings if item.code == "doctor.spawn-fails"]
+    assert reason in found.message
+    assert found.span is not None
+
+
+def test_second_model_of_a_name_fails(launched: Launch) -> None:
+    twice = SPAWN.format(ARGS, "") + SPAWN.format(ARGS, "").replace('"spawn"', '"again"')
+    report = launched(QUIET, ROBOT, twice)
+    (found,) = [item for item in report.findings if item.code == "doctor.spawn-fails"]
+    assert "'/again' cannot bring its model into the world" in found.message
+    assert "entity already exists" in found.message
+
+
+def test_simulator_that_cannot_start_is_told(
+    launched: Launch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_args: object, **_keys: object) -> None:
+        raise EngineError("too many bodies")
+
+    monkeypatch.setattr(start_module, "WorldServer", refuse)
+    report = launched(QUIET)
+    (found,) = [item for item in report.findings if item.code == "doctor.start-fails"]
+    assert found.message == "the simulator '/gazebo' cannot start: too many bodies"
+
+
+def test_nothing_follows_from_a_parameter_that_could_not_be_made(launched: Launch) -> None:
+    command = '<param name="robot_description" command="false"/>'
+    assert codes(launched(command, STATES)) == ["launch.param-command-failed"]
+
+
+def test_node_nobody_knows_makes_missing_joint_states_uncertain(launched: Launch) -> None:
+    wheel = "doctor.joint-without-state"
+    spawn = SPAWN.format(ARGS, "")
+    assert wheel in codes(launched(QUIET, ROLLING, spawn, STATES))
+    driver = '<node name="driver" pkg="bot" type="driver"/>'
+    assert wheel not in codes(launched(QUIET, ROLLING, spawn, STATES, driver), "info")
+
+
+def test_missing_joint_states_are_a_notice_where_no_robot_is(launched: Launch) -> None:
+    report = launched(ROLLING, STATES)
+    (found,) = [item for item in report.findings if item.code == "doctor.joint-without-state"]
+    assert str(found.severity) == "info"
+    assert "right where another launch brings the robot to life" in found.message
+
+
+def test_remap_for_everyone_is_used_by_one(launched: Launch) -> None:
+    remap = '<remap from="joint_states" to="states"/>'
+    assert "doctor.remap-unused" not in codes(launched(remap, QUIET, ROBOT, STATES))
+    wrong = '<remap from="joint_state" to="states"/>'
+    assert "doctor.remap-unused" in codes(launched(wrong, QUIET, ROBOT, STATES))
+
+
+def test_remap_of_a_service_in_a_script_is_used(launched: Launch) -> None:
+    script = "import rospy\nrospy.Service('reset', None, None)\n"
+    node = '<node name="n" pkg="bot" type="n.py"><remap from="{}" to="a"/></node>'
+    assert codes(launched(node.format("reset"), **{"scripts__n.py": script})) == [
+        "launch.not-executable"
+    ]
+    assert "doctor.remap-unused" in codes(
+        launched(node.format("clear"), **{"scripts__n.py": script})
+    )
+
+
+def test_parameter_of_a_navigation_planner_is_no_misspelled_clock(launched: Launch) -> None:
+    assert codes(launched('<param name="planner/sim_time" value="1.5"/>')) == []

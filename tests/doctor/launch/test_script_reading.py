@@ -1,0 +1,82 @@
+"""What a script's source says of its topics, and when it says that it does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gazelle.doctor.launch.script_reading import ScriptTopics, read_script
+
+Read = Callable[[str], ScriptTopics]
+
+_HEAD = "import rospy\nfrom std_msgs.msg import String\n"
+
+
+@pytest.fixture
+def read(tmp_path: Path) -> Read:
+    """Reads a source."""
+
+    def run(source: str) -> ScriptTopics:
+        path = tmp_path / f"node{len(list(tmp_path.iterdir()))}.py"
+        path.write_text(source, encoding="utf-8")
+        return read_script(path)
+
+    return run
+
+
+def test_literal_names_and_types_of_rospy_are_read(read: Read) -> None:
+    found = read(
+        _HEAD + "rospy.Publisher('out', String, queue_size=1)\n"
+        "rospy.Subscriber(name='in', data_class=String, callback=print)\n"
+    )
+    assert found == ScriptTopics((("out", "String"),), (("in", "String"),))
+
+
+def test_names_of_rclpy_are_read(read: Read) -> None:
+    found = read(
+        "from rclpy.node import Node\nimport std_msgs.msg\nclass N(Node):\n"
+        "    def __init__(self):\n"
+        "        self.create_publisher(std_msgs.msg.String, '/out', 10)\n"
+        "        self.create_subscription(std_msgs.msg.String, 'in', print, 10)\n"
+    )
+    assert found.publishes == (("/out", "String"),)
+    assert found.listens == (("in", "String"),)
+    assert found.is_complete
+
+
+def test_constant_of_the_module_is_a_name(read: Read) -> None:
+    found = read(_HEAD + "TOPIC = 'out'\nrospy.Publisher(TOPIC, String)\n")
+    assert found.publishes == (("out", "String"),)
+    assert found.is_complete
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "rospy.Publisher(rospy.get_param('~topic'), String)\n",
+        "NAME = 'a'\nNAME = 'b'\nrospy.Publisher(NAME, String)\n",
+        "exec(open('other.py').read())\n",
+        "from .other import talk\n",
+        "import actionlib\nactionlib.SimpleActionClient('move', None)\n",
+        "def broken(:\n",
+    ],
+    ids=["computed", "bound twice", "exec", "own module", "action", "no Python"],
+)
+def test_what_may_use_other_topics_is_not_complete(read: Read, source: str) -> None:
+    assert not read(_HEAD + source).is_complete
+
+
+def test_python_2_is_read(read: Read) -> None:
+    found = read(_HEAD + "print 'hello'\nrospy.Publisher('out', String)\n")
+    assert found.publishes == (("out", "String"),)
+
+
+def test_broadcaster_of_tf_is_seen(read: Read) -> None:
+    assert read(_HEAD + "import tf\ntf.TransformBroadcaster()\n").sends_transforms
+    assert not read(_HEAD).sends_transforms
+
+
+def test_missing_file_is_not_complete(tmp_path: Path) -> None:
+    assert not read_script(tmp_path / "none.py").is_complete
