@@ -46,7 +46,7 @@ def test_collisions_are_called_as_sdformat_calls_them() -> None:
 
 def test_preserved_joints_keep_names() -> None:
     root, model = _file(FIXTURES / "pain_06_lumping/clean/sensors.urdf")
-    assert lumped_links(model) == {}
+    assert lumped_links(model) == {"base_link": "base_footprint"}
     assert collision_names(root, model)["bumper"] == ("bumper_collision",)
 
 

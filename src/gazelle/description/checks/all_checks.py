@@ -13,10 +13,12 @@ from gazelle.description.checks.joint_values import check_joints
 from gazelle.description.checks.lumping import check_lumping
 from gazelle.description.checks.outlines import Outlines
 from gazelle.description.checks.overlaps import check_overlaps
+from gazelle.description.checks.preserved import check_preserved
 from gazelle.description.checks.roots import check_root
 from gazelle.description.checks.sizes import check_sizes
 from gazelle.description.checks.stance import check_stance
 from gazelle.description.checks.surfaces import check_surfaces
+from gazelle.description.checks.wheel_shapes import check_wheel_shapes
 from gazelle.description.checks.wheels import check_wheels
 from gazelle.description.model import Model
 from gazelle.description.xml import Tag, read_xml
@@ -56,10 +58,12 @@ def check_description(
     if model.static:
         return
     check_root(model, diagnostics)
+    check_preserved(model, diagnostics)
     check_lumping(model, diagnostics, root=_root_of(model) if root is None else root)
     check_joints(model, diagnostics)
     check_cameras(model, diagnostics)
     check_wheels(model, diagnostics)
+    check_wheel_shapes(model, diagnostics)
     check_surfaces(model, diagnostics, step_s=step_s)
     check_stance(model, outlines, diagnostics)
     check_overlaps(model, outlines, diagnostics)

@@ -111,6 +111,15 @@ ENTRIES = (
         "point cloud is rotated in RViz",
     ),
     Entry(
+        "robot.preserved-massless",
+        "warning",
+        "A preserved fixed joint has a link without mass",
+        "Gazebo drops links without mass. Lumping saves them, by merging them with one that has "
+        "mass; preserving the joint takes that away.",
+        "remove <preserveFixedJoint>, or give the link a small mass",
+        "urdf2sdf: link has no <inertial> block defined, not modeled in sdf",
+    ),
+    Entry(
         "robot.root-inertia",
         "info",
         "The root link has an inertia",
@@ -168,6 +177,14 @@ ENTRIES = (
         "along z, an <axis> that is left out is x.",
         "write the cylinder's axis into <axis>",
         "wheels wobble, robot does not move",
+    ),
+    Entry(
+        "robot.wheel-box",
+        "warning",
+        "A wheel is a box",
+        "Only cylinders, spheres and round meshes roll.",
+        "use a <cylinder> for the collision",
+        "robot hops or bumps while it drives",
     ),
     Entry(
         "robot.wheel-in-the-air",
