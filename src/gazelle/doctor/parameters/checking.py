@@ -1,21 +1,31 @@
-"""The front functions: one file, one description's text, one robot with its files, one package."""
+"""The front functions: one file, and all files of a package."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.packages.source import SourcePackage
+from gazelle.doctor.parameters.controllers import check_controllers, controllers_in
+from gazelle.doctor.parameters.description_text import check_description_text
+from gazelle.doctor.parameters.document import read_document
+from gazelle.doctor.parameters.layouts import Layout, check_layout, layout_of
+from gazelle.doctor.parameters.names import NameFiles, check_names, read_name_files
+from gazelle.doctor.parameters.robots import robots_for, whole_robots
+from gazelle.doctor.parameters.value_checks import check_values
 from gazelle.doctor.report import Section
 from gazelle.workspace import Package, Workspace
 
-__all__ = [
-    "check_description_text",
-    "check_names",
-    "check_package_parameters",
-    "check_parameter_file",
-]
+__all__ = ["check_package_parameters", "check_parameter_file"]
+
+_FOLDERS = frozenset(
+    {"cfg", "conf", "config", "configs", "control", "controllers", "param", "params", "parameters",
+     "yaml"}
+)  # fmt: skip
+_OUTSIDE = frozenset({"doc", "docs", "test", "tests"})
+_ROBOTS = (".urdf", ".xacro")
 
 
 def check_parameter_file(
@@ -34,30 +44,16 @@ def check_parameter_file(
             layout at its word.
         joints: names of the robot's joints, for words that YAML takes for something else.
     """
-
-
-def check_description_text(text: str, *, file: str, diagnostics: Diagnostics) -> None:
-    """Report what keeps a robot description from being passed to a ROS 2 node as a parameter.
-
-    Args:
-        text: URDF text as it becomes the parameter.
-        file: name for the places.
-        diagnostics: receives the findings.
-    """
-
-
-def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics) -> Section | None:
-    """Compare the names of a robot with those of its controllers' and MoveIt's files.
-
-    Args:
-        model: the robot, read from its URDF.
-        files: parameter files and SRDFs that are for this robot.
-        diagnostics: receives the findings.
-
-    Returns:
-        The section ``names``: one row per joint or controller; None when no file names any.
-    """
-    return None
+    document = read_document(path, diagnostics)
+    if document is None:
+        return
+    layout = layout_of(document)
+    check_layout(document, layout, generation, diagnostics)
+    reader = generation or (2 if layout is Layout.ROS2 else 1)
+    # MoveIt's files of ROS 2 are read by PyYAML too.
+    loader = 1 if layout is Layout.MOVEIT else reader
+    check_values(document, layout, loader, diagnostics, joints=joints)
+    check_controllers(controllers_in(document, layout), diagnostics)
 
 
 def check_package_parameters(
@@ -70,4 +66,50 @@ def check_package_parameters(
         workspace: finds the packages whose robots this one configures.
         diagnostics: receives the findings.
     """
-    return ()
+    source = SourcePackage(package)
+    files = [package.path / name for name in source.files if _is_parameter_file(name)]
+    generation = 2 if source.is_ros2 else 1
+    names = read_name_files(files)
+    model = _robot(names, files, package, generation, workspace)
+    known = [joint.name for joint in model.joints] if model is not None else ()
+    for path in files:
+        if path.suffix != ".srdf":
+            check_parameter_file(path, diagnostics=diagnostics, generation=generation, joints=known)
+    if generation == 2:
+        written = [source.folder / name for name in source.files if name.endswith(_ROBOTS)]
+        for path, text in whole_robots(source, workspace):
+            check_description_text(text, file=str(path), diagnostics=diagnostics, sources=written)
+    section = check_names(model, files, diagnostics=diagnostics) if model is not None else None
+    return (section,) if section is not None else ()
+
+
+def _robot(
+    names: NameFiles,
+    files: Sequence[Path],
+    package: Package,
+    generation: int,
+    workspace: Workspace,
+) -> Model | None:
+    """Return the robot that the files are for: of several, the one they fit best."""
+    joints = names.joints()
+    if not joints:
+        return None
+    wanted = names.generation or generation
+    found = robots_for(package, joints, generation=wanted, workspace=workspace)
+    best: tuple[int, Model] | None = None
+    for model in found:
+        trial = Diagnostics()
+        check_names(model, files, diagnostics=trial)
+        if best is None or len(trial) < best[0]:
+            best = (len(trial), model)
+    return None if best is None else best[1]
+
+
+def _is_parameter_file(name: str) -> bool:
+    path = PurePosixPath(name)
+    if _OUTSIDE & set(path.parts):
+        return False
+    if path.suffix == ".srdf":
+        return True
+    is_near = len(path.parts) == 1 or bool(_FOLDERS & {part.lower() for part in path.parts[:-1]})
+    return path.suffix in {".yaml", ".yml"} and is_near and not name.endswith((".launch.yaml",))

@@ -1,0 +1,159 @@
+"""What kind of YAML file something is, and whether its layout is one that ROS can read."""
+
+from __future__ import annotations
+
+import enum
+
+import yaml
+
+from gazelle.control.controllers.registry import known_types
+from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
+from gazelle.doctor.parameters.document import Document
+
+__all__ = ["MARK", "Layout", "check_layout", "layout_of"]
+
+MARK = "ros__parameters"
+_MOVEIT_KEYS = frozenset(
+    {
+        "cartesian_limits", "controller_list", "default_velocity_scaling_factor", "joint_limits",
+        "initial_positions", "kinematics_solver", "moveit_controller_manager", "planner_configs",
+        "moveit_simple_controller_manager", "octomap_frame", "planning_plugin", "sensors",
+        "trajectory_execution",
+    }
+)  # fmt: skip
+
+
+class Layout(enum.Enum):
+    """Kinds of YAML files in packages of robots."""
+
+    ROS2 = "node: ros__parameters: …"
+    ROS1 = "names of the ROS 1 parameter server"
+    MOVEIT = "a part of MoveIt's configuration"
+    MAP = "a map's description"
+    OTHER = "anything else"
+
+
+def layout_of(document: Document) -> Layout:
+    """Return what a file is, by its keys."""
+    keys = set(document.keys(document.root))
+    if _marks(document.root):
+        return Layout.ROS2
+    if {"image", "resolution"} <= keys:
+        return Layout.MAP
+    inner = {key for name in keys for key in document.keys(document.find(name))}
+    if keys & _MOVEIT_KEYS or "kinematics_solver" in inner or "planner_configs" in inner:
+        return Layout.MOVEIT
+    if _has_controllers(document.root):
+        return Layout.ROS1
+    return Layout.OTHER
+
+
+def check_layout(
+    document: Document, layout: Layout, generation: int | None, diagnostics: Diagnostics
+) -> None:
+    """Report a layout that the file's own generation of ROS refuses or misunderstands.
+
+    Args:
+        document: the file.
+        layout: what it is.
+        generation: which ROS loads it; None when that is not known.
+        diagnostics: receives the findings.
+    """
+    if layout is Layout.ROS2:
+        _check_mistyped(document, document.root, diagnostics)
+        _check_values_above(document, document.root, diagnostics)
+        if generation == 1:
+            _report_ros2_in_ros1(document, diagnostics)
+    elif generation == 2 and layout in {Layout.ROS1, Layout.OTHER}:
+        mistyped = _check_mistyped(document, document.root, diagnostics)
+        if layout is Layout.ROS1 and not mistyped:
+            _report_ros1_in_ros2(document, diagnostics)
+
+
+def _report_ros2_in_ros1(document: Document, diagnostics: Diagnostics) -> None:
+    mark = _marks(document.root)[0]
+    text = f"the file has '{MARK}', as ROS 2 writes files; roslaunch would make it a part of the "
+    text += f"names: /controller/{MARK}/type. Gazelle looks through it"
+    fix = f"take the level {MARK} out for ROS 1"
+    diagnostics.report("parameters.ros2-layout", text, document.span(mark), fix=fix)
+
+
+def _report_ros1_in_ros2(document: Document, diagnostics: Diagnostics) -> None:
+    key = document.root.value[0][0]
+    text = f"the file has no '{MARK}'; it is read as ROS 1 wrote such files, real ROS 2 would "
+    text += "refuse it (Cannot have a value before ros__parameters)"
+    fix = f"write: {key.value}: / {MARK}: / …"
+    diagnostics.report("control.no-ros-parameters", text, document.span(key), fix=fix)
+
+
+def _check_mistyped(document: Document, node: yaml.MappingNode, diagnostics: Diagnostics) -> bool:
+    """Report keys that were to be ``ros__parameters``; tell whether there is one."""
+    found = False
+    for key, value in node.value:
+        if not isinstance(value, yaml.MappingNode) or key.value == MARK:
+            continue
+        word = str(key.value)
+        if _is_mistyped(word):
+            text = f"'{word}' is no '{MARK}': two underscores behind ros, the parameters of the "
+            text += "node are not seen (Cannot have a value before ros__parameters)"
+            hint = did_you_mean(word, [MARK])
+            diagnostics.report("parameters.layout", text, document.span(key), fix=hint)
+            found = True
+        else:
+            found = _check_mistyped(document, value, diagnostics) or found
+    return found
+
+
+def _is_mistyped(word: str) -> bool:
+    is_near = word.startswith("ros") and "param" in word and bool(nearest_names(word, [MARK]))
+    return is_near and word != MARK
+
+
+def _check_values_above(
+    document: Document, node: yaml.MappingNode, diagnostics: Diagnostics
+) -> None:
+    """Report values beside ``ros__parameters``, where only names of nodes can stand."""
+    names = [str(key.value) for key, _ in node.value]
+    for key, value in node.value:
+        if isinstance(value, yaml.MappingNode):
+            if key.value != MARK and not _is_mistyped(str(key.value)):
+                _check_values_above(document, value, diagnostics)
+        elif key.value == MARK:
+            _report_empty(document, key, value, diagnostics)
+        else:
+            place = "beside" if MARK in names else "above"
+            text = f"'{key.value}' stands {place} '{MARK}', where names of nodes are (Cannot have "
+            text += "a value before ros__parameters); real ROS 2 refuses the whole file"
+            fix = f"indent it below {MARK}:"
+            diagnostics.report("parameters.layout", text, document.span(key), fix=fix)
+
+
+def _report_empty(
+    document: Document, key: yaml.Node, value: yaml.Node, diagnostics: Diagnostics
+) -> None:
+    text = f"'{MARK}' has nothing below it: real ROS 2 refuses the whole file (No value at line "
+    text += f"{key.start_mark.line + 1})"
+    if isinstance(value, yaml.ScalarNode) and value.value:
+        text = f"'{MARK}' has the value '{value.value}' and no parameters below it"
+    fix = f"write {MARK}: {{}}, or leave the node out"
+    diagnostics.report("parameters.empty", text, document.span(key), fix=fix)
+
+
+def _marks(node: yaml.Node) -> list[yaml.Node]:
+    found: list[yaml.Node] = []
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            found += [key] if key.value == MARK else _marks(value)
+    return found
+
+
+def _has_controllers(node: yaml.Node) -> bool:
+    if not isinstance(node, yaml.MappingNode):
+        return False
+    for key, value in node.value:
+        if key.value == "type" and isinstance(value, yaml.ScalarNode):
+            if value.value.replace("::", "/") in known_types():
+                return True
+        elif _has_controllers(value):
+            return True
+    return False

@@ -1,0 +1,190 @@
+"""Values that YAML, roslaunch and ROS 2 read in another way than they look."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+
+import yaml
+
+from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.doctor.parameters.document import Document, scalars
+from gazelle.doctor.parameters.layouts import MARK, Layout
+
+__all__ = ["check_values"]
+
+# PyYAML's own tables (YAML 1.1 without y and n), and rcl_yaml_param_parser's, which has them.
+_ROS1_FLAGS = re.compile(r"(?i:yes|no|on|off|true|false)")
+_ROS2_FLAGS = re.compile(r"[YyNn]|(?i:yes|no|on|off|true|false)")
+_PLAIN_FLAGS = re.compile(r"(?i:true|false)")
+_OCTAL = re.compile(r"[-+]?0\d+")
+_BASE_60 = re.compile(r"[-+]?[1-9]\d*(?::[0-5]?\d)+(?:\.\d*)?")
+_NO_POINT = re.compile(r"[-+]?(?:\d+[eE][-+]?\d+|\d*\.?\d+[eE]\d+)")
+_NAME_KEY = re.compile(r"(?:^|_)(?:joints?|links?|frames?|names?|axes|axis|tip|root|group)(?:_|$)")
+_KINDS = {"bool": "bool", "int": "integer", "float": "double", "str": "string"}
+
+
+def check_values(
+    document: Document,
+    layout: Layout,
+    generation: int,
+    diagnostics: Diagnostics,
+    *,
+    joints: Collection[str] = (),
+) -> None:
+    """Report values that are not what they look like.
+
+    Args:
+        document: the file.
+        layout: what it is.
+        generation: which ROS reads it.
+        diagnostics: receives the findings.
+        joints: names of the robot's joints.
+    """
+    if layout is Layout.MAP:
+        return
+    _check_doubles(document, document.root, diagnostics)
+    for key, node, inside in scalars(document.root):
+        if node.style is not None or "$(" in node.value:
+            continue
+        _check_flag(document, key, node, inside, generation, joints, diagnostics)
+        _check_number(document, key, node, generation, diagnostics)
+        # MoveIt's planners take their parameters as texts.
+        if generation == 1 and layout is not Layout.MOVEIT:
+            _check_point(document, key, node, layout, diagnostics)
+    if layout is Layout.ROS2 and generation == 2:
+        _check_lists(document, document.root, diagnostics, is_inside=False)
+    if generation == 1:
+        _check_keys(document, document.root, diagnostics)
+
+
+def _check_flag(
+    document: Document,
+    key: str,
+    node: yaml.ScalarNode,
+    inside: yaml.Node,
+    generation: int,
+    joints: Collection[str],
+    diagnostics: Diagnostics,
+) -> None:
+    """Report words such as ``y`` and ``on`` where a name is meant."""
+    flags = _ROS1_FLAGS if generation == 1 else _ROS2_FLAGS
+    if not flags.fullmatch(node.value) or _PLAIN_FLAGS.fullmatch(node.value):
+        return
+    is_name = node.value in joints or _NAME_KEY.search(key.lower()) is not None
+    if isinstance(inside, yaml.SequenceNode):
+        others = [item for item in inside.value if isinstance(item, yaml.ScalarNode)]
+        is_name = is_name or not all(flags.fullmatch(item.value) for item in others)
+    if not is_name:
+        return
+    reader = "roslaunch" if generation == 1 else "ROS 2"
+    outcome = "true" if node.value[0].lower() == "y" or node.value.lower() == "on" else "false"
+    text = f"{reader} reads {node.value} of '{key}' as {outcome}, not as a name"
+    if generation == 2 and isinstance(inside, yaml.SequenceNode):
+        text += " (Sequence should be of same type. Value type 'bool' do not belong at line_num "
+        text += f"{node.start_mark.line + 1})"
+    fix = f"write '{node.value}' with quotes"
+    diagnostics.report("parameters.word-as-flag", text, document.span(node), fix=fix)
+
+
+def _check_number(
+    document: Document, key: str, node: yaml.ScalarNode, generation: int, diagnostics: Diagnostics
+) -> None:
+    text, fix = "", ""
+    if _OCTAL.fullmatch(node.value) and not re.search("[89]", node.value):
+        read = int(node.value, 8)
+        if str(read) != node.value.lstrip("+").lstrip("0") and read:
+            text = f"{node.value} of '{key}' is read as {read}: a number with a 0 in front is octal"
+            fix = f"write {node.value.lstrip('0')}, or '{node.value}' for a text"
+    elif generation == 1 and _BASE_60.fullmatch(node.value):
+        text = f"{node.value} of '{key}' is read as a number to the base 60 by roslaunch"
+        fix = f"write '{node.value}' with quotes"
+    if text:
+        diagnostics.report("parameters.number-form", text, document.span(node), fix=fix)
+
+
+def _check_point(
+    document: Document, key: str, node: yaml.ScalarNode, layout: Layout, diagnostics: Diagnostics
+) -> None:
+    """Report numbers such as 1e-3, which YAML 1.1 takes for a text."""
+    if not _NO_POINT.fullmatch(node.value) or node.tag != "tag:yaml.org,2002:str":
+        return
+    value = float(node.value)
+    text = f"'{key}' is the text '{node.value}' for roslaunch and no number: YAML 1.1 wants a point"
+    text += " and a sign, as in 1.0e-3; nodes that ask for a number do not get it"
+    fix = f"write {value!r}" if "e" not in repr(value) else f"write {value:.1e}"
+    # What the node of such a file does with a text is not known.
+    severity = Severity.WARNING if layout is Layout.ROS1 else Severity.INFO
+    span = document.span(node)
+    diagnostics.report("control.number-as-text", text, span, fix=fix, severity=severity)
+
+
+def _check_doubles(document: Document, node: yaml.Node, diagnostics: Diagnostics) -> None:
+    """Report keys that a mapping has twice."""
+    if isinstance(node, yaml.SequenceNode):
+        for item in node.value:
+            _check_doubles(document, item, diagnostics)
+    if not isinstance(node, yaml.MappingNode):
+        return
+    first: dict[str, yaml.Node] = {}
+    for key, value in node.value:
+        _check_doubles(document, value, diagnostics)
+        name = str(key.value)
+        if name in first and name != "<<":
+            line = first[name].start_mark.line + 1
+            text = f"key '{name}' is there twice, first in line {line}; the last one counts"
+            diagnostics.report("control.double-parameter", text, document.span(key))
+        first.setdefault(name, key)
+
+
+def _check_keys(document: Document, node: yaml.Node, diagnostics: Diagnostics) -> None:
+    """Report keys that PyYAML reads as something else than a text."""
+    if not isinstance(node, yaml.MappingNode):
+        return
+    for key, value in node.value:
+        _check_keys(document, value, diagnostics)
+        if isinstance(key, yaml.ScalarNode) and key.style is None and _is_odd(key.value):
+            text = f"the key {key.value} is no text for roslaunch, but "
+            text += "a truth value; parameters have names (dictionary key must be string)"
+            fix = f"write '{key.value}': with quotes"
+            diagnostics.report("parameters.word-as-flag", text, document.span(key), fix=fix)
+
+
+def _is_odd(word: str) -> bool:
+    return _ROS1_FLAGS.fullmatch(word) is not None
+
+
+def _check_lists(
+    document: Document, node: yaml.Node, diagnostics: Diagnostics, *, is_inside: bool
+) -> None:
+    """Report lists of several types, which parameters of ROS 2 cannot be."""
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            inside = is_inside or key.value == MARK
+            _check_lists(document, value, diagnostics, is_inside=inside)
+        return
+    if not is_inside or not isinstance(node, yaml.SequenceNode):
+        return
+    kinds = [_kind(item) for item in node.value]
+    known = [kind for kind in kinds if kind]
+    odd = next((place for place, kind in enumerate(kinds) if kind and kind != known[0]), None)
+    if odd is None or kinds[odd] == "bool":
+        return
+    item = node.value[odd]
+    text = f"a list of {known[0]}s has a value of type {kinds[odd]} (Sequence should be of same "
+    text += f"type. Value type '{kinds[odd]}' do not belong at line_num {item.start_mark.line + 1})"
+    fix = "write all numbers with a point: 1.0" if "double" in kinds else "use one type"
+    diagnostics.report("parameters.mixed-list", text, document.span(item), fix=fix)
+
+
+def _kind(node: yaml.Node) -> str:
+    """Return a value's type as ROS 2's parser sees it; empty for what is no plain value."""
+    if not isinstance(node, yaml.ScalarNode) or "$(" in node.value:
+        return ""
+    if node.style is not None:
+        return "string"
+    if _ROS2_FLAGS.fullmatch(node.value):
+        return "bool"
+    if _NO_POINT.fullmatch(node.value):
+        return "double"
+    return _KINDS.get(node.tag.rpartition(":")[2], "string")

@@ -1,0 +1,145 @@
+"""Pain 8: layouts and values of parameter files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
+from gazelle.workspace import Workspace
+
+FIXTURES = Path(__file__).parents[1] / "fixtures" / "pain_08_parameters"
+Check = Callable[..., Diagnostics]
+
+
+def package(name: str, root: Path) -> Diagnostics:
+    workspace = Workspace.discover(environ={"HOME": str(root)}, cwd=root, extra=[root])
+    diagnostics = Diagnostics()
+    check_package_parameters(workspace.package(name), workspace=workspace, diagnostics=diagnostics)
+    return diagnostics
+
+
+@pytest.fixture
+def check(tmp_path: Path) -> Check:
+    """Checks a text as a parameter file."""
+
+    def run(text: str, generation: int | None = None, joints: tuple[str, ...] = ()) -> Diagnostics:
+        path = tmp_path / "file.yaml"
+        path.write_text(text, encoding="utf-8")
+        diagnostics = Diagnostics()
+        check_parameter_file(path, diagnostics=diagnostics, generation=generation, joints=joints)
+        return diagnostics
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("code", "line", "words", "fix"),
+    [
+        (
+            "parameters.layout",
+            13,
+            "'ros_parameters' is no 'ros__parameters'",
+            "did you mean 'ros__p",
+        ),
+        ("parameters.empty", 10, "(No value at line 10)", "ros__parameters: {}"),
+        ("control.double-parameter", 16, "key 'arm_controller' is there twice, first in", "remove"),
+        ("parameters.word-as-flag", 18, "Value type 'bool' do not belong at line_num 18", "'y'"),
+        ("parameters.number-form", 24, "010 of 'p' is read as 8", "write 10"),
+        ("parameters.mixed-list", 25, "Value type 'double' do not belong at line_num 25", "1.0"),
+        (
+            "control.unknown-parameter",
+            21,
+            "'state_publish_rat' is not one of",
+            "'state_publish_rate'",
+        ),
+        ("parameters.wrong-type", 22, "is of type {double}, setting it to {integer} is", "20.0"),
+        ("parameters.colon-in-description", 3, "<!-- hardware: Gazebo --> has a colon", "':'"),
+    ],
+)
+def test_every_mistake_of_the_ros2_file_has_place_and_fix(
+    code: str, line: int, words: str, fix: str
+) -> None:
+    items = package("ros2_arm", FIXTURES / "broken").by_code(code)
+    (item,) = (found for found in items if found.span is not None and found.span.line == line)
+    assert words in item.message
+    assert fix in item.fix
+    assert item.span is not None
+    assert item.span.column > 0
+
+
+def test_ros2_layout_in_a_ros1_package_and_names_as_flags() -> None:
+    found = package("ros1_arm", FIXTURES / "broken")
+    (layout,) = found.by_code("parameters.ros2-layout")
+    assert "/controller/ros__parameters/type. Gazelle looks through it" in layout.message
+    (flag,) = found.by_code("parameters.word-as-flag")
+    assert flag.message == "roslaunch reads on of 'joint' as true, not as a name"
+    assert (flag.fix, flag.span and flag.span.line) == ("write 'on' with quotes", 5)
+    (number,) = found.by_code("control.number-as-text")
+    assert number.fix == "write 0.001"
+
+
+@pytest.mark.parametrize("name", ["ros2_arm", "ros1_arm"])
+def test_clean_twins_have_no_finding(name: str) -> None:
+    assert list(package(name, FIXTURES / "clean")) == []
+
+
+def test_ros1_layout_in_a_ros2_setting(check: Check) -> None:
+    text = "arm_controller:\n  type: effort_controllers/JointPositionController\n  joint: a\n"
+    (item,) = check(text, 2).by_code("control.no-ros-parameters")
+    assert "Cannot have a value before ros__parameters" in item.message
+    assert item.fix == "write: arm_controller: / ros__parameters: / …"
+    assert not check(text, 1).by_code("control.no-ros-parameters")
+
+
+def test_value_beside_the_parameters_of_a_node(check: Check) -> None:
+    (item,) = check("arm:\n  use_sim_time: true\n  ros__parameters: {a: 1}\n")
+    assert item.code == "parameters.layout"
+    assert item.message.startswith("'use_sim_time' stands beside 'ros__parameters'")
+    assert (item.severity, item.span and item.span.line) == (Severity.ERROR, 2)
+
+
+def test_tab_and_bad_yaml_say_what_to_do(check: Check) -> None:
+    (tab,) = check("a:\n\tb: 1\n")
+    assert (tab.code, tab.fix) == ("control.parameter-file", "indent with spaces")
+    assert "found character '\\t' that cannot start any token" in tab.message
+    (colon,) = check("a: b: c\n")
+    assert colon.fix == "put the value in quotes, or correct the indentation"
+
+
+def test_words_and_numbers_of_each_generation(check: Check) -> None:
+    text = "a_controller:\n  type: joint_state_controller/JointStateController\n  {}\n"
+    assert not check(text.format("extra_joints: [x, y]"), 1).by_code("parameters.word-as-flag")
+    assert check(text.format("extra_joints: [x, off]"), 1).by_code("parameters.word-as-flag")
+    assert check(text.format("on: 3"), 1).by_code("parameters.word-as-flag")
+    assert check(text.format("at: 12:30:45"), 1).by_code("parameters.number-form")
+    assert not check(text.format("flag: yes"), 1).by_code("parameters.word-as-flag")
+    assert not check(text.format("id: '010'"), 1).by_code("parameters.number-form")
+    node = "n:\n  ros__parameters:\n    {}\n"
+    assert not check(node.format("rate: 1e-3"), 2).by_code("control.number-as-text")
+    assert check(node.format("frame: n"), 2).by_code("parameters.word-as-flag")
+    assert not check(node.format("enabled: on"), 2).by_code("parameters.word-as-flag")
+    assert check(node.format("axes: on"), 2, ("on",)).by_code("parameters.word-as-flag")
+    assert check(node.format("names: [a, 1]"), 2).by_code("parameters.mixed-list")
+
+
+def test_files_of_moveit_maps_and_loops_are_left_alone(check: Check) -> None:
+    for text in (
+        "arm:\n  kinematics_solver: kdl/KDL\n  timeout: 1e-3\n",
+        "image: map.pgm\nresolution: 0.05\norigin: [0, 0.0, 0]\n",
+        "a: &a\n  b: *a\n",
+        "- a\n- b\n",
+        "a: $(arg x)\n",
+        "",
+    ):
+        assert list(check(text, 2)) == [], text
+
+
+def test_documents_parameter_files_have_no_finding(workspaces_dir: Path) -> None:
+    for name in ("urdf_exam", "slam_robot", "urdf_tutorial"):
+        assert list(package(name, workspaces_dir / "catkin_ws" / "src")) == []
+    for name in ("luck_gazebo", "luck_robot"):
+        assert list(package(name, workspaces_dir / "ros2_ws" / "src")) == []

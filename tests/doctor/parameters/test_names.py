@@ -1,0 +1,140 @@
+"""Pain 11: URDF, hardware, controllers and MoveIt do not mean the same names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.parameters import check_description_text, check_package_parameters
+from gazelle.doctor.report import Section
+from gazelle.workspace import Workspace
+
+FIXTURES = Path(__file__).parents[1] / "fixtures" / "pain_11_names"
+LIFT = "c:\n  type: effort_controllers/JointPositionController\n  joint: lift\n"
+PLUGIN = "<plugin>gazebo_ros2_control/GazeboSystem</plugin>"
+
+
+def checked(name: str, root: Path) -> tuple[Diagnostics, tuple[Section, ...]]:
+    workspace = Workspace.discover(environ={"HOME": str(root)}, cwd=root, extra=[root])
+    found = Diagnostics()
+    package = workspace.package(name)
+    return found, check_package_parameters(package, workspace=workspace, diagnostics=found)
+
+
+def test_one_table_of_names_that_are_missing_somewhere() -> None:
+    found, _ = checked("arm_moveit_config", FIXTURES / "broken")
+    (item,) = found.by_code("control.names-disagree")
+    assert "the robot has no such joint; did you mean 'elbow'?" in item.message
+    assert "no such controller is configured; did you mean 'arm_controller'?" in item.message
+    assert str(item.span).endswith("ros2_controllers.yaml:9:5")
+
+
+def test_joint_with_effort_limit_0_is_told_at_its_place() -> None:
+    found, _ = checked("arm_moveit_config", FIXTURES / "broken")
+    (item,) = found.by_code("control.zero-limit")
+    assert str(item.span).endswith("arm.urdf:7:3")
+    assert item.fix == 'write the motor\'s limit, as <limit effort="10" …/>'
+
+
+def test_controller_claims_an_interface_that_is_not_there() -> None:
+    found, _ = checked("arm_moveit_config", FIXTURES / "broken")
+    first, _ = found.by_code("parameters.interface-claim")
+    assert "Command interface with 'shoulder/position' does not exist" in first.message
+    assert str(first.span).endswith("ros2_controllers.yaml:10:5")
+    assert '<command_interface name="position"/>' in first.fix
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "words", "fix"),
+    [
+        ("parameters.srdf-name", "arm.srdf:4:5", "Link 'tool' is not known to URDF", "'tool0'"),
+        ("parameters.srdf-name", "arm.srdf:8:5", "Joint 'elbo' is not known to the", "'elbow'"),
+        ("parameters.moveit-name", "joint_limits.yaml:4:3", "names joint 'wrists'", "'wrist'"),
+        (
+            "parameters.moveit-name",
+            "kinematics.yaml:1:1",
+            "No kinematics solver instantiated for group 'arms'",
+            "'arm'",
+        ),
+    ],
+)
+def test_names_of_moveits_files(code: str, place: str, words: str, fix: str) -> None:
+    found, _ = checked("arm_moveit_config", FIXTURES / "broken")
+    (item,) = (item for item in found.by_code(code) if str(item.span).endswith(place))
+    assert words in item.message
+    assert item.fix == f"did you mean {fix}?"
+
+
+def test_clean_twin_has_a_table_and_no_finding() -> None:
+    found, (section,) = checked("arm_moveit_config", FIXTURES / "clean")
+    assert list(found) == []
+    assert section.columns == ("name", "URDF", "hardware", "controllers", "MoveIt")
+    assert section.rows[0] == ("shoulder", "revolute", "effort", "arm_controller", "arm_controller")
+
+
+def test_unrelated_robot_gives_no_finding(tmp_path: Path) -> None:
+    for name, text in {
+        "bot/package.xml": "<package format='2'><name>bot</name></package>",
+        "bot/urdf/other.urdf": "<robot name='o'><link name='a'/></robot>",
+        "bot/config/c.yaml": LIFT,
+    }.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    found, sections = checked("bot", tmp_path)
+    assert (list(found), sections) == ([], ())
+
+
+def test_ros1_controller_of_another_interface(tmp_path: Path) -> None:
+    urdf = """<robot name="o"><link name="a"/><link name="b"/>
+<joint name="lift" type="revolute"><parent link="a"/><child link="b"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="lift"><hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface>
+</joint><actuator name="m"/></transmission></robot>"""
+    for name, text in {
+        "bot/package.xml": "<package format='2'><name>bot</name></package>",
+        "bot/urdf/bot.urdf": urdf,
+        "bot/config/c.yaml": LIFT,
+    }.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    found, _ = checked("bot", tmp_path)
+    (item,) = found.by_code("parameters.interface-claim")
+    words = "Could not find resource 'lift' in 'hardware_interface::EffortJointInterface'"
+    assert words in item.message
+    assert item.fix.endswith("or type: position_controllers/JointPositionController")
+
+
+def test_documents_robots_agree(workspaces_dir: Path) -> None:
+    found, (section,) = checked("luck_robot", workspaces_dir / "ros2_ws" / "src")
+    assert list(found) == []
+    assert [row[0] for row in section.rows] == [f"joint_{number}" for number in range(1, 7)]
+    found, (section,) = checked("urdf_exam", workspaces_dir / "catkin_ws" / "src")
+    assert list(found) == []
+    assert (
+        "yaw_joint",
+        "continuous",
+        "effort",
+        "yaw_joint_position_controller",
+        "",
+    ) in section.rows
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        (f"<robot>\n<!-- a: b -->{PLUGIN}</robot>", 1),
+        (f"<robot>\n<!-- a:\nb --><!-- c #d -->{PLUGIN}</robot>", 2),
+        (f"<robot>\n<!-- http://a:b -->{PLUGIN}</robot>", 0),
+        (f'<robot name="a: b">{PLUGIN}</robot>', 1),
+        ("<robot>\n<!-- a: b --></robot>", 0),
+    ],
+)
+def test_colons_that_end_a_plain_text_of_yaml(text: str, count: int) -> None:
+    found = Diagnostics()
+    check_description_text(text, file="<text>", diagnostics=found)
+    assert len(found.by_code("parameters.colon-in-description")) == count
