@@ -11,7 +11,11 @@ __all__ = ["copied", "element_of", "found_or_added", "remove", "set_value", "val
 
 
 def element_of(tag: Tag, release: Release) -> SdfElement:
-    """Return a tag as an element; sdformat 9's parser makes one space of every white space."""
+    """Return a tag as an element.
+
+    White space in its texts is kept for sdformat 12, which prints it; sdformat 9 makes one space
+    of all that is between two words.
+    """
     element = _bare(tag, release)
     waiting = [(tag, element)]
     while waiting:
@@ -40,15 +44,14 @@ def value_of(element: SdfElement, console: Console) -> str:
     """Return the attribute ``value`` of an element, its text when it has none."""
     is_v9 = console.release is Release.V9
     value = element.attributes.get("value")
-    if value is not None:
-        return value if is_v9 else value.strip(" \t\n")
-    if element.text or not element.children:
-        return element.text
-    if is_v9:
-        # What a node is called in TinyXML, whether it is a text or an element.
-        return element.children[0].name
-    console.warning("no text", "Attribute value string not set")
-    return ""
+    if value is None:
+        value = element.text
+        if not value and element.children:
+            if is_v9:
+                # What a node is called in TinyXML, whether it is a text or an element.
+                return element.children[0].name
+            console.warning("no text", "Attribute value string not set")
+    return value if is_v9 else value.strip(" \t\n")
 
 
 def set_value(owner: SdfElement, name: str, text: str, console: Console) -> SdfElement:
@@ -77,7 +80,11 @@ def found_or_added(owner: SdfElement, name: str) -> SdfElement:
 
 
 def _bare(tag: Tag, release: Release) -> SdfElement:
-    text = " ".join(tag.text.split()) if release is Release.V9 else tag.text
+    text = tag.text
+    if release is Release.V9:
+        text = " ".join(text.split())
+    elif text and not tag.children:
+        text = tag.raw_text or text
     return SdfElement(tag.name, dict(tag.attributes), text, [], tag.span.line)
 
 

@@ -9,7 +9,7 @@ from gazelle.description.sdformat.urdf.console import Console
 from gazelle.description.sdformat.urdf.extensions import Extensions
 from gazelle.description.sdformat.urdf.inertia import lump_inertia
 from gazelle.description.sdformat.urdf.poses import chained
-from gazelle.description.sdformat.urdf.robot import Joint, Link, Part, Robot
+from gazelle.description.sdformat.urdf.robot import Joint, Link, Robot
 
 __all__ = ["EndlessRobotError", "is_lumped", "is_reduced", "lump_fixed_joints"]
 
@@ -17,7 +17,6 @@ __all__ = ["EndlessRobotError", "is_lumped", "is_reduced", "lump_fixed_joints"]
 _Step = tuple[Link, int, bool]
 
 _WORLD = "world"
-_LUMPED = "_fixed_joint_lump__"
 
 # A link with two parents is visited under both, with all below it.
 _MOST_VISITS = 1_000_000
@@ -82,28 +81,28 @@ def _lump(link: Link, extensions: Extensions, console: Console) -> None:
     assert parent is not None and joint is not None
     move_extensions(link.name, parent.name, joint.T_parent_joint, extensions, console)
     lump_inertia(link, parent, joint.T_parent_joint)
-    for part in link.visuals:
-        _move_part(part, link, parent, "visual", console)
-    for part in link.collisions:
-        _move_part(part, link, parent, "collision", console)
+    _move_parts(link, parent, "visual", console)
+    _move_parts(link, parent, "collision", console)
     for child in link.children:
         _hang_higher(child, link, extensions)
 
 
-def _move_part(part: Part, link: Link, parent: Link, kind: str, console: Console) -> None:
+def _move_parts(link: Link, parent: Link, kind: str, console: Console) -> None:
     assert link.joint_above is not None
-    if _LUMPED not in part.name:
+    is_visual = kind == "visual"
+    parts = parent.visuals if is_visual else parent.collisions
+    held = {id(part) for part in parts}
+    for part in link.visuals if is_visual else link.collisions:
         part.name = part.name or link.name
-    part.origin = chained(link.joint_above.T_parent_joint, part.origin)
-    parts = parent.visuals if kind == "visual" else parent.collisions
-    if any(item is part for item in parts):
+        part.origin = chained(link.joint_above.T_parent_joint, part.origin)
+        if id(part) not in held:
+            parts.append(part)
+            continue
         console.warning(
             f"{kind} twice",
             f"attempted to add {kind} [{part.name}] to link [{parent.name}], but it already "
             f"exists in {kind}_array under name [{part.name}]",
         )
-        return
-    parts.append(part)
 
 
 def _hang_higher(child: Link, link: Link, extensions: Extensions) -> None:

@@ -47,15 +47,18 @@ def leading_number(text: str) -> float:
     found = _NUMBER.match(text)
     if found is None:
         raise NumberCrashError("invalid_argument", "stod")
-    word = found["value"]
-    is_hexadecimal = "x" in word.lower()
-    value = float.fromhex(word) if is_hexadecimal else float(word)
-    is_word = word.lstrip("+-")[0] in "iInN"
-    is_zero = not re.search(
-        r"[1-9a-fA-F]", word.lower().partition("p" if is_hexadecimal else "e")[0]
-    )
-    too_small = not is_zero and not math.isnan(value) and abs(value) < _SMALLEST_NORMAL
-    if (math.isinf(value) and not is_word) or too_small:
+    word = found["value"].lower()
+    is_hexadecimal = "x" in word
+    try:
+        value = float.fromhex(word) if is_hexadecimal else float(word)
+    except OverflowError:
+        value = math.inf
+    if any(letter in word for letter in ("inf", "nan")):
+        return value
+    mantissa = word.removeprefix("+").removeprefix("-").removeprefix("0x")
+    digits = mantissa.partition("p" if is_hexadecimal else "e")[0]
+    is_zero = not digits.strip("0.")
+    if math.isinf(value) or (abs(value) < _SMALLEST_NORMAL and not is_zero):
         raise NumberCrashError("out_of_range", "stod")
     return value
 

@@ -11,8 +11,6 @@ __all__ = [
     "composed",
     "composed_by_inverse",
     "euler_of",
-    "inverse_of",
-    "product_of",
 ]
 
 Vector3 = tuple[float, float, float]
@@ -28,13 +26,13 @@ def chained(T_parent_joint: Origin, T_joint_part: Origin) -> Origin:
     """Return a part's pose in the parent's frame."""
     moved = _rotated(T_parent_joint.quat_xyzw, T_joint_part.xyz_m)
     xyz = _sum(T_parent_joint.xyz_m, moved)
-    return Origin(xyz, product_of(T_parent_joint.quat_xyzw, T_joint_part.quat_xyzw))
+    return Origin(xyz, _product(T_parent_joint.quat_xyzw, T_joint_part.quat_xyzw))
 
 
 def composed(left: Origin, right: Origin) -> Origin:
     """Return left · right as ignition-math's product of poses computes it."""
     turned = _turned(left.quat_xyzw, right.xyz_m)
-    return Origin(_sum(left.xyz_m, turned), product_of(left.quat_xyzw, right.quat_xyzw))
+    return Origin(_sum(left.xyz_m, turned), _product(left.quat_xyzw, right.quat_xyzw))
 
 
 def composed_by_inverse(T_parent_joint: Origin, offset: Origin) -> Origin:
@@ -43,31 +41,10 @@ def composed_by_inverse(T_parent_joint: Origin, offset: Origin) -> Origin:
     This is no inverse of a pose, as the translation is not turned; releases from 9.6 on chain
     the poses instead.
     """
-    back = inverse_of(T_parent_joint.quat_xyzw)
+    back = _inverse(T_parent_joint.quat_xyzw)
     x, y, z = _rotated(back, offset.xyz_m)
     dx, dy, dz = T_parent_joint.xyz_m
-    return Origin((x - dx, y - dy, z - dz), product_of(back, offset.quat_xyzw))
-
-
-def product_of(p: Quaternion, q: Quaternion) -> Quaternion:
-    """Return the product of two quaternions xyzw."""
-    px, py, pz, pw = p
-    qx, qy, qz, qw = q
-    return (
-        pw * qx + px * qw + py * qz - pz * qy,
-        pw * qy - px * qz + py * qw + pz * qx,
-        pw * qz + px * qy - py * qx + pz * qw,
-        pw * qw - px * qx - py * qy - pz * qz,
-    )
-
-
-def inverse_of(quat_xyzw: Quaternion) -> Quaternion:
-    """Return the inverse of a quaternion that need not have length 1."""
-    x, y, z, w = quat_xyzw
-    norm = w * w + x * x + y * y + z * z
-    if abs(norm) <= _NO_NORM:
-        return 0.0, 0.0, 0.0, 1.0
-    return -x / norm, -y / norm, -z / norm, w / norm
+    return Origin((x - dx, y - dy, z - dz), _product(back, offset.quat_xyzw))
 
 
 def euler_of(quat_xyzw: Quaternion) -> Vector3:
@@ -93,6 +70,25 @@ def euler_of(quat_xyzw: Quaternion) -> Vector3:
     return roll, pitch, yaw
 
 
+def _product(p: Quaternion, q: Quaternion) -> Quaternion:
+    px, py, pz, pw = p
+    qx, qy, qz, qw = q
+    return (
+        pw * qx + px * qw + py * qz - pz * qy,
+        pw * qy - px * qz + py * qw + pz * qx,
+        pw * qz + px * qy - py * qx + pz * qw,
+        pw * qw - px * qx - py * qy - pz * qz,
+    )
+
+
+def _inverse(quat_xyzw: Quaternion) -> Quaternion:
+    x, y, z, w = quat_xyzw
+    norm = w * w + x * x + y * y + z * z
+    if abs(norm) <= _NO_NORM:
+        return 0.0, 0.0, 0.0, 1.0
+    return -x / norm, -y / norm, -z / norm, w / norm
+
+
 def _unit(quat_xyzw: Quaternion) -> Quaternion:
     x, y, z, w = quat_xyzw
     length = math.sqrt(w * w + x * x + y * y + z * z)
@@ -111,8 +107,8 @@ def _rotated(quat_xyzw: Quaternion, v: Vector3) -> Vector3:
 
 
 def _turned(quat_xyzw: Quaternion, v: Vector3) -> Vector3:
-    inner = product_of((*v, 0.0), inverse_of(quat_xyzw))
-    x, y, z, _ = product_of(quat_xyzw, inner)
+    inner = _product((*v, 0.0), _inverse(quat_xyzw))
+    x, y, z, _ = _product(quat_xyzw, inner)
     return x, y, z
 
 
