@@ -62,9 +62,8 @@ class CompiledMjcf:
         """Return the file of a spec's mesh or texture; None when it has none."""
         if not element.file:
             return None
-        compiler = self.spec.compiler
-        folder = getattr(compiler, _FOLDERS[kind], "") or ""
-        name = Path(element.file).name if compiler.strippath else element.file
+        folder = getattr(self.spec, _FOLDERS[kind]) or ""
+        name = Path(element.file).name if self.spec.strippath else element.file
         base = self.source.path.parent
         found = [path for path in (base / folder / name, base / name) if path.is_file()]
         return found[0].resolve() if found else None

@@ -130,13 +130,15 @@ class Looks:
         return self._parts[key]
 
     def _mesh(self, part: MeshPart, shape: Shape, name: str) -> str:
-        word = Path(shape.uri).stem if isinstance(shape, MeshShape) else type(shape).__name__
-        wanted = f"visual {word}".lower() if not part.name else f"visual {word} {part.name}"
+        word = type(shape).__name__.lower()
+        if isinstance(shape, MeshShape):
+            word = f"{Path(shape.uri).stem} {part.name}".strip()
+        wanted = f"visual {word}"
         chosen, number = wanted, 2
         while chosen in self.meshes:
             chosen, number = f"{wanted} {number}", number + 1
         data = obj_bytes(part.vertices_m, part.faces, part.normals, part.uv)
-        self.meshes[chosen] = (f"{wanted.removeprefix('visual ')}.obj", data)
+        self.meshes[chosen] = (f"{word}.obj", data)
         mesh = self._spec.add_mesh(name=chosen)
         mesh.uservert = part.vertices_m.ravel()
         mesh.userface = part.faces.ravel()

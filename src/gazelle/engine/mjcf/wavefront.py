@@ -23,24 +23,22 @@ def obj_bytes(
         normals: (N, 3), one per vertex.
         uv: (N, 2), (0, 0) is the picture's lower left corner.
     """
-    lines = ["# metres", *_rows("v", vertices_m)]
+    text = "# metres\n" + _rows("v", vertices_m)
     if uv is not None:
-        lines += _rows("vt", uv)
+        text += _rows("vt", uv)
     if normals is not None:
-        lines += _rows("vn", normals)
-    for a, b, c in (np.asarray(faces) + 1).tolist():
-        corners = (_corner(index, uv is not None, normals is not None) for index in (a, b, c))
-        lines.append(f"f {' '.join(corners)}")
-    return ("\n".join(lines) + "\n").encode("ascii")
+        text += _rows("vn", normals)
+    corner = "%d"
+    if uv is not None or normals is not None:
+        corner = f"%d/{'%d' if uv is not None else ''}{'/%d' if normals is not None else ''}"
+    indices = np.asarray(faces, dtype=np.int64) + 1
+    line = f"f {corner} {corner} {corner}\n"
+    numbers = np.repeat(indices.ravel(), corner.count("%d")).tolist()
+    return (text + line * len(indices) % tuple(numbers)).encode("ascii")
 
 
-def _rows(word: str, values: Array) -> list[str]:
-    # numpy prints a float32 with the fewest digits that give it back.
+def _rows(word: str, values: Array) -> str:
+    # Nine digits give every single-precision number back.
     rows = np.asarray(values, dtype=np.float32)
-    return [f"{word} {' '.join(str(value) for value in row)}" for row in rows]
-
-
-def _corner(index: int, has_uv: bool, has_normal: bool) -> str:
-    if not has_uv and not has_normal:
-        return str(index)
-    return f"{index}/{index if has_uv else ''}{f'/{index}' if has_normal else ''}"
+    line = f"{word} {' '.join(['%.9g'] * rows.shape[1])}\n"
+    return line * len(rows) % tuple(rows.ravel().tolist())

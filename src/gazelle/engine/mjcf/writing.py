@@ -30,8 +30,11 @@ _NAMES = frozenset({
     "body", "body1", "body2", "class", "file", "geom1", "geom2", "hfield", "joint", "joint1",
     "joint2", "material", "mesh", "name", "site", "target", "tendon", "texture",
 })  # fmt: skip
+# Of meshes: long, and in files in the end.
+_TRIANGLES = frozenset({"face", "normal", "texcoord", "vertex"})
 # Kept in single precision by MuJoCo; the model has them as they were meant.
 _COLOURS = frozenset({"emission", "rgba", "shininess", "specular"})
+_AS_IS = _NAMES | _TRIANGLES
 _START = "start"
 
 
@@ -111,7 +114,7 @@ class _FileMaker:
         file, data = self._looks.meshes.get(name) or self._hull(name, markup)
         address = self._beside.add(file, data)
         if address is not None:
-            for word in ("vertex", "face", "normal", "texcoord"):
+            for word in _TRIANGLES:
                 markup.attributes.pop(word, None)
             markup.attributes["file"] = address
 
@@ -127,7 +130,7 @@ class _FileMaker:
 def _rewritten(tag: Tag, make_mesh: Callable[[Markup], None]) -> Markup:
     """Return MuJoCo's XML with the shortest numbers, and meshes in files."""
     attributes = {
-        name: value if name in _NAMES else _shortest(value, is_single=name in _COLOURS)
+        name: value if name in _AS_IS else _shortest(value, is_single=name in _COLOURS)
         for name, value in tag.attributes.items()
     }
     children = [_rewritten(child, make_mesh) for child in tag.children]
