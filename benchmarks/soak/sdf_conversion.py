@@ -16,10 +16,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parents[2] / "tests" / "description" / "sdformat")]
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from comparing import differences
-from random_robots import random_robot
+from tests.description.sdformat.comparing import differences
+from tests.description.sdformat.random_robots import random_robot
 
 from gazelle.description.sdformat import Release
 from gazelle.description.sdformat.document import read_document, to_text

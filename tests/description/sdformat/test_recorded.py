@@ -16,8 +16,10 @@ import pytest
 from gazelle.description.sdformat import Release
 from gazelle.description.sdformat.document import read_document, to_text
 from gazelle.description.sdformat.urdf import urdf_to_sdf
+from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
+from gazelle.workspace import Workspace
 
 from .comparing import differences
 from .random_robots import random_robot
@@ -56,15 +58,55 @@ def test_recorded_remarks(name: str, release: Release) -> None:
 
 
 @pytest.mark.reference
+@pytest.mark.parametrize(
+    ("record", "robot", "release"),
+    [
+        ("sdf/print_gz_urdf.txt", "gz", Release.V12),
+        ("sdf/print_surf_urdf.txt", "surf", Release.V12),
+        ("sdf9/print_gz.txt", "gz", Release.V9),
+        ("sdf9/print_surf.txt", "surf", Release.V9),
+    ],
+)
+def test_shared_records(record: str, robot: str, release: Release, oracles_dir: Path) -> None:
+    text = (oracles_dir / "sdfin" / f"{robot}.urdf").read_text(encoding="utf-8")
+    recorded = (oracles_dir / record).read_text(encoding="utf-8")
+    found = re.search("<sdf .*</sdf>", recorded, re.DOTALL)
+    assert found is not None
+    assert differences(_printed(text, release), found[0]) == []
+
+
+@pytest.mark.reference
 @pytest.mark.parametrize("seed", range(4))
-def test_the_real_program_agrees_where_it_is_installed(seed: int, tmp_path: Path) -> None:
+def test_random_robots_where_the_real_program_is_installed(seed: int, tmp_path: Path) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(random_robot(seed), encoding="utf-8")
+    assert differences(_printed(random_robot(seed), Release.V12), _really_printed(file)) == []
+
+
+@pytest.mark.reference
+@pytest.mark.parametrize("pattern", ["*.urdf", "*.urdf.xacro"])
+def test_robots_of_the_workspaces_where_the_real_program_is_installed(
+    pattern: str, workspaces_dir: Path, tmp_path: Path
+) -> None:
+    files = sorted(workspaces_dir.rglob(pattern))
+    assert files
+    for file in files:
+        folder = next(parent for parent in file.parents if (parent / "src").is_dir())
+        workspace = Workspace.discover(environ={}, cwd=folder)
+        expanded = expand_xacro(file, workspace=workspace, diagnostics=Diagnostics())
+        assert expanded is not None
+        copy = tmp_path / "robot.urdf"
+        copy.write_text(expanded.text, encoding="utf-8")
+        found = differences(_printed(expanded.text, Release.V12), _really_printed(copy))
+        assert (str(file), found) == (str(file), [])
+
+
+def _really_printed(file: Path) -> str:
     program = shutil.which("ign", path="/usr/bin:/usr/local/bin")
     if program is None:
         pytest.skip("ign is not installed (apt-get install ignition-tools sdformat-sdf)")
-    file = tmp_path / "robot.urdf"
-    file.write_text(random_robot(seed), encoding="utf-8")
     words = [program, "sdf", "-p", str(file)]
     done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=60)
-    if "Unknown command" in done.stderr or not re.search("<sdf", done.stdout):
-        pytest.skip(f"this ign has no sdf command: {done.stderr[:200]}")
-    assert differences(_printed(random_robot(seed), Release.V12), done.stdout) == []
+    if "<sdf" not in done.stdout:
+        pytest.skip(f"this ign converts nothing: {done.stderr[:200]}")
+    return done.stdout

@@ -11,7 +11,8 @@ import pytest
 
 from gazelle.description.context import ReadContext
 from gazelle.description.urdf import read_urdf
-from gazelle.description.urdfdom import tree_text, urdfdom_verdict
+from gazelle.description.urdfdom import tree_text, urdfdom_verdict, verdict_of_element
+from gazelle.description.urdfdom.tinyxml import parse_tinyxml
 from gazelle.diagnostics import Diagnostics, Severity
 
 _FAILED = "ERROR: Model Parsing the xml failed\n"
@@ -192,3 +193,11 @@ def _compare(program: str, file: Path, text: str) -> None:
     assert done.returncode == (0 if verdict.robot else 255), text
     assert done.stdout == (tree_text(verdict.robot) if verdict.robot else ""), text
     assert done.stderr == err + ("" if verdict.robot else _FAILED), text
+
+
+def test_elements_of_another_parser_get_the_same_verdict() -> None:
+    text = "<robot name='r'><link name='a'/><link name='b'/></robot>"
+    assert verdict_of_element(parse_tinyxml(text)[0]) == urdfdom_verdict(text)
+    foreign = verdict_of_element(parse_tinyxml("<sdf/>")[0])
+    assert foreign.robot is None
+    assert foreign.remarks[0].message == "Could not find the 'robot' element in the xml file"

@@ -39,10 +39,10 @@ def move_extensions(
     for reference in sorted(by_reference):
         for extension in by_reference[reference]:
             for blob in extension.blobs:
-                _rename(blob, link, parent, console)
                 for word in ("bodyName", "frameName"):
                     poses = (extension.T_link_reduced, T_parent_link)
                     replace_body(blob.element, word, (link, parent), poses, console)
+                _rename(blob, link, parent, console)
 
 
 def _move(blob: Blob, T_link_reduced: Origin, console: Console) -> None:

@@ -1,8 +1,8 @@
 """Masses added up as parser_urdf does it, with the rotations ODE's mass functions know.
 
-The tensor is turned back by roll, pitch and yaw one after the other, and the sum is turned into
-the parent's old inertial frame by all three at once. Operations stay in the library's order, so
-that the last of the sixteen printed digits agrees.
+A tensor is turned out of its own frame by roll, pitch and yaw one after the other; the sum is
+turned back into the parent's inertial frame by all three at once. Operations stay in the library's
+order, so that the last of the sixteen printed digits agrees.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ class _Mass:
 
 
 def lump_inertia(link: Link, parent: Link, T_parent_link: Origin) -> None:
-    """Add a link's mass and inertia to its parent's; nothing happens to a parent's otherwise."""
+    """Add a link's mass and inertia to its parent's, which may have none yet."""
     if link.inertial is None:
         return
     if parent.inertial is None:
         parent.inertial = Inertial()
     total = _in_link_frame(parent.inertial)
     other = _in_link_frame(link.inertial)
-    _turn_back(other, T_parent_link)
+    _turn_out(other, T_parent_link)
     _translate(other, T_parent_link.xyz_m)
     _add(total, other)
     _store(total, parent.inertial)
@@ -47,7 +47,7 @@ def _in_link_frame(inertial: Inertial) -> _Mass:
     ixx, ixy, ixz, iyy, iyz, izz = inertial.tensor
     matrix = [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]
     mass = _Mass(inertial.mass_kg, [0.0, 0.0, 0.0], matrix)
-    _turn_back(mass, inertial.origin)
+    _turn_out(mass, inertial.origin)
     _translate(mass, inertial.origin.xyz_m)
     return mass
 
@@ -63,7 +63,7 @@ def _store(total: _Mass, inertial: Inertial) -> None:
     inertial.tensor = tuple(matrix[row][column] for row, column in upper)
 
 
-def _turn_back(mass: _Mass, pose: Origin) -> None:
+def _turn_out(mass: _Mass, pose: Origin) -> None:
     roll, pitch, yaw = rpy_from_quaternion(pose.quat_xyzw)
     _rotate(mass, _rotation(-roll, 0.0, 0.0))
     _rotate(mass, _rotation(0.0, -pitch, 0.0))

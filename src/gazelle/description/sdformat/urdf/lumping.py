@@ -19,7 +19,7 @@ _Step = tuple[Link, int, bool]
 _WORLD = "world"
 
 # A link with two parents is visited under both, with all below it.
-_MOST_VISITS = 1_000_000
+_MOST_REPEATS = 100_000
 
 
 class EndlessRobotError(ValueError):
@@ -46,7 +46,8 @@ def lump_fixed_joints(robot: Robot, extensions: Extensions, console: Console) ->
         The links that were lumped, in that order.
 
     Raises:
-        EndlessRobotError: joints form a loop below the root.
+        EndlessRobotError: joints form a loop below the root, or links with several parents are
+            visited far too often.
     """
     lumped = []
     for link in _bottom_up(robot, extensions):
@@ -66,7 +67,7 @@ def _bottom_up(robot: Robot, extensions: Extensions) -> Iterator[Link]:
             yield link
             continue
         visits += 1
-        if depth > len(robot.links) or visits > _MOST_VISITS:
+        if depth > len(robot.links) or visits > len(robot.links) + _MOST_REPEATS:
             raise EndlessRobotError(link.name)
         first: list[_Step] = []
         later: list[_Step] = []
