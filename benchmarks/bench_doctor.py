@@ -22,7 +22,7 @@ gazelle.simulator.plugins.registry.all_tables()
 import gazelle.engine, gazelle.engine.library, gazelle.sensors, scipy.spatial
 from gazelle.diagnostics.catalogue import all_entries
 all_entries()
-import gazelle.simulator, xacro
+import gazelle.simulator, xacro, collada, PIL.Image
 words = json.loads(sys.argv[1])
 targets = [word for word in words if ":=" not in word]
 options = Options(dict(word.split(":=", 1) for word in words if ":=" in word))

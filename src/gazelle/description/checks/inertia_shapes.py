@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,7 @@ from gazelle.geometry import (
 __all__ = ["mesh_body", "shape_body", "shape_points_m"]
 
 Array = NDArray[np.float64]
+_KEPT = 64
 
 
 def shape_body(
@@ -85,6 +87,7 @@ def _body(shape: Shape, density: float, diagnostics: Diagnostics) -> MassPropert
     return None
 
 
+@lru_cache(maxsize=_KEPT)
 def mesh_body(mesh: Mesh | MeshPart, density_kg_m3: float) -> MassProperties | None:
     """Return a solid mesh of even density, its convex hull when it is not closed."""
     try:
@@ -138,4 +141,10 @@ def _loaded(shape: MeshShape, diagnostics: Diagnostics) -> Mesh | None:
     mesh = load_mesh_reported(shape.path, diagnostics, shape.span)
     if mesh is not None and shape.submesh:
         mesh = mesh.submesh(shape.submesh, shape.center_submesh)
-    return None if mesh is None else mesh.scaled(shape.scale)
+    return None if mesh is None else _scaled(mesh, shape.scale)
+
+
+@lru_cache(maxsize=_KEPT)
+def _scaled(mesh: Mesh, scale: tuple[float, float, float]) -> Mesh:
+    """Several checks look at the same shapes, and visuals and collisions share meshes."""
+    return mesh.scaled(scale)
