@@ -23,6 +23,10 @@ __all__ = ["TEXT_NAME", "load_models", "load_world"]
 
 _SDF_ROOTS = frozenset({"light", "model", "sdf", "world"})
 _MODEL_CONFIG = "model.config"
+_OTHER_FORMATS = {
+    "gazebo": "this is SDF 1.2 or older; bring it to 1.3 or later with 'gz sdf -p FILE'",
+    "mujoco": "this is MuJoCo's format; turn it into a URDF: gazelle convert FILE -o robot.urdf",
+}
 
 
 def load_models(
@@ -199,8 +203,7 @@ def _models_of_root(root: Tag, context: ReadContext) -> tuple[Model, ...]:
             context.diagnostics.report("load.nothing", message, root.span)
         return models
     message = f"the outermost element of '{context.file}' is <{root.name}>"
-    old = root.name == "gazebo"
-    fix = "this is SDF 1.2 or older; bring it to 1.3 or later with 'gz sdf -p FILE'" if old else ""
+    fix = _OTHER_FORMATS.get(root.name, "")
     context.diagnostics.report("load.unknown-format", message, root.span, fix=fix)
     return ()
 
