@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from gazelle.description.source_maps.record import SourceMap, keys_of
 from gazelle.description.source_maps.store import save_map
-from gazelle.description.xacro import Expanded
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
+
+if TYPE_CHECKING:
+    from gazelle.description.xacro import Expanded
 
 __all__ = ["remember"]
 

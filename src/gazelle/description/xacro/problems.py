@@ -26,6 +26,7 @@ _LOCATION = re.compile(
 _NEEDS_DEFINITION = frozenset(
     {"xacro.argument-missing", "xacro.undefined-name", "xacro.unknown-macro"}
 )
+_ABOUT_VALUES = frozenset({"xacro.bad-expression", "xacro.decimal-comma"})
 _EVALUATED = ("xacro:property", "xacro:if", "xacro:unless", "xacro:arg")
 
 
@@ -108,8 +109,12 @@ def repaired(failure: Failure, finding: Finding, repairs: Repairs) -> bool:
         return True
     if finding.code == "xacro.argument-missing":
         repairs.suspects.add(finding.subject)
+    culprit = failure.session.properties.get(finding.subject) if finding.subject else None
+    if finding.code in _ABOUT_VALUES and culprit is not None:
+        # Every expression with this value would fail.
+        return repairs.replace_part(culprit, "value", "")
     place, node = failure.element, failure.node
-    if finding.code in {"xacro.recursion", "xml.entity"} or place is None:
+    if finding.code in {"limits.expansion", "xacro.recursion", "xml.entity"} or place is None:
         return False
     tag = str(getattr(node, "tagName", ""))
     if tag == "xacro:include" or finding.code.startswith("xml."):

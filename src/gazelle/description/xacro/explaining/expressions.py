@@ -41,8 +41,9 @@ def explain_expression(failure: Failure) -> Finding | None:
     comma = _decimal_comma(failure.expression, values)
     if comma:
         fix = f"write the decimal sign as a dot: {comma.replace(',', '.')}"
-        return Finding("xacro.decimal-comma", message, failure.span, fix)
-    return Finding("xacro.bad-expression", message, failure.span, _remedy(failure, cause, values))
+        return Finding("xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause))
+    fix = _remedy(failure, cause, values)
+    return Finding("xacro.bad-expression", message, failure.span, fix, _text_in(values, cause))
 
 
 def _reason(cause: BaseException) -> str:
@@ -82,6 +83,13 @@ def _where(name: str, failure: Failure) -> str:
     return f" ({short_place(place)})" if place is not None else ""
 
 
+def _text_in(values: list[tuple[str, Any]], cause: BaseException) -> str:
+    """Return the name of the text that stands where a number is needed, empty when none does."""
+    if not isinstance(cause, TypeError):
+        return ""
+    return next((name for name, value in values if isinstance(value, str)), "")
+
+
 def _decimal_comma(expression: str, values: list[tuple[str, Any]]) -> str:
     """Return the number that is written with a comma, empty when there is none."""
     for _, value in values:
@@ -104,7 +112,7 @@ def _remedy(failure: Failure, cause: BaseException, values: list[tuple[str, Any]
         unit = _WITH_UNIT.fullmatch(value) if isinstance(value, str) else None
         if unit is not None:
             return f"{name} is a text; write the number alone: {unit[1]}"
-        if isinstance(value, str) and isinstance(cause, TypeError):
+        if name == _text_in(values, cause):
             return f"{name} is a text and no number; correct its value"
     return ""
 
