@@ -161,3 +161,29 @@ def test_remap_of_a_service_in_a_script_is_used(launched: Launch) -> None:
 
 def test_parameter_of_a_navigation_planner_is_no_misspelled_clock(launched: Launch) -> None:
     assert codes(launched('<param name="planner/sim_time" value="1.5"/>')) == []
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ("", "parameter '/robot_description' is empty"),
+        ("3", "'/rsp' ends at once: robot_description is no robot"),
+    ],
+)
+def test_description_that_is_no_robot_is_told(launched: Launch, value: str, message: str) -> None:
+    report = launched(f'<param name="robot_description" value="{value}"/>', STATES)
+    (found,) = report.findings
+    assert found.code == "doctor.no-description"
+    assert message in found.message
+
+
+def test_arguments_with_an_open_quote_are_told(launched: Launch) -> None:
+    report = launched(QUIET, ROBOT, SPAWN.format("-urdf -model 'r -param robot_description", ""))
+    assert "doctor.bad-arguments" in codes(report)
+    assert any("No closing quotation" in item.message for item in report.findings)
+
+
+def test_source_list_that_holds_numbers_does_no_harm(launched: Launch) -> None:
+    names = '<rosparam param="source_list">[a, 3]</rosparam>'
+    node = '<node name="jsp" pkg="joint_state_publisher" type="joint_state_publisher">{}</node>'
+    assert codes(launched(ROBOT, node.format(names))) == []

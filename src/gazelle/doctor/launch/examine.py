@@ -109,7 +109,7 @@ def _examine_descriptions(
         examine_models(start.world, examination)
     if not starts:
         texts = {launched.description(node) for node in launched.nodes}
-        for text in sorted(filter(None, texts)):
+        for text in sorted(text for text in texts if text and text.lstrip().startswith("<")):
             examine_text(text, launched.config.text_files, examination)
 
 

@@ -96,7 +96,7 @@ def frames_of(
     for node, known in zip(launched.nodes, topics, strict=True):
         match node.role:
             case Role.STATE_PUBLISHER:
-                publisher = _state_publisher(node, launched, topics, starts)
+                publisher = _state_publisher(node, launched, topics, starts, diagnostics)
                 if publisher is not None:
                     publishers.append(publisher)
                     edges += _edges_of(publisher)
@@ -119,14 +119,18 @@ def _state_publisher(
     launched: Launched,
     topics: Sequence[NodeTopics],
     starts: Mapping[str, DryStart],
+    diagnostics: Diagnostics,
 ) -> StatePublisher | None:
     text = launched.description(node)
     if text is None:
         return None
     try:
         model = read_description(text)
-    except LaunchError:
+    except LaunchError as error:
         # Whoever loads the robot into a world tells all that is wrong with it.
+        if not diagnostics.errors:
+            said = f"'{node.full_name}' ends at once: {error}"
+            diagnostics.report("doctor.no-description", said, node.spec.span)
         return None
     prefix = str(launched.private(node, "tf_prefix", "")).strip("/")
     topic = node.resolve("joint_states")

@@ -121,9 +121,10 @@ class Launched:
         return self.parameters.search("robot_description", node.full_name) or name
 
     def description(self, node: LaunchedNode) -> str | None:
-        """Return the robot description a node finds, None when there is none."""
+        """Return the robot description a node finds, None when there is none or an empty one."""
         name = self.description_name(node)
-        return str(self.parameters.get(name)) if self.parameters.has(name) else None
+        text = str(self.parameters.get(name)) if self.parameters.has(name) else ""
+        return text if text.strip() else None
 
 
 def launched_from(

@@ -90,8 +90,9 @@ def _report_no_description(
     node: LaunchedNode, launched: Launched, diagnostics: Diagnostics
 ) -> None:
     wanted = node.resolve(_WORD)
-    others = [name for name in launched.config.params if name.endswith(_WORD)]
-    text = f"'{node.full_name}' {_NEEDS_DESCRIPTION[node.role]}: there is no parameter '{wanted}'"
+    others = [name for name in launched.config.params if name.endswith(_WORD) and name != wanted]
+    lack = "is empty" if launched.parameters.has(wanted) else "is not set"
+    text = f"'{node.full_name}' {_NEEDS_DESCRIPTION[node.role]}: parameter '{wanted}' {lack}"
     fix = f'add <param name="{_WORD}" command="…"/> above the node'
     if others:
         text += f"; there is {', '.join(others)}"

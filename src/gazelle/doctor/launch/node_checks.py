@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
@@ -17,8 +19,13 @@ _REPLACEMENTS = {
 
 
 def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
-    """Report nodes that are required or respawned and end by themselves."""
+    """Report nodes that are required or respawned and end by themselves, and bad arguments."""
     for node in launched.nodes:
+        try:
+            shlex.split(node.spec.args)
+        except ValueError as error:
+            text = f"args of '{node.full_name}' cannot be split into words: {error}"
+            diagnostics.report("doctor.bad-arguments", text, node.spec.span)
         if node.role not in _ENDS or _BOND in node.program.words:
             continue
         if node.spec.required:

@@ -55,7 +55,8 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             return _named(node, tf, {"joint_states": _JOINT_STATE})
         case Role.JOINT_STATES:
             sources = launched.private(node, "source_list", [])
-            listens = dict.fromkeys(sources if isinstance(sources, list) else [], _JOINT_STATE)
+            names = sources if isinstance(sources, list) else []
+            listens = {name: _JOINT_STATE for name in names if isinstance(name, str)}
             return _named(node, {"joint_states": _JOINT_STATE}, listens)
         case Role.STATIC_TRANSFORM:
             is_latched = node.spec.package == "tf2_ros"
