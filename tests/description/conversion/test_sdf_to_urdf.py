@@ -100,7 +100,7 @@ def test_moved_link_frame_is_told(convert) -> None:
 def test_sdformat_turns_the_urdf_back_into_the_same_bodies(convert, reading) -> None:
     from gazelle.description.sdformat.document import read_document, to_text
 
-    model, _, _, text = convert(TWO)
+    model, again, _, text = convert(TWO)
     document = read_document(text, release=Release.V12, file="r.urdf", find=lambda _word: None)
     assert document.root is not None
     back = reading.model(to_text(document.root, Release.V12))
@@ -111,6 +111,12 @@ def test_sdformat_turns_the_urdf_back_into_the_same_bodies(convert, reading) -> 
         for m in (model, back)
     ]
     assert np.allclose(*world_axis, atol=1e-6)
+    for angle in (-0.9, 0.4, 1.7):
+        one, other = (
+            (m.T_world_model @ posed_model(m, {"j": angle}).link("b").T_model_link).matrix()
+            for m in (again, back)
+        )
+        assert np.allclose(one, other, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", ["my_robot/model.sdf", "stages/my_robot_7.sdf"])

@@ -158,6 +158,10 @@ def test_textures_are_written_as_png(tmp_path) -> None:
     assert model.ntex == 1
     assert (model.tex_width[0], model.tex_height[0]) == (4, 2)
     assert (tmp_path / "world_files" / "grass.png").read_bytes().startswith(b"\x89PNG")
+    found = Diagnostics()
+    to_mjcf(world, diagnostics=found)
+    [item] = found.by_code("convert.left-out")
+    assert "grass.jpg' is left out: it needs a file beside the text" in item.message
 
 
 def test_what_acts_from_outside_is_told(workspace, workspaces_dir, tmp_path) -> None:

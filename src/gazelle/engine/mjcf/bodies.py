@@ -41,7 +41,7 @@ class BodyReader:
         self._root = root
         self._taken = {*mjcf.bodies, *mjcf.joints}
         self._efforts = effort_limits(mjcf.model)
-        self.is_static = int(mjcf.model.body_treeid[root]) < 0 and not self._moves_below(root)
+        self.is_static = not mjcf.model.body_dofnum[mjcf.tree(root)].any()
         floats = self._is_free(root) or self.is_static
         self.T_world_model = mjcf.body_pose(root) if floats else IDENTITY_POSE
         self._from_world = self.T_world_model.inverse()
@@ -150,17 +150,6 @@ class BodyReader:
     def _is_free(self, body: int) -> bool:
         free = int(mujoco.mjtJoint.mjJNT_FREE)
         return any(int(self._model.jnt_type[i]) == free for i in self._mjcf.joints_of(body))
-
-    def _moves_below(self, root: int) -> bool:
-        for body in range(root, self._model.nbody):
-            if int(self._model.body_jntnum[body]) == 0:
-                continue
-            above = body
-            while above not in (0, root):
-                above = int(self._model.body_parentid[above])
-            if above == root:
-                return True
-        return False
 
 
 def _vector(values: Any) -> tuple[float, float, float]:

@@ -42,9 +42,9 @@ class CompiledMjcf:
             if int(model.jnt_type[index]) in kinds:
                 self.data.qpos[model.jnt_qposadr[index]] = 0.0
         mujoco.mj_kinematics(model, self.data)
-        self.bodies = _names([model.body(i).name for i in range(model.nbody)], "body", ())
+        self.bodies = _names([model.body(i).name for i in range(model.nbody)], "body", frozenset())
         own = [model.joint(i).name for i in range(model.njnt)]
-        self.joints = _names(own, "joint", self.bodies)
+        self.joints = _names(own, "joint", frozenset(self.bodies))
         self.renamed = [
             (old, new) for old, new in zip(own, self.joints, strict=True) if old and old != new
         ]
@@ -52,6 +52,10 @@ class CompiledMjcf:
     def body_pose(self, body: int) -> Pose:
         """Return where a body is in the world."""
         return pose_from(self.data.xpos[body], self.data.xquat[body])
+
+    def tree(self, root: int) -> NDArray[np.intp]:
+        """Return a body that hangs on the world and all below it."""
+        return np.flatnonzero(self.model.body_rootid == root)
 
     def joints_of(self, body: int) -> range:
         """Return a body's joints, the outermost first."""
@@ -98,12 +102,14 @@ def pose_from(position: NDArray[np.float64], quat_wxyz: NDArray[np.float64]) -> 
     return Pose((x, y, z), (qx, qy, qz, qw))
 
 
-def _names(own: list[str], word: str, taken: tuple[str, ...]) -> tuple[str, ...]:
+def _names(own: list[str], word: str, others: frozenset[str]) -> tuple[str, ...]:
     """Return a name for each element: its own, or one with a number for those without."""
     found: list[str] = []
+    taken = {*others, *own}
     for index, name in enumerate(own):
-        wanted = name or f"{word}_{index}"
-        if wanted in taken:
-            wanted = f"{wanted}_joint"
-        found.append(free_name(wanted, (*taken, *found, *(other for other in own if not name))))
+        if name and name not in others:
+            found.append(name)
+            continue
+        found.append(free_name(f"{name}_joint" if name else f"{word}_{index}", taken))
+        taken.add(found[-1])
     return tuple(found)

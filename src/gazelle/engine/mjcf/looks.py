@@ -177,21 +177,23 @@ class Looks:
             with Image.open(io.BytesIO(data)) as image:
                 image.convert("RGB").save(png, "PNG")
         except (OSError, ValueError, UnidentifiedImageError) as error:
-            message = (
-                f"texture '{source if isinstance(source, Path) else 'inside a mesh'}': {error}"
-            )
-            self._diagnostics.report("convert.left-out", message)
-            return ""
+            return self._without_texture(source, str(error))
         stem = source.stem if isinstance(source, Path) else "texture"
         file = self._beside.add(f"{stem}.png", png.getvalue())
         if file is None:
-            return ""
+            return self._without_texture(source, "it needs a file beside the text")
         name = f"texture {len(self._textures) + 1}"
         self._assets[file] = png.getvalue()
         texture = self._spec.add_texture(name=name)
         texture.type, texture.file = mujoco.mjtTexture.mjTEXTURE_2D, file
         self._textures[data] = name
         return name
+
+    def _without_texture(self, source: Path | bytes, why: str) -> str:
+        where = f"'{source}'" if isinstance(source, Path) else "inside a mesh"
+        message = f"texture {where} is left out: {why}"
+        self._diagnostics.report("convert.left-out", message)
+        return ""
 
 
 def _primitive(shape: Shape) -> tuple[Any, tuple[float, ...]] | None:

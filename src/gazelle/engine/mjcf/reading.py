@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from gazelle.description.conversion.beside import Beside
 from gazelle.description.conversion.plain_names import free_name
 from gazelle.description.model import Joint, Link, Model, Physics, World
@@ -69,11 +71,10 @@ def _model_of(root: int, mjcf: CompiledMjcf, geoms: GeomReader, diagnostics: Dia
     reader = BodyReader(mjcf, geoms, diagnostics, root)
     links: list[Link] = []
     joints: list[Joint] = []
-    for body in range(root, mjcf.model.nbody):
-        if _root_of(body, mjcf) == root:
-            more_links, more_joints = reader.read(body)
-            links += more_links
-            joints += more_joints
+    for body in mjcf.tree(root):
+        more_links, more_joints = reader.read(int(body))
+        links += more_links
+        joints += more_joints
     static = reader.is_static
     span = mjcf.source.span("body", mjcf.model.body(root).name)
     return Model(
@@ -89,19 +90,12 @@ def _model_of(root: int, mjcf: CompiledMjcf, geoms: GeomReader, diagnostics: Dia
     )
 
 
-def _root_of(body: int, mjcf: CompiledMjcf) -> int:
-    while int(mjcf.model.body_parentid[body]) != 0:
-        body = int(mjcf.model.body_parentid[body])
-    return body
-
-
 def _touches_itself(root: int, mjcf: CompiledMjcf) -> bool:
     """Tell whether MuJoCo lets two bodies of a tree touch that are not parent and child."""
     model = mjcf.model
     geoms = [
         (int(model.geom_bodyid[i]), int(model.geom_contype[i]), int(model.geom_conaffinity[i]))
-        for i in range(model.ngeom)
-        if _root_of(int(model.geom_bodyid[i]), mjcf) == root and int(model.geom_bodyid[i]) != 0
+        for i in np.flatnonzero(model.body_rootid[model.geom_bodyid] == root)
     ]
     kinds = {(contype, conaffinity) for _, contype, conaffinity in geoms}
     pairs = ((a, b) for a in kinds for b in kinds)
