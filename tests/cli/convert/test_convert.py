@@ -185,6 +185,9 @@ def test_broken_sources_are_explained(folder, capsys) -> None:
     Path("bad.xml").write_text("<mujoco><worldbody><geom/></worldbody></mujoco>", encoding="utf-8")
     assert convert("bad.xml", "-o", "a.urdf") == 1
     assert "MuJoCo refuses the file" in capsys.readouterr().err
+    Path("empty.xml").write_text("<mujoco/>", encoding="utf-8")
+    assert convert("empty.xml", "-o", "a.urdf") == 1
+    assert "there is no model in the file" in capsys.readouterr().err
     Path("bad.urdf").write_text("<robot", encoding="utf-8")
     assert convert("bad.urdf", "-o", "a.mjcf") == 1
     assert "[xml.malformed]" in capsys.readouterr().err

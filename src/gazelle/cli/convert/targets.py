@@ -69,6 +69,9 @@ def chosen_model(world: World, name: str, diagnostics: Diagnostics) -> Model:
             message = f"only '{candidates[0].name}' is written, without {', '.join(left)}"
             diagnostics.report("convert.left-out", message, world.span)
         return candidates[0]
+    if not names:
+        diagnostics.report("load.nothing", "there is no model in the file", world.span)
+        raise UserFileError(tuple(diagnostics))
     message = f"there are {len(names)} models: {', '.join(names)}; a URDF is one robot"
     diagnostics.report("convert.several-models", message, world.span)
     raise UserFileError(tuple(diagnostics))

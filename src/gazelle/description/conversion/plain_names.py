@@ -24,6 +24,7 @@ def with_plain_names(model: Model, diagnostics: Diagnostics) -> Model:
         model: its nested models flattened.
         diagnostics: receives ``convert.renamed``.
     """
+    model = replace(model, name=model.name.replace(_SCOPE, "_"))
     names = part_names(model)
     scoped = [name for name in names if _SCOPE in name]
     if not scoped:

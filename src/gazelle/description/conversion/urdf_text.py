@@ -48,7 +48,7 @@ def to_urdf(model: Model, *, diagnostics: Diagnostics, beside: Beside | None = N
     whole = with_surfaces_apart(whole, found)
     branches = branches_of(whole)
     _report_branches(whole, branches, found)
-    robot = Markup("robot", {"name": model.name})
+    robot = Markup("robot", {"name": whole.name})
     if branches.root != "world":
         add_origin(robot, model.T_world_model @ branches.frames[branches.root])
     else:
