@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from gazelle.graph.errors import IllegalNameError
+from gazelle.limits.yaml_text import load_yaml
 
 __all__ = [
     "CommandLine",
@@ -189,7 +190,7 @@ def parse_command_line(arguments: Sequence[str]) -> CommandLine:
 
 def _yaml_value(text: str) -> Any:
     try:
-        return yaml.safe_load(text) if text else ""
+        return load_yaml(text) if text else ""
     except yaml.YAMLError:
         return text
 

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from gazelle.limits.budget import Budget
 from gazelle.limits.expressions import compile_limited, names_in_code
-from gazelle.limits.files import FileLimitError, read_limited
+from gazelle.limits.files import TEXT_BYTES, FileLimitError, read_limited, read_text_limited
 from gazelle.limits.scale import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = [
     "HOW_TO_RAISE",
+    "TEXT_BYTES",
     "Budget",
     "FileLimitError",
     "LimitError",
     "compile_limited",
     "names_in_code",
     "read_limited",
+    "read_text_limited",
     "scaled",
 ]

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sized
 from typing import Any
 
-from gazelle.limits.scale import HOW_TO_RAISE, LimitError, scaled
+from gazelle.limits.scale import LimitError, scaled
 
 __all__ = ["HUGE_NUMBER", "Budget"]
 
@@ -66,8 +66,7 @@ class Budget:
         self._steps += steps
         if self._steps > self._most_steps:
             raise LimitError(
-                f"the expressions of this file take more than {self._most_steps} steps; "
-                f"{HOW_TO_RAISE}"
+                f"the expressions of this file take more than {self._most_steps} steps"
             )
 
     def _iterable(self, value: Iterable[Any]) -> Iterator[Any]:
@@ -120,6 +119,10 @@ class Budget:
         owner = getattr(function, "__self__", None)
         if isinstance(owner, str | bytes | int) and not isinstance(owner, bool):
             self._check_method(owner, function.__name__, arguments, named)
+        elif isinstance(owner, list) and arguments and isinstance(arguments[0], Sized):
+            _check_length(owner, len(owner) + len(arguments[0]))
+        elif function is pow:
+            self._power(*arguments[:2])
         elif function in (str, repr):
             self.checked(arguments[0]) if arguments else None
         elif function is round and len(arguments) > 1 and isinstance(arguments[1], int):
@@ -183,4 +186,4 @@ def _check_bits(bits: int) -> None:
 def _check_size(size: int, most: int, what: str) -> None:
     if size > most and size > (limit := scaled(most)):
         shown = str(size) if size < 10**15 else "more than 10^15"
-        raise LimitError(f"{what.format(shown)} is above the limit of {limit}; {HOW_TO_RAISE}")
+        raise LimitError(f"{what.format(shown)} is above the limit of {limit}")

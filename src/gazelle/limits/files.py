@@ -6,18 +6,28 @@ import errno
 import os
 import select
 import stat
-from pathlib import Path
 
 from gazelle.limits.scale import HOW_TO_RAISE, scaled
 
-__all__ = ["FileLimitError", "read_limited"]
+__all__ = ["TEXT_BYTES", "FileLimitError", "read_limited", "read_text_limited"]
+
+TEXT_BYTES = 64 << 20
+"""Size of the largest text that is read, in bytes."""
 
 _MEBIBYTE = 1 << 20
 _CHUNK = 4 << 20
 
 
 class FileLimitError(OSError):
-    """A file is larger than is read, or is no file with an end; ``strerror`` says which."""
+    """A file is larger than is read, or is no file with an end.
+
+    Attributes:
+        reason: which of it, without the advice that ``strerror`` ends with.
+    """
+
+    def __init__(self, number: int, reason: str, path: str, advice: str = "") -> None:
+        self.reason = reason
+        super().__init__(number, reason + advice, path)
 
 
 def read_limited(path: str | os.PathLike[str], most_bytes: int) -> bytes:
@@ -55,6 +65,16 @@ def read_limited(path: str | os.PathLike[str], most_bytes: int) -> bytes:
     return data
 
 
+def read_text_limited(path: str | os.PathLike[str], most_bytes: int = TEXT_BYTES) -> str:
+    """Return a file's text; errors as in `read_limited`.
+
+    Raises:
+        UnicodeDecodeError: it is not UTF-8.
+    """
+    text = read_limited(path, most_bytes).decode("utf-8")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
 def _read(number: int, most: int) -> bytes:
     """Return what can be read; of something larger one byte more than the limit."""
     parts: list[bytes] = []
@@ -73,5 +93,5 @@ def _read(number: int, most: int) -> bytes:
 
 
 def _too_large(path: str | os.PathLike[str], what: str, most: int) -> FileLimitError:
-    text = f"{what}, the limit is {most / _MEBIBYTE:g} MiB ({HOW_TO_RAISE})"
-    return FileLimitError(errno.EFBIG, text, str(Path(path)))
+    text = f"{what}, the limit is {most / _MEBIBYTE:g} MiB"
+    return FileLimitError(errno.EFBIG, text, str(path), f" ({HOW_TO_RAISE})")

@@ -15,6 +15,8 @@ from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import anonymous_name
 from gazelle.interfaces import message_type
+from gazelle.limits import read_text_limited
+from gazelle.limits.yaml_text import load_yaml
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
 from gazelle.nodes.parameters import start_node
@@ -220,7 +222,7 @@ class _Spawner:
                 names.append(word)
                 continue
             try:
-                found = yaml.safe_load(Path(word).read_text(encoding="utf-8"))
+                found = load_yaml(read_text_limited(word))
             except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
                 raise LaunchError(f"cannot read controllers from '{word}': {error}") from error
             for name, values in (found or {}).items():

@@ -10,6 +10,8 @@ from typing import Any
 import yaml
 
 from gazelle.errors import GazelleError
+from gazelle.limits import read_text_limited
+from gazelle.limits.yaml_text import load_yaml
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.ports import ParameterPort
 
@@ -85,7 +87,7 @@ def _is_ros2(tree: Mapping[str, Any]) -> bool:
 
 def _read(path: Path) -> Mapping[str, Any]:
     try:
-        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
+        tree = load_yaml(read_text_limited(path))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise GazelleError(f"parameter file '{path}' cannot be read: {error}") from error
     if not isinstance(tree, Mapping):

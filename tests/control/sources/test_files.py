@@ -109,7 +109,10 @@ def test_file_without_ros_parameters_is_read_and_told(tmp_path: Path) -> None:
         ("- 1\n", "a parameter file is a mapping of node names"),
         ("a:\n  ros__parameters:\n    x: !what 3\n", "this value cannot be read"),
         ("a:\n  ros__parameters:\n    [x]: 3\n", "a name of a parameter is a word"),
-        ("a:\n  ros__parameters: &x\n    b: *x\n", "an alias names the mapping it stands in"),
+        (
+            "a:\n  ros__parameters: &x\n    b: *x\n",
+            "not read: an alias stands inside the very list or mapping that it names",
+        ),
     ],
 )
 def test_damaged_files_are_reported_with_their_place(

@@ -23,8 +23,8 @@ def test_million_links_are_refused_at_once() -> None:
     text = "<robot>" + '<link name="a"/>' * 1_000_000 + "</robot>"
     start = time.thread_time()
     assert _errors(text) == [
-        "f.urdf: error: the document has 1000001 elements, the limit is 500000; if the file means "
-        "it, set the environment variable GAZELLE_LIMITS=10 for ten times [limits.elements]"
+        "f.urdf: error: the document has 1000001 elements, the limit is 500000 "
+        "[limits.elements]"
     ]
     assert time.thread_time() - start < 1.0
 
@@ -55,7 +55,7 @@ def test_nesting_has_a_limit() -> None:
 
 def test_attributes_have_a_limit() -> None:
     many = " ".join(f'a{number}=""' for number in range(100_000))
-    assert "<robot> has 100000 attributes, the limit is 1000; " in _errors(f"<robot {many}/>")[0]
+    assert "<robot> has 100000 attributes, the limit is 1000 [" in _errors(f"<robot {many}/>")[0]
 
 
 def test_open_comments_without_end_take_no_time() -> None:

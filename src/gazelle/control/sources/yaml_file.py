@@ -11,6 +11,8 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits import read_text_limited
+from gazelle.limits.yaml_text import LimitedLoader, YamlLimitError
 
 __all__ = ["NodeSection", "read_parameter_file", "read_parameter_text"]
 
@@ -46,7 +48,7 @@ def read_parameter_file(path: Path, diagnostics: Diagnostics) -> tuple[NodeSecti
     level are nodes. Problems are reported; what can be read is returned.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_text_limited(path)
     except OSError as error:
         message = f"parameter file '{path}' cannot be read: {error.strerror}"
         diagnostics.report("control.parameter-file", message)
@@ -67,11 +69,12 @@ def read_parameter_text(text: str, file: str, diagnostics: Diagnostics) -> tuple
         diagnostics: receives what is wrong.
     """
     try:
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        root = yaml.compose(text, Loader=LimitedLoader)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         span = SourceSpan(file, mark.line + 1, mark.column + 1) if mark else SourceSpan(file)
-        message = f"parameter file is not YAML: {getattr(error, 'problem', None) or error}"
+        what = "not read" if isinstance(error, YamlLimitError) else "not YAML"
+        message = f"parameter file is {what}: {getattr(error, 'problem', None) or error}"
         begin = getattr(error, "context_mark", None)
         if begin is not None and begin is not mark:
             context = getattr(error, "context", "")
@@ -86,7 +89,6 @@ class _Reader:
         self._file = file
         self._diagnostics = diagnostics
         self._sections: list[NodeSection] = []
-        self._open: list[yaml.MappingNode] = []
 
     def sections(self, root: yaml.Node) -> tuple[NodeSection, ...]:
         if not isinstance(root, yaml.MappingNode):
@@ -135,26 +137,20 @@ class _Reader:
         return found
 
     def _pairs(self, node: yaml.MappingNode) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
-        """Yield keys and values; what a parameter's name cannot be, and loops, are reported."""
-        if node in self._open:
-            text = "an alias names the mapping it stands in"
-            self._diagnostics.report("control.parameter-file", text, self._span(node))
-            return
-        self._open.append(node)
+        """Yield keys and values; what a parameter's name cannot be is reported."""
         for key, value in node.value:
             if isinstance(key, yaml.ScalarNode):
                 yield key, value
             else:
                 text = "a name of a parameter is a word, not a list or a mapping"
                 self._diagnostics.report("control.parameter-file", text, self._span(key))
-        self._open.pop()
 
     def _value(self, node: yaml.Node) -> Any:
-        if isinstance(node, yaml.SequenceNode) and not _holds_itself(node, ()):
+        if isinstance(node, yaml.SequenceNode):
             return [self._value(item) for item in node.value]
         if isinstance(node, yaml.ScalarNode) and node.style is None and _is_float(node):
             return float(node.value)
-        constructor = yaml.SafeLoader("")
+        constructor = LimitedLoader("")
         try:
             return constructor.construct_object(node, deep=True)
         except yaml.YAMLError as error:
@@ -164,12 +160,6 @@ class _Reader:
 
     def _span(self, node: yaml.Node) -> SourceSpan:
         return SourceSpan(self._file, node.start_mark.line + 1, node.start_mark.column + 1)
-
-
-def _holds_itself(node: yaml.SequenceNode, around: tuple[yaml.Node, ...]) -> bool:
-    inside = (*around, node)
-    lists = [item for item in node.value if isinstance(item, yaml.SequenceNode)]
-    return any(item in inside or _holds_itself(item, inside) for item in lists)
 
 
 def _is_float(node: yaml.ScalarNode) -> bool:

@@ -17,10 +17,13 @@ from pathlib import Path
 from types import CodeType, FrameType, ModuleType
 from typing import Any
 
+from gazelle.description.xacro.budget import ExpansionLimitError, Spending
 from gazelle.description.xacro.dom import Tracker, node_in, place_of
 from gazelle.description.xacro.repairs import UNKNOWN, UNKNOWN_NAME, Repairs
+from gazelle.description.xml.reader import too_much_in
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import NotFoundError
+from gazelle.limits import TEXT_BYTES, compile_limited, names_in_code, read_limited
 from gazelle.workspace import Workspace
 from gazelle.workspace.installed import installed_source
 
@@ -61,6 +64,7 @@ class Session:
         properties: last place of each property by name, and by name and text of its value.
         macros: last place of each macro by name.
         addresses: what ``xmlns:xacro`` is in the root elements, with their places.
+        spending: what the run has used up.
     """
 
     tracker: Tracker
@@ -70,6 +74,7 @@ class Session:
     properties: dict[str | tuple[str, str], SourceSpan] = field(default_factory=dict)
     macros: dict[str, SourceSpan] = field(default_factory=dict)
     addresses: dict[str, SourceSpan] = field(default_factory=dict)
+    spending: Spending = field(default_factory=Spending)
 
 
 @contextmanager
@@ -104,6 +109,7 @@ def run_session(
         print_ = _printer(session, console)
         changes += [(xacro, "print", print_), (color, "print", print_)]
         changes += [(substitution_args, "_eval_find", find)]
+        changes += [(substitution_args, "eval", session.spending.eval)]
         if console is None:
             changes.append((color, "is_tty", lambda _stream: False))
         symbols: Any = xacro._global_symbols
@@ -117,13 +123,18 @@ def run_session(
 def _replacements(
     library: Any, session: Session, root_dir: str, verbosity: int
 ) -> list[tuple[Any, str, Any]]:
-    tracker = session.tracker
+    tracker, spending = session.tracker, session.spending
     return [
         (library, "parse", _parser(library, session)),
-        (library, "safe_eval", _remembering_evaluator(library)),
-        (library, "eval_text", _quick_for_plain(library.eval_text)),
-        (library, "handle_macro_call", _tracked(library.handle_macro_call, tracker)),
-        (library, "process_include", _tracked(library.process_include, tracker)),
+        (library, "safe_eval", _remembering_evaluator(library, spending)),
+        (library, "eval_text", spending.texts(library.eval_text)),
+        (library, "open", spending.open),
+        (
+            library,
+            "handle_macro_call",
+            _tracked(spending.counted(library.handle_macro_call), tracker),
+        ),
+        (library, "process_include", _tracked(spending.counted(library.process_include), tracker)),
         (library, "grab_property", _noting(library.grab_property, _note_property, session)),
         (library, "grab_macro", _noting(library.grab_macro, _note_macro, session)),
         (library, "get_include_files", _lenient(library.get_include_files, session)),
@@ -191,12 +202,13 @@ def _parser(library: Any, session: Session) -> Callable[..., Any]:
         path = os.path.join(library.root_dir, str(filename))  # noqa: PTH118
         try:
             # The error shall name the file as the library's would: with "./".
-            with open(path, "rb") as stream:  # noqa: PTH123
-                data = stream.read()
+            data = read_limited(path, TEXT_BYTES)
         except OSError as error:
             # As the library does: the missing file is not "the file being worked on".
             library.filestack.pop()
             raise library.XacroException(f"{error.strerror}: {path}", exc=error) from error
+        if reason := too_much_in(data):
+            raise ExpansionLimitError(f"'{filename}': {reason}")
         document = tracker.parse(data, str(filename))
         root: Any = document.documentElement
         address, place = root.getAttribute("xmlns:xacro"), place_of(root)
@@ -207,35 +219,26 @@ def _parser(library: Any, session: Session) -> Callable[..., Any]:
     return parse
 
 
-def _remembering_evaluator(library: Any) -> Callable[..., Any]:
+def _remembering_evaluator(library: Any, spending: Spending) -> Callable[..., Any]:
     """Evaluate as the library does, but compile each expression once.
 
     Most expressions of a robot stand in macros that are called many times.
     """
 
     @lru_cache(maxsize=4096)
-    def compiled(text: str) -> CodeType:
-        return compile(text, "<expression>", "eval")
+    def compiled(text: str) -> tuple[CodeType, list[str]]:
+        code = compile_limited(text)
+        return code, [name for name in names_in_code(code) if name.startswith("__")]
 
     def safe_eval(expr: str, symbols: Any, locals_: Any = None) -> Any:
-        code = compiled(expr.strip())
-        invalid_names = [name for name in code.co_names if name.startswith("__")]
+        code, invalid_names = compiled(expr.strip())
         if invalid_names:
             raise library.XacroException("Use of invalid name(s): ", ", ".join(invalid_names))
-        symbols.update(__builtins__={})
+        symbols.update(__builtins__=spending.expressions.names)
         # This is what xacro is: expressions of the file, without builtins.
-        return eval(code, symbols, locals_)  # noqa: S307
+        return spending.expressions.checked(eval(code, symbols, locals_))  # noqa: S307
 
     return safe_eval
-
-
-def _quick_for_plain(eval_text: Callable[[str, Any], Any]) -> Callable[[str, Any], Any]:
-    """Pass texts without a dollar sign through, as the library's lexer would, only sooner."""
-
-    def quick(text: str, symbols: Any) -> Any:
-        return text if text and "$" not in text else eval_text(text, symbols)
-
-    return quick
 
 
 def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., Any]:

@@ -9,11 +9,10 @@ from xml.parsers import expat
 
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.limits import HOW_TO_RAISE, FileLimitError, LimitError, read_limited, scaled
+from gazelle.limits import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
 
-__all__ = ["parse_xml", "read_xml"]
+__all__ = ["parse_xml", "read_xml", "too_much_in"]
 
-_MOST_BYTES = 64 << 20
 _MOST_ELEMENTS = 500_000
 _MOST_ATTRIBUTES = 1000
 # Readers go down element by element; Python itself allows a thousand calls.
@@ -28,9 +27,9 @@ _BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
 def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
     """Read a file and parse it; None (and an error reported) when that is impossible."""
     try:
-        data = read_limited(path, _MOST_BYTES)
+        data = read_limited(path, TEXT_BYTES)
     except FileLimitError as error:
-        message = f"'{path}' is not read: {error.strerror}"
+        message = f"'{path}' is not read: {error.reason}"
         diagnostics.report("limits.file-size", message, SourceSpan(str(path)))
         return None
     except OSError as error:
@@ -56,7 +55,8 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     # Half a surrogate pair is no character; expat says where it stands.
     data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
     try:
-        _check_size(data, file)
+        if reason := too_much_in(data):
+            raise _TooMuchError(reason, SourceSpan(file))
         return _parsed_or_repaired(data, encoding, file, diagnostics)
     except expat.ExpatError as error:
         span = SourceSpan(file, error.lineno, error.offset + 1)
@@ -88,18 +88,20 @@ def _parsed_or_repaired(
         return root
 
 
-def _check_size(data: bytes, file: str) -> None:
-    """Refuse a document by counting its tags, which is much sooner than reading half of it."""
-    if len(data) > scaled(_MOST_BYTES):
-        text = f"the document has {len(data)} bytes, the limit is {scaled(_MOST_BYTES)}"
-        raise _TooMuchError(f"{text}; {HOW_TO_RAISE}", SourceSpan(file))
+def too_much_in(data: bytes) -> str:
+    """Return why a document is too large to be read, empty when it is not.
+
+    Its tags are counted, which is much sooner done than reading half of it.
+    """
+    if len(data) > scaled(TEXT_BYTES):
+        return f"the document has {len(data)} bytes, the limit is {scaled(TEXT_BYTES)}"
     most = scaled(_MOST_ELEMENTS)
     # In UTF-16 end tags look different; there the elements are counted one by one.
     if data.count(b"<") > most and b"\0" not in data[:16]:
         count = data.count(b"<") - sum(data.count(word) for word in (b"</", b"<!", b"<?"))
         if count > most:
-            text = f"the document has {count} elements, the limit is {most}"
-            raise _TooMuchError(f"{text}; {HOW_TO_RAISE}", SourceSpan(file))
+            return f"the document has {count} elements, the limit is {most}"
+    return ""
 
 
 def _parsed(data: bytes, encoding: str | None, file: str) -> Tag | None:
@@ -212,7 +214,7 @@ class _Builder:
         else:
             text = f"<{name}> has {len(attributes)} attributes, the limit is "
             text += str(self._most_attributes)
-        return _TooMuchError(f"{text}; {HOW_TO_RAISE}", span)
+        return _TooMuchError(text, span)
 
     def _end(self, _name: str) -> None:
         stack = self._stack

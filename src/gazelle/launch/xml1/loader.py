@@ -112,11 +112,12 @@ def _include(tag: Tag, scope: Scope, reading: Reading) -> None:
     for child in tag.find_all("env"):
         HANDLERS["env"](child, inner, reading)
     reading.clear_params(tag, inner)
-    if str(path) in _open_files(scope):
+    if os.path.realpath(path) in map(os.path.realpath, _open_files(scope)):
         chain = " → ".join([*_open_files(scope), str(path)])
         raise TagError("launch.include-cycle", f"include cycle: {chain}")
     if not path.is_file():
         raise TagError("launch.include-missing", *reading.missing_file(path))
+    reading.count_include()
     root = read_xml(path, reading.diagnostics)
     if root is not None:
         _load_root(root, inner, reading, top=False)

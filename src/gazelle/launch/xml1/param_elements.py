@@ -17,6 +17,7 @@ from gazelle.launch.environment import node_environment
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.values import flatten, load_yaml, param_value
+from gazelle.limits import TEXT_BYTES, read_limited, read_text_limited
 
 __all__ = ["param", "rosparam"]
 
@@ -157,7 +158,7 @@ def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
 
 def _read_text(path: Path, attribute: str, tag: Tag) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return read_text_limited(path)
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         message = f"{attribute} '{path}': {reason}"
@@ -166,7 +167,7 @@ def _read_text(path: Path, attribute: str, tag: Tag) -> str:
 
 def _read_bytes(path: Path, tag: Tag) -> bytes:
     try:
-        return path.read_bytes()
+        return read_limited(path, TEXT_BYTES)
     except OSError as error:
         message = f"binfile '{path}': {error.strerror}"
         raise TagError("xml.unreadable", message, tag.span, _nearest_file(path)) from error

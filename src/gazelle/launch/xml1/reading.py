@@ -13,9 +13,12 @@ from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.substitution import Substitution, SubstitutionError, directory_of
 from gazelle.launch.xml1.tables import ELEMENTS
 from gazelle.launch.xml1.values import bool_value
+from gazelle.limits import scaled
 from gazelle.workspace import Workspace
 
 __all__ = ["Reading", "TagError"]
+
+_MOST_INCLUDES = 2000
 
 
 class TagError(Exception):
@@ -38,6 +41,7 @@ class Reading:
         config: what has been read so far.
         environ: environment of the launch, before any ``<env>``.
         anonymous: names given by ``$(anon …)``.
+        includes: how many files have been included so far.
     """
 
     config: LaunchConfig
@@ -45,6 +49,17 @@ class Reading:
     diagnostics: Diagnostics
     environ: dict[str, str]
     anonymous: dict[str, str] = field(default_factory=dict)
+    includes: int = 0
+
+    def count_include(self) -> None:
+        """Note that a file is about to be included.
+
+        Raises:
+            TagError: files that include others twice and more make too many of it.
+        """
+        self.includes += 1
+        if self.includes > (most := scaled(_MOST_INCLUDES)):
+            raise TagError("limits.expansion", f"more than {most} files are included")
 
     def substitution(self, scope: Scope) -> Substitution:
         """Return the evaluator for a place."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import math
 import os
 import re
@@ -14,6 +13,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
+from gazelle.limits import Budget, LimitError, compile_limited
 from gazelle.workspace import Workspace
 
 __all__ = ["Substitution", "SubstitutionError"]
@@ -159,10 +159,15 @@ class Substitution:
         names["anon"] = lambda name: self._anon([name])
         names["dirname"] = lambda: self.directory
         try:
-            code = compile(ast.parse(expression.strip(), mode="eval"), "<eval>", "eval")
-            return eval(code, {"__builtins__": {}}, names)  # noqa: S307 - roslaunch's $(eval)
+            code, budget = compile_limited(expression.strip(), "<eval>"), Budget()
+            value = eval(code, {"__builtins__": budget.names}, names)  # noqa: S307 - as roslaunch
+            return budget.checked(value)
         except SubstitutionError:
             raise
+        except LimitError as error:
+            raise SubstitutionError(
+                "limits.expression", f"$(eval {expression}): {error}"
+            ) from error
         except Exception as error:  # the user's expression may raise anything
             message = f"$(eval {expression}): {type(error).__name__}: {error}"
             raise SubstitutionError("launch.substitution", message) from error

@@ -8,6 +8,9 @@ from typing import Any
 
 import yaml
 
+from gazelle.limits import Budget, compile_limited
+from gazelle.limits.yaml_text import LimitedLoader
+
 __all__ = ["PARAM_TYPES", "bool_value", "flatten", "load_yaml", "param_value"]
 
 PARAM_TYPES = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
@@ -79,7 +82,7 @@ def _auto_value(text: str) -> Any:
         return lowered == "true" if lowered in {"true", "false"} else text
 
 
-class _RosLoader(yaml.SafeLoader):
+class _RosLoader(LimitedLoader):
     """A loader of its own, so that other users of PyYAML keep theirs."""
 
 
@@ -97,7 +100,8 @@ def _angle(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
 
 def _arithmetic(expression: str) -> float:
     """Evaluate numbers, pi and + - * / (the regular expression let nothing else through)."""
-    return float(eval(expression.strip() or "0", {"__builtins__": {}}, {"pi": math.pi}))  # noqa: S307
+    code, names = compile_limited(expression.strip() or "0"), {"__builtins__": Budget().names}
+    return float(eval(code, names, {"pi": math.pi}))  # noqa: S307
 
 
 _RosLoader.add_constructor("!angle", _angle)

@@ -10,6 +10,7 @@ from gazelle.description.xacro.explaining.elements import explain_element
 from gazelle.description.xacro.explaining.expressions import explain_expression
 from gazelle.description.xacro.explaining.files import explain_file
 from gazelle.description.xacro.explaining.finding import Finding, one_line
+from gazelle.description.xacro.explaining.limits import explain_limit
 from gazelle.description.xacro.explaining.names import explain_name
 from gazelle.description.xacro.explaining.substitutions import explain_substitution
 from gazelle.description.xacro.failure import Failure
@@ -17,6 +18,7 @@ from gazelle.description.xacro.failure import Failure
 __all__ = ["Finding", "explain"]
 
 _EXPLAINERS: tuple[Callable[[Failure], Finding | None], ...] = (
+    explain_limit,
     explain_document,
     explain_file,
     explain_substitution,

@@ -1,0 +1,87 @@
+"""What one run of xacro may use up: real robots take a hundredth of it."""
+
+from __future__ import annotations
+
+import builtins
+import io
+import time
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.limits import Budget, LimitError, compile_limited, read_text_limited, scaled
+
+__all__ = ["ExpansionLimitError", "Spending"]
+
+_MOST_SECONDS = 20
+_MOST_CALLS = 50_000
+_MOST_TEXTS = 1_000_000
+_MOST_CHARACTERS = 64 << 20
+
+
+class ExpansionLimitError(LimitError):
+    """A file expands to too much."""
+
+
+class Spending:
+    """Counts what a run does, and ends it with a `LimitError` where that is absurd.
+
+    Attributes:
+        expressions: watches over what expressions compute.
+    """
+
+    def __init__(self) -> None:
+        self.expressions = Budget()
+        self._calls = self._texts = self._characters = 0
+        self._end_s = time.thread_time() + scaled(_MOST_SECONDS)
+        self._most_texts = scaled(_MOST_TEXTS)
+        self._most_characters = scaled(_MOST_CHARACTERS)
+
+    def counted(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Count the calls of the library's function for macro calls or for includes."""
+
+        def call(element: Any, *rest: Any) -> Any:
+            self._calls += 1
+            if self._calls > scaled(_MOST_CALLS):
+                limit = scaled(_MOST_CALLS)
+                raise ExpansionLimitError(f"more than {limit} macro calls and includes")
+            if time.thread_time() > self._end_s:
+                limit = scaled(_MOST_SECONDS)
+                raise ExpansionLimitError(f"more than {limit} s of computing")
+            return function(element, *rest)
+
+        return call
+
+    def texts(self, eval_text: Callable[[str, Any], Any]) -> Callable[[str, Any], Any]:
+        """Count the texts that are evaluated, and pass those without a dollar sign through.
+
+        The library's lexer would do the same with them, only later.
+        """
+
+        def evaluate(text: str, symbols: Any) -> Any:
+            result = text if text and "$" not in text else eval_text(text, symbols)
+            self._texts += 1
+            if type(result) is str:
+                self._characters += len(result)
+            if self._texts > self._most_texts or self._characters > self._most_characters:
+                raise self._too_much_text()
+            return result
+
+        return evaluate
+
+    def _too_much_text(self) -> ExpansionLimitError:
+        if self._texts > self._most_texts:
+            return ExpansionLimitError(f"more than {self._most_texts} attributes and texts")
+        most = self._most_characters
+        return ExpansionLimitError(f"attributes and texts of more than {most} characters")
+
+    def open(self, name: str) -> io.StringIO:
+        """Open a file that an expression loads; see `gazelle.limits.read_text_limited`."""
+        return io.StringIO(read_text_limited(name))
+
+    def eval(self, text: str, names: dict[str, Any], locals_: Any) -> Any:
+        """Evaluate what stands in ``$(eval …)``, in place of Python's own function."""
+        code = compile_limited(text, "<string>")
+        allowed = {**vars(builtins), **self.expressions.names}
+        # As the library does: the file's own expression.
+        value = eval(code, {**names, "__builtins__": allowed}, locals_)  # noqa: S307
+        return self.expressions.checked(value)

@@ -1,0 +1,65 @@
+"""YAML that would take a reader for ever or surprise it."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+import yaml
+
+from gazelle.limits.yaml_text import YamlLimitError, load_yaml
+
+
+def _bomb(levels: int) -> str:
+    lines = ["a0: &a0 [x,x,x,x,x,x,x,x,x,x]"]
+    lines += [f"a{n + 1}: &a{n + 1} [{','.join([f'*a{n}'] * 10)}]" for n in range(levels)]
+    return "\n".join(lines)
+
+
+def test_plain_files_are_read_as_ever() -> None:
+    text = "a: {b: [1, 2.5, yes], c: &x {d: e}}\nf: *x\ng: 2001-01-01\n<<: {h: 0x10}"
+    assert load_yaml(text) == yaml.safe_load(text)
+    assert load_yaml(_bomb(3)) == yaml.safe_load(_bomb(3))
+
+
+def test_aliases_count_as_often_as_they_are_used() -> None:
+    with pytest.raises(YamlLimitError) as caught:
+        load_yaml(_bomb(9))
+    text = "12345679021 values, aliases followed are above the limit of 1000000; if the file means"
+    assert text in str(caught.value)
+    assert "GAZELLE_LIMITS=10" in str(caught.value)
+
+
+def test_lists_that_hold_themselves_are_refused() -> None:
+    with pytest.raises(
+        YamlLimitError, match="an alias stands inside the very list or mapping"
+    ) as e:
+        load_yaml("a: &a [1, *a]")
+    assert "line 1, column 4" in str(e.value)
+
+
+def test_nesting_has_a_limit_and_a_place() -> None:
+    for depth in (65, 50_000):
+        with pytest.raises(YamlLimitError, match="are nested deeper than 64") as caught:
+            load_yaml("[" * depth)
+        assert "line 1, column 65" in str(caught.value)
+
+
+def test_long_texts_are_refused_at_once() -> None:
+    start = time.thread_time()
+    with pytest.raises(YamlLimitError, match="are above the limit of 8388608"):
+        load_yaml("a: 1\n" * 20_000_000)
+    assert time.thread_time() - start < 1.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a: 2001-99-99", "a: !!int abc", "a: !!timestamp b", "a: !!float b", f"a: {'9' * 5000}",
+     "a: !!python/object:os.system x", "? [a]\n: b", "a: !!binary é", "<<: 3", "=", "\x00"],
+)  # fmt: skip
+def test_values_that_are_none_are_errors_of_the_yaml(text: str) -> None:
+    try:
+        load_yaml(text)
+    except yaml.YAMLError:
+        return
+    assert text == "="
