@@ -28,6 +28,7 @@ _WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _SDF_DEFAULTS = {"ixx": "1", "iyy": "1", "izz": "1"}
 _TRUE = ("1", "true")
 
+_Children = dict[str, list[str]]
 FindTag = Callable[[Link], Tag | None]
 
 
@@ -139,6 +140,9 @@ def records_of(
     for model in moving:
         heads, needy = _heads(model), _needy(model, find_tag)
         children = {joint.child for joint in model.joints}
+        links_below: _Children = {}
+        for joint in model.joints:
+            links_below.setdefault(joint.parent, []).append(joint.child)
         for link in model.links:
             name = f"{model.name}::{link.name}" if several else link.name
             record = _record(name, link, model, find_tag(link), diagnostics)
@@ -150,7 +154,7 @@ def records_of(
                 record = replace(
                     record,
                     is_root=heads[link.name] not in children,
-                    below=_below(link.name, model, heads),
+                    below=_below(link.name, heads, links_below),
                 )
             records.setdefault(key, record)
     return tuple(records.values())
@@ -191,15 +195,16 @@ def _needy(model: Model, find_tag: FindTag) -> set[str]:
     return needy
 
 
-def _below(name: str, model: Model, heads: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the links that hang on a link's body, in the order of the file, without it."""
-    inside = {heads[name]}
-    for _ in model.joints:
-        more = {joint.child for joint in model.joints if joint.parent in inside} - inside
-        if not more:
-            break
-        inside |= more
-    return tuple(link.name for link in model.links if link.name in inside and link.name != name)
+def _below(name: str, heads: Mapping[str, str], links: _Children) -> tuple[str, ...]:
+    """Return the links that hang on a link's body, without it."""
+    found, waiting = dict[str, None](), [heads[name]]
+    while waiting:
+        for child in links.get(waiting.pop(), ()):
+            if child not in found:
+                found[child] = None
+                waiting.append(child)
+    found.pop(name, None)
+    return tuple(found)
 
 
 def _heads(model: Model) -> dict[str, str]:

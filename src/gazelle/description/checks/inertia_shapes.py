@@ -107,7 +107,15 @@ def shape_points_m(shape: Shape, diagnostics: Diagnostics) -> Array:
         shape: the shape.
         diagnostics: receives what is wrong with a mesh file.
     """
-    mesh = _mesh(shape, diagnostics)
+    if isinstance(shape, MeshShape):
+        mesh = _mesh(shape, diagnostics)
+        return np.empty((0, 3)) if mesh is None else mesh.vertices_m
+    return _primitive_points_m(shape)
+
+
+@lru_cache(maxsize=_KEPT)
+def _primitive_points_m(shape: Shape) -> Array:
+    mesh = _mesh(shape, Diagnostics())
     return np.empty((0, 3)) if mesh is None else mesh.vertices_m
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import combinations
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description.checks.bodies import fixed_heads
 from gazelle.description.checks.outlines import Outline, Outlines
 from gazelle.description.model import (
     Box,
@@ -15,7 +15,6 @@ from gazelle.description.model import (
     Cone,
     Cylinder,
     Ellipsoid,
-    JointType,
     Link,
     Model,
     Sphere,
@@ -36,11 +35,17 @@ def check_overlaps(model: Model, outlines: Outlines, diagnostics: Diagnostics) -
 
     Meshes are left out: their hulls say little about them.
     """
-    bodies = _bodies(model)
+    bodies = fixed_heads(model)
+    joined = {
+        frozenset((bodies.get(joint.parent, ""), bodies.get(joint.child, "")))
+        for joint in model.joints
+    }
     told = set[tuple[str, str]]()
-    for first, second in _pairs(model, outlines):
+    for first, second in _near_pairs(_colliding(model, outlines)):
         names = first.link.name, second.link.name
-        if bodies[names[0]] == bodies[names[1]] or names in told or _joined(model, bodies, names):
+        pair = frozenset(bodies[name] for name in names)
+        # The two ends of a joint never collide.
+        if len(pair) < 2 or names in told or pair in joined:
             continue
         depth = overlap_m(first.points_m, second.points_m)
         if depth > _TOLERATED_M:
@@ -60,10 +65,6 @@ def overlap_m(first: Array, second: Array) -> float:
     Gilbert's algorithm decides whether there is a gap. The depth is the smallest of a few hundred
     directions, so it is an upper bound.
     """
-    if (first.min(axis=0) > second.max(axis=0)).any():
-        return 0.0
-    if (second.min(axis=0) > first.max(axis=0)).any():
-        return 0.0
     nearest = first.mean(axis=0) - second.mean(axis=0)
     for _ in range(_ROUNDS):
         length = float(np.linalg.norm(nearest))
@@ -91,40 +92,28 @@ def _directions() -> Array:
     return np.concatenate([spread, np.eye(3), -np.eye(3)])
 
 
-def _pairs(model: Model, outlines: Outlines) -> Iterator[tuple[Outline, Outline]]:
-    colliding = [
+def _colliding(model: Model, outlines: Outlines) -> list[Outline]:
+    return [
         item
         for item in outlines.collisions
         if item.collision is not None
         and isinstance(item.collision.shape, _CONVEX)
         and _self_collides(item.link, model)
     ]
-    for first, second in combinations(colliding, 2):
-        if first.link.name != second.link.name:
-            yield first, second
+
+
+def _near_pairs(items: Sequence[Outline]) -> Iterator[tuple[Outline, Outline]]:
+    """Yield the pairs whose bounding boxes overlap."""
+    if len(items) < 2:
+        return
+    lows = np.array([item.low_m for item in items])
+    highs = np.array([item.high_m for item in items])
+    for index, item in enumerate(items[:-1]):
+        rest = slice(index + 1, None)
+        near = (lows[rest] <= highs[index]).all(axis=1) & (highs[rest] >= lows[index]).all(axis=1)
+        for other in np.flatnonzero(near):
+            yield item, items[index + 1 + int(other)]
 
 
 def _self_collides(link: Link, model: Model) -> bool:
     return model.self_collide if link.self_collide is None else link.self_collide
-
-
-def _bodies(model: Model) -> dict[str, str]:
-    """Return for every link the first of those it is fixed to."""
-    above = {joint.child: joint for joint in model.joints if joint.type is JointType.FIXED}
-    bodies = {}
-    for link in model.links:
-        name, seen = link.name, set[str]()
-        while name in above and name not in seen:
-            seen.add(name)
-            name = above[name].parent
-        bodies[link.name] = name
-    return bodies
-
-
-def _joined(model: Model, bodies: dict[str, str], names: tuple[str, str]) -> bool:
-    """Bodies on the two ends of a joint never collide."""
-    wanted = {bodies[name] for name in names}
-    return any(
-        {bodies.get(joint.parent, joint.parent), bodies.get(joint.child, joint.child)} == wanted
-        for joint in model.joints
-    )

@@ -39,9 +39,10 @@ def wheels_of(model: Model) -> tuple[Wheel, ...]:
     """Return the joints with a level axis and no limits that are called or driven as wheels."""
     driven = frozenset(_driven(model.plugins))
     above = {joint.child: joint for joint in model.joints}
+    links = {link.name: link for link in model.links}
     found = []
     for joint in model.joints:
-        link = model.link(joint.child)
+        link = links.get(joint.child)
         if link is None or not _turns_freely(joint):
             continue
         axis = axis_in_model(joint)

@@ -52,11 +52,11 @@ def check_sizes(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> N
 def _check_mesh_unit(
     link: Link, meshes: Sequence[SourceSpan], sizes: dict[str, float], diagnostics: Diagnostics
 ) -> bool:
+    if not meshes:
+        return False
     size = sizes[link.name]
     others = [value for name, value in sizes.items() if name != link.name]
     typical = float(np.median(others)) if others else 0.5
-    if not meshes:
-        return False
     if size > _HUGE_M and size > _HUGE_RATIO * max(typical, 1e-3):
         factor = min(_UNITS, key=lambda unit: abs(np.log(size / unit / max(typical, 0.01))))
         text = (

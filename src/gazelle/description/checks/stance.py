@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description.checks.bodies import fixed_groups
 from gazelle.description.checks.outlines import Outline, Outlines
 from gazelle.description.checks.rolling import Wheel, wheels_of
-from gazelle.description.model import Joint, JointType, Link, Model
+from gazelle.description.model import JointType, Link, Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry import convex_hull
@@ -66,19 +68,20 @@ def check_stance(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> 
     if len(driven) < 2 or any(joint.parent == "world" for joint in model.joints):
         return
     touchable = {item.link.name for item in outlines.collisions}
-    if not all(touchable & {wheel.link.name, *_below(wheel.link, model)} for wheel in driven):
+    groups = fixed_groups(model)
+    if not all(touchable.intersection(groups[wheel.link.name]) for wheel in driven):
         return  # said of the wheel
     stance = stance_of(model, outlines)
     if stance is None:
         return
-    rolling = {name for wheel in wheels for name in (wheel.link.name, *_below(wheel.link, model))}
+    rolling = {name for wheel in wheels for name in groups[wheel.link.name]}
     on_ground = [
         item
         for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True)
         if gap < _TOUCHING_M
     ]
     dragging = [item for item in on_ground if item.link.name not in rolling]
-    hanging = _hanging(driven, model, outlines, stance)
+    hanging = _hanging(driven, groups, outlines, stance)
     if hanging:
         _report_hanging(hanging, on_ground, stance, diagnostics)
     else:
@@ -86,18 +89,19 @@ def check_stance(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> 
 
 
 def _hanging(
-    driven: list[Wheel], model: Model, outlines: Outlines, stance: Stance
+    driven: list[Wheel],
+    groups: Mapping[str, tuple[str, ...]],
+    outlines: Outlines,
+    stance: Stance,
 ) -> list[tuple[Wheel, float]]:
+    lowest: dict[str, float] = {}
+    for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True):
+        lowest[item.link.name] = min(gap, lowest.get(item.link.name, math.inf))
     found = []
     for wheel in driven:
-        parts = {wheel.link.name, *_below(wheel.link, model)}
-        gaps = [
-            gap
-            for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True)
-            if item.link.name in parts
-        ]
-        if gaps and min(gaps) > _TOUCHING_M:
-            found.append((wheel, min(gaps)))
+        gap = min(lowest[name] for name in groups[wheel.link.name] if name in lowest)
+        if gap > _TOUCHING_M:
+            found.append((wheel, gap))
     # Of three axles one may hang: six wheels never touch a plane all at once.
     return found if len(driven) - len(found) < 2 else []
 
@@ -149,19 +153,6 @@ def _swings(link: Link, model: Model) -> bool:
     """Tell whether a ball or roller: a joint lets it turn instead of sliding."""
     joint = next((item for item in model.joints if item.child == link.name), None)
     return joint is not None and joint.type not in (JointType.FIXED, JointType.PRISMATIC)
-
-
-def _below(link: Link, model: Model) -> list[str]:
-    found: list[str] = []
-    for joint in model.joints:
-        if joint.parent == link.name and joint.child not in found and _is_fixed(joint):
-            child = model.link(joint.child)
-            found += [joint.child, *(_below(child, model) if child is not None else [])]
-    return found
-
-
-def _is_fixed(joint: Joint) -> bool:
-    return joint.type is JointType.FIXED
 
 
 def _center_m(model: Model) -> Array | None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description.checks.bodies import fixed_groups
 from gazelle.description.checks.rolling import Wheel, axis_in_model, wheels_of
 from gazelle.description.model import Cylinder, Joint, JointType, Link, Model
 from gazelle.diagnostics import Diagnostics, Severity
@@ -22,17 +23,18 @@ _OFF_AXLE_M = 0.002
 
 def check_wheels(model: Model, diagnostics: Diagnostics) -> None:
     """Report wheels that cannot roll, and pairs that turn against each other."""
-    wheels = wheels_of(model)
-    _check_swapped_axes(model, diagnostics)
+    wheels, groups = wheels_of(model), fixed_groups(model)
+    links = {link.name: link for link in model.links}
+    _check_upright_axes(model, links, diagnostics)
     for wheel in wheels:
-        _check_touching(wheel, model, diagnostics)
+        carried = [links[name] for name in groups[wheel.link.name]]
+        _check_touching(wheel, carried, diagnostics)
         _check_shape(wheel.joint, wheel.link, diagnostics)
     for left, right in _pairs(wheels):
         _check_pair(left, right, model, diagnostics)
 
 
-def _check_touching(wheel: Wheel, model: Model, diagnostics: Diagnostics) -> None:
-    carried = [wheel.link, *_fixed_below(wheel.link, model)]
+def _check_touching(wheel: Wheel, carried: Sequence[Link], diagnostics: Diagnostics) -> None:
     if any(link.collisions for link in carried) or not any(link.visuals for link in carried):
         return
     text = (
@@ -43,10 +45,10 @@ def _check_touching(wheel: Wheel, model: Model, diagnostics: Diagnostics) -> Non
     diagnostics.report("robot.wheel-without-collision", text, wheel.link.span, fix=fix)
 
 
-def _check_swapped_axes(model: Model, diagnostics: Diagnostics) -> None:
-    """Report wheels whose axis is not level: a forgotten <axis> is x in URDF."""
+def _check_upright_axes(model: Model, links: Mapping[str, Link], diagnostics: Diagnostics) -> None:
+    """Report wheels whose axis is not level, which are no wheels to `wheels_of`."""
     for joint in model.joints:
-        link = model.link(joint.child)
+        link = links.get(joint.child)
         named = re.search("wheel|tire|tyre", f"{joint.name} {joint.child}", re.IGNORECASE)
         if link is None or not named or joint.type is not JointType.CONTINUOUS:
             continue
@@ -136,14 +138,6 @@ def _check_pair(left: Wheel, right: Wheel, model: Model, diagnostics: Diagnostic
     diagnostics.report(
         "robot.wheel-axes-opposed", text, wrong.joint.span, fix=fix, severity=severity
     )
-
-
-def _fixed_below(link: Link, model: Model) -> Iterator[Link]:
-    for joint in model.joints:
-        child = model.link(joint.child)
-        if joint.parent == link.name and joint.type is JointType.FIXED and child is not None:
-            yield child
-            yield from _fixed_below(child, model)
 
 
 def _shown(axis: NDArray[np.float64]) -> str:
