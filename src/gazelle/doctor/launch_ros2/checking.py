@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.doctor.launch_ros2.argument_checks import check_arguments
+from gazelle.doctor.launch_ros2.command_checks import check_commands, robots_of
+from gazelle.doctor.launch_ros2.file_checks import check_packages, check_paths, paths_of
+from gazelle.doctor.launch_ros2.following import Followed, follow
+from gazelle.doctor.launch_ros2.locating import located
+from gazelle.doctor.launch_ros2.node_checks import (
+    check_clocks,
+    check_executables,
+    check_spawners,
+)
 from gazelle.doctor.launch_ros2.records import LaunchReading
+from gazelle.doctor.report import Section
 from gazelle.workspace import Workspace
 
 __all__ = ["check_launch"]
+
+_COLUMNS = ("node", "package", "executable", "parameters", "started by")
+_WORLDS = (".world", ".sdf")
+_UNKNOWN = "?"
 
 
 def check_launch(
@@ -30,4 +45,65 @@ def check_launch(
     Returns:
         The files that the launch names, for the checks of robots, worlds and parameters.
     """
-    return LaunchReading(launch_files=(path,))
+    path = path.absolute()
+    root = follow(path, arguments or {}, workspace=workspace, diagnostics=diagnostics)
+    if root is None:
+        return LaunchReading(launch_files=(path,))
+    files = root.walk()
+    _say_static(files, diagnostics)
+    check_packages(files, workspace, diagnostics)
+    check_paths(files, workspace, diagnostics)
+    check_arguments(root, arguments or {}, diagnostics)
+    check_executables(files, workspace, diagnostics)
+    parameter_files = _named(files, (".yaml", ".yml"))
+    check_spawners(files, parameter_files, diagnostics)
+    check_clocks(files, diagnostics)
+    check_commands(files, workspace, diagnostics)
+    return LaunchReading(
+        robots=tuple(robots_of(files)),
+        worlds=_named(files, _WORLDS),
+        parameter_files=parameter_files,
+        launch_files=tuple(dict.fromkeys(item.file.path for item in files)),
+        sections=_sections(files, path),
+    )
+
+
+def _say_static(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
+    nodes = [node for item in files for node in item.file.nodes]
+    unknown = sum(
+        node.package is None or node.executable is None or not node.parameters.is_complete
+        for node in nodes
+    )
+    includes = sum(not item.has_all for item in files)
+    text = "the launch file was read, not run: what its Python computes from the outside, and "
+    text += "conditions, are not known"
+    if unknown or includes:
+        text += f" (of {len(nodes)} node(s) {unknown} in part; includes that were not followed in "
+        text += f"{includes} file(s))"
+    diagnostics.report("launch_ros2.static", text, SourceSpan(str(files[0].file.path)))
+
+
+def _named(files: Sequence[Followed], endings: tuple[str, ...]) -> tuple[Path, ...]:
+    names = (use.name for use in paths_of(files) if use.name.endswith(endings))
+    found = dict.fromkeys(located(name) for name in names)
+    return tuple(path for path in found if path and path.is_file() and not _is_launch(path))
+
+
+def _is_launch(path: Path) -> bool:
+    return path.stem.endswith((".launch", "_launch"))
+
+
+def _sections(files: Sequence[Followed], path: Path) -> tuple[Section, ...]:
+    rows = tuple(
+        (
+            node.name or _UNKNOWN if node.name is not None else node.executable or _UNKNOWN,
+            node.package or _UNKNOWN,
+            node.executable or _UNKNOWN,
+            ", ".join([*node.parameters.values, *(Path(p).name for p in node.parameters.files)]),
+            f"{item.file.path.name}:{node.span.line}",
+        )
+        for item in files
+        for node in item.file.nodes
+    )
+    title = f"nodes of {path.name}"
+    return (Section("nodes", title, _COLUMNS, rows),) if rows else ()

@@ -9,7 +9,17 @@ from pathlib import Path
 from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.report import Section
 
-__all__ = ["LaunchReading", "RobotSource"]
+__all__ = [
+    "Argument",
+    "Command",
+    "Include",
+    "LaunchFile",
+    "LaunchReading",
+    "LaunchedNode",
+    "Parameters",
+    "RobotSource",
+    "Use",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,3 +54,109 @@ class LaunchReading:
     parameter_files: tuple[Path, ...] = ()
     launch_files: tuple[Path, ...] = ()
     sections: tuple[Section, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A name that stands somewhere: of a package, a launch argument, or a path."""
+
+    name: str
+    span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """A launch argument that a file declares.
+
+    Attributes:
+        default: its value, None when it has none or that is known at run time only.
+        is_required: it has no default.
+    """
+
+    name: str
+    default: str | None
+    is_required: bool
+    span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """Parameters of a node.
+
+    Attributes:
+        values: those by name; None for a value that is known at run time only.
+        files: paths of parameter files.
+        is_complete: nothing else is given to the node.
+    """
+
+    values: Mapping[str, str | None] = field(default_factory=dict)
+    files: tuple[str, ...] = ()
+    is_complete: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchedNode:
+    """A node; None stands for what is known at run time only."""
+
+    package: str | None
+    executable: str | None
+    name: str | None
+    namespace: str | None
+    parameters: Parameters
+    arguments: tuple[str | None, ...]
+    span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
+class Include:
+    """Another launch file that is started too.
+
+    Attributes:
+        path: None when it is known at run time only.
+        arguments: values given, None for those known at run time only.
+        spans: where each argument is given.
+    """
+
+    path: str | None
+    arguments: Mapping[str, str | None]
+    span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """Words of a process, or the text of a ``Command`` substitution.
+
+    Attributes:
+        text: words with blanks between them, up to the first that is not known.
+        is_wrapped: its output is marked as a text (``ParameterValue(…, value_type=str)``).
+        is_substitution: a ``Command``, not a process.
+    """
+
+    text: str
+    span: SourceSpan
+    is_substitution: bool = False
+    is_wrapped: bool = True
+
+
+@dataclass(slots=True)
+class LaunchFile:
+    """One launch file as read.
+
+    Attributes:
+        uses: launch arguments that are read, without those that bring a default along.
+        packages: packages whose folders are asked for.
+        paths: files of packages that are named.
+        sets_parameters: parameters of all nodes that follow (``SetParameter``).
+        text: the file.
+    """
+
+    path: Path
+    arguments: list[Argument] = field(default_factory=list)
+    uses: list[Use] = field(default_factory=list)
+    packages: list[Use] = field(default_factory=list)
+    paths: list[Use] = field(default_factory=list)
+    nodes: list[LaunchedNode] = field(default_factory=list)
+    includes: list[Include] = field(default_factory=list)
+    commands: list[Command] = field(default_factory=list)
+    sets_parameters: set[str] = field(default_factory=set)
+    text: str = ""

@@ -13,7 +13,7 @@ from gazelle.doctor.packages.known_packages import is_ros_package, known_package
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.workspace import Workspace
 
-__all__ = ["Use", "check_dependencies", "uses"]
+__all__ = ["Use", "check_dependencies", "is_slip", "uses"]
 
 _XML = (".launch", ".launch.xml", ".xml", ".xacro", ".urdf", ".world", ".sdf", ".srdf")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -103,7 +103,7 @@ def _check_declared(source: SourcePackage, workspace: Workspace, diagnostics: Di
         if not tag.name.endswith("depend") or not name or _is_package(name, workspace):
             continue
         near = nearest_names(name, [*workspace.packages, *known_packages()], count=1)
-        if not near or not _is_slip(name, near[0]):
+        if not near or not is_slip(name, near[0]):
             continue
         text = f"<{tag.name}>{name}</{tag.name}>: there is no package '{name}' here nor one that "
         text += f"comes with ROS (Cannot locate rosdep definition for [{name}])"
@@ -111,7 +111,7 @@ def _check_declared(source: SourcePackage, workspace: Workspace, diagnostics: Di
         diagnostics.report("package.unknown-dependency", text, tag.span, fix=hint)
 
 
-def _is_slip(name: str, other: str) -> bool:
+def is_slip(name: str, other: str) -> bool:
     """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
     longest = max(len(name), len(other))
     begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])

@@ -57,12 +57,14 @@ class Evaluator:
 
     Attributes:
         calls: every call whose outcome is not computed, in the order met.
+        computed: calls of `functions` and of the library that were computed, with their outcomes.
         names: the module's names and their values.
 
     Args:
         file: the file; ``__file__``.
         folder: what relative paths are relative to.
         functions: more functions that are computed, by dotted name or by last name.
+        methods: methods of calls that are computed from the call, by name.
         environ: environment variables; the process's own when None.
     """
 
@@ -72,12 +74,15 @@ class Evaluator:
         folder: Path,
         *,
         functions: Mapping[str, Callable[..., Any]] | None = None,
+        methods: Mapping[str, Callable[[Call], Any]] | None = None,
         environ: Mapping[str, str] | None = None,
     ) -> None:
         self.calls: list[Call] = []
+        self.computed: list[tuple[Call, Any]] = []
         self.names: dict[str, Any] = {"__file__": str(file), "__name__": "launch"}
         self._functions = library(folder, file, os.environ if environ is None else environ)
         self._functions.update(functions or {})
+        self._methods = dict(methods or {})
         self._environ = os.environ if environ is None else environ
         self._steps = 0
         self._depth = 0
@@ -417,7 +422,9 @@ class Evaluator:
         work = self._functions.get(name) or self._functions.get(name.rpartition(".")[2])
         if work is not None:
             plain = is_known(arguments) and is_known(keywords)
-            return work(*arguments, **keywords) if plain else UNKNOWN
+            outcome = work(*arguments, **keywords) if plain else UNKNOWN
+            self.computed.append((Call(name, arguments, keywords, node), outcome))
+            return outcome
         made = Call(name, arguments, keywords, node)
         self.calls.append(made)
         inner = keywords.get("function", arguments[0] if arguments else None)
@@ -437,6 +444,9 @@ class Evaluator:
         if isinstance(owner, dict) and name == "update":
             owner.update(arguments[0] if arguments and isinstance(arguments[0], dict) else {})
             return None
+        work = self._methods.get(name) if isinstance(owner, Call) else None
+        if work is not None:
+            return work(owner)
         if isinstance(owner, Call):
             made = Call(f"{owner.function}.{name}", arguments, keywords, node, owner)
             self.calls.append(made)

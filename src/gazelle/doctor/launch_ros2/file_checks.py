@@ -1,0 +1,115 @@
+"""Packages and files that launch files name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
+from gazelle.doctor.launch_ros2.following import Followed
+from gazelle.doctor.launch_ros2.locating import located, package_of
+from gazelle.doctor.launch_ros2.records import Use
+from gazelle.doctor.packages.dependency_checks import is_slip
+from gazelle.doctor.packages.known_packages import known_packages
+from gazelle.doctor.packages.source import SourcePackage
+from gazelle.workspace import Package, Workspace
+
+__all__ = ["check_packages", "check_paths", "paths_of"]
+
+
+def check_packages(
+    files: Sequence[Followed], workspace: Workspace, diagnostics: Diagnostics
+) -> None:
+    """Report packages that are not here: mistyped ones one by one, others in one notice."""
+    missing: dict[str, SourceSpan] = {}
+    seen: set[str] = set()
+    for use in _package_uses(files):
+        if use.name in workspace.packages or use.name in seen:
+            continue
+        seen.add(use.name)
+        near = nearest_names(use.name, [*workspace.packages, *known_packages()], count=1)
+        if use.name not in known_packages() and near and is_slip(use.name, near[0]):
+            text = f"there is no package '{use.name}' (PackageNotFoundError: \"package "
+            text += f"'{use.name}' not found, searching: …\")"
+            hint = did_you_mean(use.name, near)
+            diagnostics.report("launch_ros2.package-missing", text, use.span, fix=hint)
+        else:
+            missing.setdefault(use.name, use.span)
+    if missing:
+        names = ", ".join(sorted(missing))
+        text = f"packages that are not in this workspace: {names}; what the launch takes from them "
+        text += "cannot be looked at"
+        span = next(iter(missing.values()))
+        diagnostics.report("launch_ros2.packages-elsewhere", text, span)
+
+
+def check_paths(files: Sequence[Followed], workspace: Workspace, diagnostics: Diagnostics) -> None:
+    """Report files of packages that do not exist, and those that installing leaves out."""
+    left_out: dict[str, list[str]] = {}
+    first: dict[str, SourceSpan] = {}
+    seen: set[str] = set()
+    for use in paths_of(files):
+        package = package_of(Path(use.name), workspace)
+        if package is None or package.is_builtin or use.name in seen:
+            continue
+        seen.add(use.name)
+        inside = Path(use.name).relative_to(package.path).as_posix()
+        if located(use.name) is None:
+            _report_missing(package, inside, use, diagnostics)
+        elif Path(use.name).is_file() and not _is_installed(package, inside):
+            left_out.setdefault(package.name, []).append(inside)
+            first.setdefault(package.name, use.span)
+    for name, items in left_out.items():
+        shown = ", ".join(f"'{item}'" for item in items)
+        text = (
+            f"{shown} of package '{name}' found in its source folder, not installed by its build "
+        )
+        text += "files (file was not found in the share directory of package)"
+        fix = f"install {'it' if len(items) == 1 else 'them'} in the build file of '{name}'"
+        diagnostics.report("package.not-installed", text, first[name], fix=fix)
+
+
+def paths_of(files: Sequence[Followed]) -> Iterator[Use]:
+    """Yield every file that a launch names, as far as it is known."""
+    for item in files:
+        file = item.file
+        yield from file.paths
+        yield from (Use(inc.path, inc.span) for inc in file.includes if inc.path is not None)
+        for node in file.nodes:
+            yield from (Use(path, node.span) for path in node.parameters.files)
+        for argument in file.arguments:
+            value = argument.default or ""
+            if value.startswith("/") and Path(value).suffix:
+                yield Use(value, argument.span)
+
+
+def _package_uses(files: Sequence[Followed]) -> Iterator[Use]:
+    for item in files:
+        yield from item.file.packages
+        for node in item.file.nodes:
+            if node.package:
+                yield Use(node.package, node.span)
+
+
+def _report_missing(package: Package, inside: str, use: Use, diagnostics: Diagnostics) -> None:
+    path = package.path / inside
+    parent = path.parent
+    names = sorted(item.name for item in parent.iterdir()) if parent.is_dir() else []
+    source = SourcePackage(package)
+    everywhere = [name for name in source.files if Path(name).name == path.name]
+    text = f"package '{package.name}' has no '{inside}' ([Errno 2] No such file or directory: "
+    text += f"'…/share/{package.name}/{inside}')"
+    hint = f"it is '{everywhere[0]}'" if everywhere else did_you_mean(path.name, names)
+    if not hint and names:
+        hint = f"the folder has {', '.join(names[:8])}"
+    diagnostics.report("launch_ros2.file-missing", text, use.span, fix=hint)
+
+
+def _is_installed(package: Package, inside: str) -> bool:
+    if package.prefix is not None:
+        return True
+    source = SourcePackage(package)
+    rules = source.rules
+    if rules is None or rules.unread or not source.is_ros2:
+        return True
+    return bool(rules.targets(inside)) or rules.may_install(inside)

@@ -1,0 +1,221 @@
+"""Nodes of a launch: executables, controllers that spawners name, one clock for all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
+from gazelle.doctor.launch_ros2.following import Followed
+from gazelle.doctor.launch_ros2.locating import located
+from gazelle.doctor.launch_ros2.records import LaunchedNode
+from gazelle.doctor.packages.source import SourcePackage
+from gazelle.doctor.parameters.controllers import controllers_in
+from gazelle.doctor.parameters.document import read_document
+from gazelle.doctor.parameters.layouts import layout_of
+from gazelle.nodes.registry import builtin_types
+from gazelle.workspace import Package, Workspace
+from gazelle.workspace.entry_points import console_scripts
+
+__all__ = ["check_clocks", "check_executables", "check_spawners"]
+
+_SPAWNERS = frozenset({"spawner", "spawner.py"})
+_SPAWNER_VALUES = frozenset(
+    {"-c", "--controller-manager", "-p", "--param-file", "-n", "--namespace", "-t",
+     "--controller-type", "--controller-manager-timeout", "--switch-timeout",
+     "--service-call-timeout", "--controller-ros-args", "-u", "--load-only"}
+)  # fmt: skip
+# Nodes that stamp or compare times; others run on any clock.
+_TIMED = frozenset(
+    {
+        "amcl", "async_slam_toolbox_node", "behavior_server", "bt_navigator", "cartographer_node",
+        "controller_server", "ekf_node", "joint_state_publisher", "map_server", "move_group",
+        "navsat_transform_node", "planner_server", "recoveries_server", "robot_state_publisher",
+        "rviz2", "smoother_server", "sync_slam_toolbox_node", "ukf_node", "waypoint_follower",
+    }
+)  # fmt: skip
+_SIMULATOR_PACKAGES = frozenset({"gazebo_ros", "ros_gz_sim", "ros_ign_gazebo"})
+_SIMULATOR_WORDS = ("gazebo", "gzserver", "gz sim", "ign gazebo")
+_CLOCK = "use_sim_time"
+
+
+def check_executables(
+    files: Sequence[Followed], workspace: Workspace, diagnostics: Diagnostics
+) -> None:
+    """Report executables that their package does not have."""
+    for node in _nodes(files):
+        package = workspace.packages.get(node.package or "")
+        if package is None or node.executable is None:
+            continue
+        if package.is_builtin:
+            _check_builtin(node, package, diagnostics)
+        elif package.prefix is None:
+            _check_own(node, package, diagnostics)
+
+
+def check_spawners(
+    files: Sequence[Followed],
+    parameter_files: Sequence[Path],
+    diagnostics: Diagnostics,
+) -> None:
+    """Report controllers that are spawned and configured nowhere."""
+    known: list[str] = []
+    for path in parameter_files:
+        document = read_document(path, Diagnostics())
+        if document is not None:
+            known += [item.name for item in controllers_in(document, layout_of(document))]
+    for node in _nodes(files):
+        for name in _spawned(node):
+            last = name.rpartition("/")[2]
+            if known and last not in known:
+                text = (
+                    f"the spawner asks for controller '{name}', which none of the parameter files "
+                )
+                text += f"of this launch configures: they have {', '.join(dict.fromkeys(known))} "
+                text += f"(The 'type' param was not defined for '{name}')"
+                hint = did_you_mean(name, known)
+                diagnostics.report("launch_ros2.controller-missing", text, node.span, fix=hint)
+
+
+def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
+    """Report nodes on the wall clock beside a simulator."""
+    if not any(_starts_simulator(item) for item in files):
+        return
+    if any(_CLOCK in item.file.sets_parameters for item in files):
+        return
+    late = [node for node in _nodes(files) if _is_timed(node) and not _has_clock(node)]
+    if not late:
+        return
+    names = list(dict.fromkeys(node.name or node.executable or "" for node in late))
+    has, they_run = ("has", "it runs") if len(names) == 1 else ("have", "they run")
+    text = f"a simulator is started, and {', '.join(names)} {has} no {_CLOCK} that is true: "
+    text += f"{they_run} on the wall clock beside "
+    text += "nodes on simulated time (Lookup would require extrapolation into the past)"
+    fix = f"parameters=[…, {{'{_CLOCK}': True}}]"
+    diagnostics.report("launch_ros2.clocks", text, late[0].span, fix=fix)
+
+
+def _nodes(files: Sequence[Followed]) -> Iterator[LaunchedNode]:
+    for item in files:
+        yield from item.file.nodes
+
+
+def _check_builtin(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:
+    known = [*builtin_types(package.name), *package.executable_names, *_ALSO.get(package.name, ())]
+    name = node.executable or ""
+    if known and name not in known and nearest_names(name, known):
+        text = (
+            f"package '{package.name}' has no executable '{name}' (executable '{name}' not found "
+        )
+        text += "on the libexec directory)"
+        hint = did_you_mean(name, known)
+        diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
+
+
+# Programs of ROS 2 that Gazelle's own nodes of these packages do not include.
+_ALSO = {
+    "controller_manager": (
+        "hardware_spawner", "ros2_control_node", "spawner", "spawner.py", "unspawner",
+    ),
+    "gazebo_ros": ("spawn_entity.py",),
+    "joint_state_publisher_gui": ("joint_state_publisher_gui",),
+    "rviz2": ("rviz2",),
+}  # fmt: skip
+
+
+def _check_own(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:
+    source = SourcePackage(package)
+    name = node.executable or ""
+    known = set(_built(source)) | set(console_scripts(package.path))
+    if source.build_type == "ament_python":
+        is_there = name in known
+    else:
+        known |= {Path(item).name for item in _programs(source)}
+        is_there = name in known
+    if is_there or (not source.is_ros2) or _is_hidden(source):
+        return
+    text = f"package '{package.name}' has no executable '{name}' (executable '{name}' not found on "
+    text += f"the libexec directory '…/lib/{package.name}')"
+    files = package.find_executables(name)
+    if files and name != files[0].name and files[0].name in known:
+        text += f"; Gazelle takes '{files[0].name}'"
+    elif files:
+        text += f"; '{files[0].relative_to(package.path)}' is not installed to there"
+    hint = did_you_mean(name, known)
+    if not hint and known:
+        hint = f"it has {', '.join(sorted(known)[:8])}"
+    diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
+
+
+def _is_hidden(source: SourcePackage) -> bool:
+    """Tell whether executables may come from commands that were not read."""
+    if source.build_type == "ament_python":
+        return source.setup is None or source.setup.error is not None
+    rules = source.rules
+    return rules is None or bool(rules.unread) or not all(rule.is_known for rule in rules.rules)
+
+
+def _built(source: SourcePackage) -> Iterator[str]:
+    lists = source.lists
+    if lists is None:
+        return
+    for step in lists.called("add_executable", "ament_auto_add_executable", "qt_add_executable"):
+        yield from step.words[:1]
+    for step in lists.called("rclcpp_components_register_node"):
+        yield from step.after("EXECUTABLE", ("PLUGIN", "EXECUTOR", "RESOURCE_INDEX"))
+
+
+def _programs(source: SourcePackage) -> Iterator[str]:
+    rules = source.rules
+    for rule in rules.rules if rules is not None else ():
+        if f"lib/{source.package.name}" not in rule.destination:
+            continue
+        if not rule.is_folder:
+            yield rule.renamed or rule.source
+            continue
+        yield from (name for name in source.files if rule.target(name) is not None)
+
+
+def _spawned(node: LaunchedNode) -> Iterator[str]:
+    if node.package != "controller_manager" or node.executable not in _SPAWNERS:
+        return
+    is_value = False
+    for word in node.arguments:
+        if word is not None and not is_value and word and not word.startswith("-"):
+            yield word.strip("/")
+        is_value = word is None or word in _SPAWNER_VALUES
+
+
+def _starts_simulator(item: Followed) -> bool:
+    file = item.file
+    if any(node.package in _SIMULATOR_PACKAGES for node in file.nodes):
+        return True
+    if any(use.name in _SIMULATOR_PACKAGES for use in file.packages):
+        return True
+    return any(
+        command.text.startswith(_SIMULATOR_WORDS)
+        for command in file.commands
+        if not command.is_substitution
+    )
+
+
+def _is_timed(node: LaunchedNode) -> bool:
+    return node.executable in _TIMED
+
+
+def _has_clock(node: LaunchedNode) -> bool:
+    parameters = node.parameters
+    if not parameters.is_complete or "--ros-args" in node.arguments or None in node.arguments:
+        return True
+    if _CLOCK in parameters.values:
+        value = parameters.values[_CLOCK]
+        return value is None or value.lower() == "true"
+    return any(_CLOCK in _text(located(path) or Path(path)) for path in parameters.files)
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        # A file that is not there is told elsewhere; what it would say is not known.
+        return _CLOCK

@@ -1,0 +1,192 @@
+"""Launch files in XML and YAML: the same elements in two spellings."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path, PurePath
+
+import yaml
+
+from gazelle.description.xml import Tag, read_xml
+from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.launch_ros2.records import (
+    Argument,
+    Command,
+    Include,
+    LaunchedNode,
+    LaunchFile,
+    Parameters,
+    Use,
+)
+from gazelle.doctor.launch_ros2.substitutions import Substitutions
+from gazelle.doctor.parameters.document import Document, read_document
+from gazelle.workspace import Workspace
+
+__all__ = ["read_xml_file", "read_yaml_file"]
+
+_INNER = re.compile(r"\$\(([\w-]+)((?:\s+(?:[^()$]|\$(?!\())*)?)\)")
+_MOST_ROUNDS = 50
+
+
+def read_xml_file(
+    path: Path,
+    given: Mapping[str, str | None],
+    *,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+) -> LaunchFile | None:
+    """Read a launch file in XML; None (and an error reported) when it is none."""
+    root = read_xml(path, diagnostics)
+    if root is None:
+        return None
+    return _Reader(path, Substitutions(path, given, workspace)).read(root)
+
+
+def read_yaml_file(
+    path: Path,
+    given: Mapping[str, str | None],
+    *,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+) -> LaunchFile | None:
+    """Read a launch file in YAML; None (and an error reported) when it is none."""
+    document = read_document(path, diagnostics)
+    if document is None:
+        return None
+    inner = document.find("launch")
+    tag = Tag("launch", document.span(document.root), {}, _children(document, "launch", inner))
+    return _Reader(path, Substitutions(path, given, workspace)).read(tag)
+
+
+def _children(document: Document, name: str, node: yaml.Node | None) -> tuple[Tag, ...]:
+    """Return the elements below a YAML node: ``- node: {pkg: …}`` is ``<node pkg="…"/>``."""
+    found: list[Tag] = []
+    if isinstance(node, yaml.SequenceNode):
+        for item in node.value:
+            if isinstance(item, yaml.MappingNode) and len(item.value) == 1 and name in {
+                "launch", "group",
+            }:  # fmt: skip
+                key, value = item.value[0]
+                found.append(_element(document, str(key.value), key, value))
+            else:
+                found.append(_element(document, name, item, item))
+    return tuple(found)
+
+
+def _element(document: Document, name: str, place: yaml.Node, node: yaml.Node) -> Tag:
+    attributes: dict[str, str] = {}
+    children: list[Tag] = []
+    if isinstance(node, yaml.SequenceNode):
+        children += _children(document, "group", node)
+    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+        if isinstance(value, yaml.ScalarNode):
+            attributes[str(key.value)] = value.value
+        else:
+            children += _children(document, str(key.value), value)
+    return Tag(name, document.span(place), attributes, tuple(children))
+
+
+class _Reader:
+    def __init__(self, path: Path, values: Substitutions) -> None:
+        self._values = values
+        self._file = LaunchFile(path)
+        try:
+            self._file.text = path.read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            self._file.text = ""
+
+    def read(self, root: Tag) -> LaunchFile:
+        for tag in root.children:
+            self._take(tag)
+        return self._file
+
+    def _take(self, tag: Tag) -> None:
+        match tag.name:
+            case "arg" | "let":
+                self._argument(tag)
+            case "group":
+                self.read(tag)
+            case "include":
+                pairs = {
+                    item.attributes.get("name", ""): self._text(item, "value")
+                    for item in (*tag.find_all("arg"), *tag.find_all("let"))
+                }
+                self._file.includes.append(Include(self._text(tag, "file"), pairs, tag.span))
+            case "node":
+                self._node(tag)
+            case "executable":
+                command = self._text(tag, "cmd") or ""
+                self._file.commands.append(Command(command, tag.span))
+            case "set_parameter":
+                self._file.sets_parameters.add(tag.attributes.get("name", ""))
+
+    def _argument(self, tag: Tag) -> None:
+        name = tag.attributes.get("name", "")
+        key = "default" if tag.name == "arg" else "value"
+        has = key in tag.attributes
+        default = self._text(tag, key) if has else None
+        argument = Argument(name, default, not has, tag.span)
+        self._file.arguments.append(argument)
+        self._values.declare(argument)
+
+    def _node(self, tag: Tag) -> None:
+        values: dict[str, str | None] = {}
+        files: list[str] = []
+        complete = True
+        for item in tag.find_all("param"):
+            if "from" in item.attributes:
+                text = self._text(item, "from")
+                files += [text] if text is not None else []
+                complete = complete and text is not None
+            else:
+                values[item.attributes.get("name", "")] = self._text(item, "value")
+        words = (self._text(tag, "args") or "").split()
+        self._file.nodes.append(
+            LaunchedNode(
+                self._text(tag, "pkg"),
+                self._text(tag, "exec"),
+                self._text(tag, "name"),
+                self._text(tag, "namespace"),
+                Parameters(values, tuple(files), complete),
+                tuple(words),
+                tag.span,
+            )
+        )
+
+    def _text(self, tag: Tag, key: str) -> str | None:
+        """Return an attribute with its substitutions replaced; None when one is not known."""
+        text: str | None = tag.attributes.get(key)
+        for _ in range(_MOST_ROUNDS):
+            found = _INNER.search(text) if text is not None else None
+            if text is None or found is None:
+                break
+            value = self._substituted(found[1], found[2].strip(), tag)
+            text = None if value is None else text[: found.start()] + value + text[found.end() :]
+        is_of_package = "$(find-pkg-share" in tag.attributes.get(key, "")
+        if text is not None and is_of_package and PurePath(text).suffix and " " not in text:
+            self._file.paths.append(Use(text, tag.span))
+        return text
+
+    def _substituted(self, kind: str, words: str, tag: Tag) -> str | None:
+        match kind:
+            case "var":
+                name, _, default = words.partition(" ")
+                if not default:
+                    self._file.uses.append(Use(name, tag.span))
+                return self._values.argument(name) or default or None
+            case "find-pkg-share" | "find-pkg-prefix":
+                self._file.packages.append(Use(words, tag.span))
+                return self._values.share(words)
+            case "dirname":
+                return str(self._file.path.parent)
+            case "filename":
+                return str(self._file.path)
+            case "env":
+                name, _, default = words.partition(" ")
+                return os.environ.get(name, default.strip().strip("'\"") or None)
+            case "command":
+                begin = words.strip("'\"")
+                self._file.commands.append(Command(begin, tag.span, True, True))
+        return None
