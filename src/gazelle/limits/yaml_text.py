@@ -6,13 +6,16 @@ from typing import Any
 
 import yaml
 
-from gazelle.limits.scale import HOW_TO_RAISE, scaled
+from gazelle.limits.scale import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = ["LimitedLoader", "YamlLimitError", "load_yaml"]
 
 _MOST_CHARACTERS = 8 << 20
 _MOST_NODES = 1_000_000
 _DEEPEST = 64
+# What PyYAML's constructors, and those of ROS's angles, let through.
+_UNREADABLE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, SyntaxError)
+_UNREADABLE += (LimitError,)
 
 
 class YamlLimitError(yaml.MarkedYAMLError):
@@ -53,7 +56,7 @@ class LimitedLoader(yaml.SafeLoader):
         """Construct a value; numbers and dates that are none are errors of the YAML."""
         try:
             return super().construct_object(node, deep=deep)
-        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        except _UNREADABLE as error:
             text = f"this value cannot be read: {error}"
             raise yaml.constructor.ConstructorError(None, None, text, node.start_mark) from error
 

@@ -42,6 +42,9 @@ def test_angles_and_aliases_in_yaml_have_limits() -> None:
     assert "12345679021 values, aliases followed are above the limit" in found[0]
     assert "[launch.bad-yaml]" in found[0]
     assert "binary digits is above the limit" in _found("<rosparam>a: deg(9**9**9)</rosparam>")[0]
+    assert (
+        "this value cannot be read: invalid syntax" in _found("<rosparam>a: rad(1 2)</rosparam>")[0]
+    )
 
 
 def test_files_that_include_each_other_under_new_names_are_a_cycle(tmp_path: Path) -> None:
