@@ -26,9 +26,8 @@ __all__ = ["normalised", "read_document", "read_document_file"]
 _COLONS_FORBIDDEN = (1, 8)
 _NO_ROBOT = (
     "Error:   Could not find the 'robot' element in the xml file\n"
-    "         at line {} in ./urdf_parser/src/model.cpp"
+    "         at line 109 in ./urdf_parser/src/model.cpp"
 )
-_NO_ROBOT_LINES = {Release.V9: 81, Release.V12: 109}
 
 Find = Callable[[str], Path | None]
 
@@ -130,7 +129,7 @@ def _read(
             return _document(root, version, reading)
     if tag.name == "robot":
         return _read_robot(tag, reading)
-    console.plain(_NO_ROBOT.format(_NO_ROBOT_LINES[console.release]))
+    console.plain(_NO_ROBOT)
     return _document(None, tag.attributes.get("version", ""), reading)
 
 

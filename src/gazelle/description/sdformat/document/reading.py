@@ -287,6 +287,14 @@ def _copied(raw: SdfElement, reading: Reading) -> SdfElement:
         if not text.strip():
             message = f"Empty string used when setting a required parameter. Key[{name}]"
             reading.console.error("empty", message)
-    attributes = {name: text.strip() for name, text in raw.attributes.items()}
+    attributes = {name: _copied_text(text, reading) for name, text in raw.attributes.items()}
     children = [_copied(child, reading) for child in raw.children]
-    return SdfElement(raw.name, attributes, raw.text, children, raw.line)
+    return SdfElement(raw.name, attributes, _copied_text(raw.text, reading), children, raw.line)
+
+
+def _copied_text(text: str, reading: Reading) -> str:
+    text = text.strip()
+    # Old releases take every value through the same reader, which knows these two words.
+    if not reading.is_new and text.lower() in ("true", "false"):
+        return str(int(text.lower() == "true"))
+    return text

@@ -244,8 +244,10 @@ def _formatted(parameter: Parameter, text: str, console: Console) -> str | None:
     if kind == "color":
         return _formatted_color(text)
     if kind == "pose":
-        found = _stream(text, 6, kind, lenient=True)
-        words = " ".join(map(repr, found or (0.0,) * 6))
+        # A pose that ends early keeps its position, and is not turned.
+        position = _stream(text, 3, kind) or (0.0,) * 3
+        numbers = _stream(text, 6, kind) or (*position, 0.0, 0.0, 0.0)
+        words = " ".join(map(repr, numbers))
         return printed_pose(pose_of(words), signed_zero=True)
     if kind in _VECTORS:
         values = _stream(text, _VECTORS[kind], kind, lenient=True) or (0.0,) * _VECTORS[kind]
@@ -260,9 +262,9 @@ def _formatted(parameter: Parameter, text: str, console: Console) -> str | None:
 
 
 def _formatted_color(text: str) -> str:
-    values = _stream(text, 4, "color", lenient=True) or (0.0, 0.0, 0.0)
-    numbers = [*values, *([1.0] if len(text.split()) < 4 else [])][:4]
-    return " ".join(_short(_single(value)) for value in numbers)
+    # Without alpha a colour is opaque.
+    values = _stream(text, 4, "color") or (*(_stream(text, 3, "color") or (0.0,) * 3), 1.0)
+    return " ".join(_short(_single(value)) for value in values)
 
 
 def _typed_default(parameter: Parameter) -> str:

@@ -63,6 +63,13 @@ _SENSORS = frozenset(
 )
 _LIGHTS = ("point", "spot", "directional")
 _EMITTERS = ("point", "box", "cylinder", "ellipsoid")
+_NORMAL_MAPS = (
+    "normal_map_objectspace",
+    "normal_map_object_space",
+    "normal_map_tangentspace",
+    "normal_map_tangent_space",
+)
+_SHADERS = ("pixel", "vertex", *_NORMAL_MAPS)
 _UNSET = ("", "__default__")
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _NO_PRODUCT = 1e-6
@@ -206,8 +213,25 @@ def _check_collision(collision: SdfElement, errors: list[SdfError]) -> None:
 
 def _check_material(material: SdfElement, errors: list[SdfError]) -> None:
     script = material.find("script")
-    if script is None:
-        return
+    if script is not None:
+        _check_script(script, errors)
+    shader = material.find("shader")
+    if shader is not None:
+        _check_shader(shader, errors)
+
+
+def _check_shader(shader: SdfElement, errors: list[SdfError]) -> None:
+    kind = shader.attributes.get("type", "pixel")
+    if kind not in _SHADERS:
+        message = f"The value[{kind}] for a <shader><type> element is not supported"
+        errors.append(SdfError(Code.ELEMENT_INVALID, message))
+    normal_map = shader.find("normal_map")
+    if kind in _NORMAL_MAPS and (normal_map is None or normal_map.text in _UNSET):
+        message = "A normal map shader type has been specified, but a normal_map has not."
+        errors.append(SdfError(Code.ELEMENT_MISSING, message))
+
+
+def _check_script(script: SdfElement, errors: list[SdfError]) -> None:
     for name, code in (("uri", Code.ELEMENT_INVALID), ("name", Code.ELEMENT_MISSING)):
         found = script.find(name)
         if found is None or found.text in _UNSET:
