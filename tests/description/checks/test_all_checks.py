@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 from tests.description.checks.pain import FIXTURES, OWN, examined, finding, place
 
 from gazelle.description.checks import SUPERSEDED_CODES, check_description
+from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity
 
@@ -97,6 +99,18 @@ def test_mass_ratio_names_both_bodies() -> None:
     assert "'base_footprint' of 4 kg and 'bead' of 0.002 kg: 1 to 2,000" in item.message
     assert place(item).startswith('<joint name="thread"')
     assert "give 'bead' at least 0.004 kg" in item.fix
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "-1", "0", "1e200", "1e308", "1e-320", "", "x"])
+@pytest.mark.parametrize("word", ["radius", "length", "xyz", "mass value", "ixx", "axis xyz"])
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_numbers_out_of_this_world_raise_nothing(word: str, number: str) -> None:
+    text = (FIXTURES / "pain_14_wheels/clean/rover.urdf").read_text(encoding="utf-8")
+    count = 3 if "xyz" in word else 1
+    broken = re.sub(rf'{word}="[^"]*"', f'{word}="{" ".join([number] * count)}"', text)
+    assert broken != text
+    for model in load_models(broken, workspace=None, diagnostics=Diagnostics()):
+        check_description(model, diagnostics=Diagnostics())
 
 
 def test_codes_of_readers_that_are_said_again_are_named() -> None:

@@ -60,6 +60,20 @@ def test_collision_that_starts_with_the_body_s_name_gets_no_prefix() -> None:
     assert collision_names(root, model)["base_top"] == ("base_top_collision",)
 
 
+def test_chain_of_thousands_of_fixed_links_is_one_body() -> None:
+    count = 3000
+    links = "".join(f'<link name="l{index}"><collision/></link>' for index in range(count))
+    joints = "".join(
+        f'<joint name="j{index:04}" type="fixed"><parent link="l{index - 1}"/>'
+        f'<child link="l{index}"/></joint>'
+        for index in range(1, count)
+    )
+    text = f'<robot name="r">{links}{joints}</robot>'
+    root, model = _read(parse_xml(text, "robot.urdf", Diagnostics()))
+    assert set(lumped_links(model).values()) == {"l0"}
+    assert collision_names(root, model)["l2999"] == ("l0_fixed_joint_lump__l2999_collision_2999",)
+
+
 def test_contact_sensor_gets_the_name_that_gazebo_uses() -> None:
     (item,) = _of("robot.lumped-collision")
     assert "a contact sensor watches 'bumper_collision'" in item.message

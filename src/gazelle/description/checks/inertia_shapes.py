@@ -62,7 +62,10 @@ def shape_body(
     Returns:
         None when the shape encloses no finite volume: planes, terrain, flat meshes.
     """
-    body = _body(shape, density_kg_m3, diagnostics)
+    try:
+        body = _body(shape, density_kg_m3, diagnostics)
+    except OverflowError:
+        return None  # a radius of 1e200 m
     return body if body is not None and 0.0 < body.mass_kg < math.inf else None
 
 

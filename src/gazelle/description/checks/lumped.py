@@ -33,13 +33,13 @@ def lumped_joints(model: Model) -> dict[str, Joint]:
 def lumped_links(model: Model) -> dict[str, str]:
     """Return what becomes of the links that Gazebo removes: the link each of them is part of."""
     joints = lumped_joints(model)
-    heads = {}
+    heads: dict[str, str] = {}
     for name in joints:
-        head, seen = name, set[str]()
-        while head in joints and head not in seen:
-            seen.add(head)
+        head, way = name, dict[str, None]()
+        while head in joints and head not in heads and head not in way:
+            way[head] = None
             head = joints[head].parent
-        heads[name] = head
+        heads |= dict.fromkeys(way, heads.get(head, head))
     return heads
 
 
@@ -61,10 +61,14 @@ def collision_names(root: Tag, model: Model) -> dict[str, tuple[str, ...]]:
         for tag in root.find_all("link")
     }
     joints = lumped_joints(model)
+    below: dict[str, list[str]] = {}
+    # urdfdom keeps joints, and with them the children of a link, sorted by name.
+    for joint in sorted(joints.values(), key=lambda item: item.name):
+        below.setdefault(joint.parent, []).append(joint.child)
     names: dict[str, tuple[str, ...]] = {}
     for head in (link.name for link in model.links if link.name not in joints):
         number = 0
-        for link in _members(head, joints):
+        for link in _members(head, below):
             called = []
             for own in written.get(link, ()):
                 name = (own or link) + _END + (f"_{number}" if number else "")
@@ -74,12 +78,11 @@ def collision_names(root: Tag, model: Model) -> dict[str, tuple[str, ...]]:
     return names
 
 
-def _members(head: str, joints: Mapping[str, Joint]) -> list[str]:
+def _members(head: str, below: Mapping[str, list[str]]) -> list[str]:
     """Return a body's links in the order in which sdformat merges them."""
-    # urdfdom keeps joints, and with them the children of a link, sorted by name.
-    below = sorted((joint for joint in joints.values() if joint.parent == head), key=_name)
-    return [head, *(name for joint in below for name in _members(joint.child, joints))]
-
-
-def _name(joint: Joint) -> str:
-    return joint.name
+    found, waiting = list[str](), [head]
+    while waiting:
+        name = waiting.pop()
+        found.append(name)
+        waiting += reversed(below.get(name, ()))
+    return found

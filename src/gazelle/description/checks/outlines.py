@@ -18,6 +18,9 @@ __all__ = ["Outline", "Outlines", "is_round"]
 
 Array = NDArray[np.float64]
 
+# Beyond it double precision loses millimetres and qhull its way.
+_FARTHEST_M = 1e9
+
 
 class Outline(NamedTuple):
     """A shape in the model's frame with all joints at zero.
@@ -73,9 +76,11 @@ class Outlines:
         self, link: Link, shape: Shape, T_link_shape: Pose, collision: Collision | None
     ) -> Iterable[Outline]:
         points = shape_points_m(shape, self._unheard)
-        if len(points) and np.isfinite(points).all():
-            pose = link.T_model_link @ T_link_shape
-            yield Outline(link, collision, np.asarray(pose.transform(points)))
+        pose = link.T_model_link @ T_link_shape
+        if len(points):
+            placed = np.asarray(pose.transform(points))
+            if np.abs(placed).max() < _FARTHEST_M:  # false for what is no number, too
+                yield Outline(link, collision, placed)
 
 
 def is_round(shape: Shape) -> bool:

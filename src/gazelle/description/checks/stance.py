@@ -47,8 +47,8 @@ def stance_of(model: Model, outlines: Outlines) -> Stance | None:
         return None
     try:
         hull = convex_hull(np.concatenate([item.points_m for item in items]))
-    except (GazelleError, ValueError):
-        return None
+    except (GazelleError, RuntimeError, ValueError):
+        return None  # qhull gives up where sizes differ by more than digits hold
     corners = hull.vertices_m[hull.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
