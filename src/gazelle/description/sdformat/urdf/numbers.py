@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Iterable
 
 __all__ = [
@@ -23,7 +24,6 @@ _NUMBER = re.compile(
 )
 _STREAMED = re.compile(rf"[ \t\n\v\f\r]*(?P<value>{_DECIMAL})")
 _INTEGER = re.compile(r"[ \t\n\v\f\r]*(?P<value>[+-]?[0-9]+)")
-_SMALLEST_NORMAL = 2.2250738585072014e-308
 
 
 class NumberCrashError(ValueError):
@@ -58,7 +58,7 @@ def leading_number(text: str) -> float:
     mantissa = word.removeprefix("+").removeprefix("-").removeprefix("0x")
     digits = mantissa.partition("p" if is_hexadecimal else "e")[0]
     is_zero = not digits.strip("0.")
-    if math.isinf(value) or (abs(value) < _SMALLEST_NORMAL and not is_zero):
+    if math.isinf(value) or (abs(value) < sys.float_info.min and not is_zero):
         raise NumberCrashError("out_of_range", "stod")
     return value
 
@@ -72,10 +72,10 @@ def leading_integer(text: str) -> int:
     found = _INTEGER.match(text)
     if found is None:
         raise NumberCrashError("invalid_argument", "stoi")
-    value = int(found["value"])
-    if not -(2**31) <= value < 2**31:
+    # A float first: Python refuses to read integers of thousands of digits.
+    if not -(2.0**31) <= float(found["value"]) < 2.0**31:
         raise NumberCrashError("out_of_range", "stoi")
-    return value
+    return int(float(found["value"]))
 
 
 def streamed_numbers(text: str, count: int) -> tuple[float, ...] | None:
@@ -93,15 +93,9 @@ def streamed_numbers(text: str, count: int) -> tuple[float, ...] | None:
 
 def exact_text(values: Iterable[float]) -> str:
     """Return numbers with up to 16 digits; a negative zero loses its sign."""
-    return " ".join(_printed(value, 16) if value else "0" for value in values)
+    return " ".join(f"{value:.16g}" if value else "0" for value in values)
 
 
 def brief_text(values: Iterable[float]) -> str:
     """Return numbers with up to 6 digits, as a C++ stream writes them by itself."""
-    return " ".join(_printed(value, 6) for value in values)
-
-
-def _printed(value: float, digits: int) -> str:
-    if math.isnan(value):
-        return "-nan" if math.copysign(1.0, value) < 0.0 else "nan"
-    return f"{value:.{digits}g}"
+    return " ".join(f"{value:g}" for value in values)
