@@ -114,7 +114,7 @@ def test_a_xacro_mistake_is_refused_at_its_place(
     shown = capsys.readouterr()
     assert shown.out == ""
     assert _FAILED in shown.err
-    assert "r.xacro:2:3: error" in shown.err
+    assert "r.xacro:2:15: error" in shown.err
 
 
 def test_a_loop_below_the_root_is_refused(here: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -84,7 +84,7 @@ def test_bad_number_is_named_and_nothing_is_spawned(robot: Run, package: Path) -
     run.wait_for_line("Spawn service failed")
     line = _only(run.lines, "xml.bad-number")
     assert line.startswith(
-        f"{package / 'robot.urdf'}:3:15: error: <mass value>: '1kg' is not a finite number"
+        f"{package / 'robot.urdf'}:3:28: error: <mass value>: '1kg' is not a finite number"
     )
     assert '    <inertial><mass value="1kg"/>\n' in run.text
 

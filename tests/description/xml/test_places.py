@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from gazelle.description.loader import load_models
 from gazelle.description.xml import (
     Tag,
     attribute_holding,
@@ -80,3 +81,17 @@ def test_places_are_given_in_document_order(tag: Tag) -> None:
     assert moved.span == tag.span
     assert moved.children[0].span == SourceSpan("other", 7)
     assert moved.attributes == tag.attributes
+
+
+def test_bad_number_is_shown_in_its_attribute(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        '<robot name="r"><link name="a"><visual>\n<origin rpy="0 0 0"\n  xyz="0 0,5 0"/>\n'
+        '<geometry><box size="1 1 1"/></geometry></visual></link></robot>',
+        encoding="utf-8",
+    )
+    diagnostics = Diagnostics()
+    load_models(path, workspace=None, diagnostics=diagnostics)
+    (found,) = diagnostics.by_code("xml.bad-number")
+    assert found.span == SourceSpan(str(path), 3, 10, 3)
+    assert "the decimal sign is a dot, not a comma" in found.message

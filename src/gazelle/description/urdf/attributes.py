@@ -26,7 +26,9 @@ def number_attribute(tag: Tag, name: str, diagnostics: Diagnostics) -> float | N
         return None
     what = f"<{tag.name} {name}>"
     nothing = (float("nan"),)
-    found = floats_from(text, 1, nothing, what=what, span=tag.span, diagnostics=diagnostics)
+    found = floats_from(
+        text, 1, nothing, what=what, span=tag.span, diagnostics=diagnostics, attribute=name
+    )
     return None if found is nothing else found[0]
 
 
@@ -36,7 +38,9 @@ def vector_attribute(tag: Tag, name: str, diagnostics: Diagnostics) -> Vector3 |
     if text is None:
         return None
     what = f"<{tag.name} {name}>"
-    found = floats_from(text, 3, (), what=what, span=tag.span, diagnostics=diagnostics)
+    found = floats_from(
+        text, 3, (), what=what, span=tag.span, diagnostics=diagnostics, attribute=name
+    )
     return cast(Vector3, found) if found else None
 
 
@@ -95,7 +99,9 @@ def _quaternion(origin: Tag, diagnostics: Diagnostics) -> tuple[float, float, fl
         message = "<origin> has both rpy and quat_xyzw; quat_xyzw is used"
         diagnostics.report("urdf.origin-twice", message, origin.span)
     what = "<origin quat_xyzw>"
-    found = floats_from(text, 4, (), what=what, span=origin.span, diagnostics=diagnostics)
+    found = floats_from(
+        text, 4, (), what=what, span=origin.span, diagnostics=diagnostics, attribute="quat_xyzw"
+    )
     norm = sum(value * value for value in found) ** 0.5
     if not found or norm == 0.0:
         return None

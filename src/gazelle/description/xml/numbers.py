@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.description.xml.places import attribute_span
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
@@ -21,6 +22,7 @@ def floats_from(
     what: str,
     span: SourceSpan,
     diagnostics: Diagnostics,
+    attribute: str = "",
 ) -> tuple[float, ...]:
     """Return exactly `count` finite numbers; `default` and a reported error otherwise.
 
@@ -29,8 +31,9 @@ def floats_from(
         count: how many are needed.
         default: what to go on with when the text is unusable.
         what: the element or attribute, for the message, such as ``<origin xyz>``.
-        span: where the text stands.
+        span: where the text stands, or the element whose attribute it is.
         diagnostics: receives ``xml.bad-number``.
+        attribute: the attribute that holds the text, empty when none does.
     """
     words = text.split()
     if len(words) == count and "_" not in text:
@@ -49,7 +52,8 @@ def floats_from(
         message = f"{what}: '{bad[0]}' is not a finite number{comma}"
     else:
         message = f"{what} needs {count} number{'s' * (count != 1)}, found {len(values)}: '{text}'"
-    diagnostics.report("xml.bad-number", message, span)
+    place = attribute_span(span, attribute, bad[0] if bad else "") if attribute else span
+    diagnostics.report("xml.bad-number", message, place)
     return default
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import lru_cache
 from html import unescape
 from pathlib import Path
 from typing import NamedTuple
@@ -111,6 +112,16 @@ def _with_places(tag: Tag, places: Iterator[SourceSpan | None]) -> Tag:
 
 
 def _source(file: str) -> str:
+    try:
+        state = Path(file).stat()
+    except (OSError, ValueError):
+        return ""
+    return _source_at(file, state.st_mtime_ns, state.st_size)
+
+
+@lru_cache(maxsize=4)
+def _source_at(file: str, _mtime_ns: int, _size: int) -> str:
+    """Read a file once for all the findings about it."""
     try:
         data = Path(file).read_bytes()
     except (OSError, ValueError):
