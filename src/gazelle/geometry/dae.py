@@ -17,6 +17,8 @@ from gazelle.geometry.shading import group_points
 
 __all__ = ["read_dae"]
 
+_MOST_NODES = 20_000
+
 Matrix = NDArray[np.float64]
 
 
@@ -42,7 +44,11 @@ def read_dae(data: bytes, file: Path) -> Mesh:
         raise MeshError(file, f"cannot be read as Collada: {_one_line(error)}") from error
     reader = _Reader(document, file)
     scale = float(document.assetInfo.unitmeter or 1.0)
-    parts = tuple(reader.parts(np.diag([scale, scale, scale, 1.0])))
+    try:
+        parts = tuple(reader.parts(np.diag([scale, scale, scale, 1.0])))
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        # Indices that are out of their source, matrices that are none: looked at only now.
+        raise MeshError(file, f"cannot be read as Collada: {_one_line(error)}") from error
     if not parts:
         raise MeshError(file, "the Collada scene has no triangles" + _why_empty(document))
     return Mesh(parts, file, reader.notes())
@@ -65,6 +71,7 @@ class _Reader:
         self._file = file
         self._materials: dict[int, MeshMaterial] = {}
         self._notes: dict[MeshNote, None] = {}
+        self._nodes_left = _MOST_NODES
 
     def parts(self, matrix: Matrix) -> Iterator[MeshPart]:
         scene = self._document.scene
@@ -86,6 +93,9 @@ class _Reader:
     def _node(self, node: Any, matrix: Matrix, name: str) -> Iterator[MeshPart]:
         from collada.scene import ControllerNode, GeometryNode, Node, NodeNode
 
+        self._nodes_left -= 1
+        if self._nodes_left < 0:
+            raise MeshError(self._file, f"the scene has more than {_MOST_NODES} nodes")
         if isinstance(node, GeometryNode):
             yield from self._geometry(node.geometry, node.materials, matrix, name)
         elif isinstance(node, ControllerNode):
@@ -122,7 +132,13 @@ class _Reader:
 
         if isinstance(primitive, TriangleSet):
             return primitive
-        return primitive.triangleset() if isinstance(primitive, Polylist) else None
+        if not isinstance(primitive, Polylist):
+            return None
+        counts = np.asarray(primitive.vcounts, np.int64)
+        if (counts < 0).any() or counts.sum() > len(primitive.index):
+            text = f"<vcount> claims {counts.sum()} corners, <p> has {len(primitive.index)}"
+            raise MeshError(self._file, text)
+        return primitive.triangleset()
 
     def _material(self, material: Any) -> MeshMaterial:
         known = self._materials.get(id(material))

@@ -27,6 +27,8 @@ _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 51
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _DEEPEST_NODE = 100
+_MOST_NODES = 20_000
+_MOST_ZEROS = 1_000_000
 
 Matrix = NDArray[np.float64]
 
@@ -43,7 +45,7 @@ def read_gltf(data: bytes, file: Path) -> Mesh:
     """
     try:
         return _Reader(data, file).mesh()
-    except (KeyError, IndexError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         reason = " ".join(f"{type(error).__name__}: {error}".split())
         raise MeshError(file, f"malformed glTF: {reason}") from error
 
@@ -55,6 +57,7 @@ class _Reader:
         self._json: dict[str, Any] = json.loads(text)
         self._notes: dict[MeshNote, None] = {}
         self._buffers: dict[int, bytes] = {}
+        self._nodes_left = _MOST_NODES
         needed = self._json.get("extensionsRequired", [])
         plain = {"KHR_materials_unlit", "KHR_texture_transform", "KHR_materials_specular"}
         unknown = [name for name in needed if name not in plain]
@@ -78,6 +81,9 @@ class _Reader:
     def _node(self, index: int, matrix: Matrix, depth: int) -> Iterator[MeshPart]:
         if depth > _DEEPEST_NODE:
             raise MeshError(self._file, "the nodes are nested in a cycle")
+        self._nodes_left -= 1
+        if self._nodes_left < 0:
+            raise MeshError(self._file, f"the scene has more than {_MOST_NODES} nodes")
         node = self._json["nodes"][index]
         inner = matrix @ _transform(node)
         if "mesh" in node:
@@ -127,6 +133,9 @@ class _Reader:
             offset = accessor.get("byteOffset", 0)
             values = self._view(accessor["bufferView"], offset, dtype, (count, width))
         else:
+            # Zeros for the places that a sparse accessor does not name cost no bytes of the file.
+            if count > _MOST_ZEROS:
+                raise MeshError(self._file, f"{count} values are claimed that no buffer holds")
             values = np.zeros((count, width), dtype)
         if "sparse" in accessor:
             values = self._sparse(accessor["sparse"], values)
@@ -142,6 +151,8 @@ class _Reader:
         data = self._buffer(view["buffer"])
         start = view.get("byteOffset", 0) + offset
         stride = view.get("byteStride", dtype.itemsize * shape[1])
+        if stride < dtype.itemsize * shape[1]:
+            raise MeshError(self._file, f"byteStride {stride} is less than one value needs")
         needed = start + stride * (shape[0] - 1) + dtype.itemsize * shape[1]
         if shape[0] and needed > len(data):
             raise MeshError(

@@ -8,12 +8,15 @@ from pathlib import Path
 from threading import Lock
 from typing import NamedTuple
 
+import numpy as np
+
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry.dae import read_dae
 from gazelle.geometry.gltf import read_gltf
 from gazelle.geometry.mesh import Mesh, MeshError
 from gazelle.geometry.obj import read_obj
 from gazelle.geometry.stl import read_stl
+from gazelle.limits import read_limited
 
 __all__ = ["MESH_SUFFIXES", "load_mesh", "load_mesh_reported"]
 
@@ -27,6 +30,9 @@ _READERS: dict[str, Callable[[bytes, Path], Mesh]] = {
 
 MESH_SUFFIXES = tuple(sorted(_READERS))
 """File name endings of the formats that can be loaded, in lower case."""
+
+
+_MOST_BYTES = 1 << 30
 
 
 class _Key(NamedTuple):
@@ -60,10 +66,10 @@ def load_mesh(path: str | os.PathLike[str]) -> Mesh:
             known = _loaded.get(key)
         if known is not None:
             return known
-        data = file.read_bytes()
+        data = read_limited(file, _MOST_BYTES)
     except OSError as error:
         raise MeshError(file, f"cannot be read: {error.strerror or error}") from error
-    mesh = _reader(data, file)(data, file)
+    mesh = _read(data, file)
     with _lock:
         return _loaded.setdefault(key, mesh)
 
@@ -89,6 +95,18 @@ def load_mesh_reported(
         return None
     for note in mesh.notes:
         diagnostics.report(note.code, f"mesh '{path}': {note.message}", place)
+    return mesh
+
+
+def _read(data: bytes, file: Path) -> Mesh:
+    try:
+        mesh = _reader(data, file)(data, file)
+    except (MemoryError, RecursionError) as error:
+        raise MeshError(file, "what it asks for does not fit into the memory") from error
+    for part in mesh.parts:
+        if not np.isfinite(part.vertices_m).all():
+            text = f"a vertex of part '{part.name}' is not of finite numbers"
+            raise MeshError(file, text)
     return mesh
 
 

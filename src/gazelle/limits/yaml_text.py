@@ -14,6 +14,7 @@ _MOST_CHARACTERS = 8 << 20
 _MOST_NODES = 1_000_000
 _DEEPEST = 64
 # What PyYAML's constructors, and those of ROS's angles, let through.
+_UNREADABLE: tuple[type[Exception], ...]
 _UNREADABLE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, SyntaxError)
 _UNREADABLE += (LimitError,)
 
