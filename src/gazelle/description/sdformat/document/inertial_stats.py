@@ -9,7 +9,7 @@ from gazelle.description.sdformat.document.checking.entities import Link, ModelS
 from gazelle.description.sdformat.document.checking.graphs import Scope
 from gazelle.description.sdformat.document.checking.relative import pose_in_scope, relative_graph
 from gazelle.description.sdformat.document.console import SdfError
-from gazelle.description.sdformat.document.values import notation_of, pose_of
+from gazelle.description.sdformat.document.values import notation_of, number_of, pose_of
 from gazelle.geometry import Pose
 
 __all__ = ["inertial_stats"]
@@ -57,7 +57,7 @@ def _body(link: Link, pose: Pose) -> tuple[float, Matrix, Matrix]:
     values = {"mass": 1.0, "ixx": 1.0, "iyy": 1.0, "izz": 1.0, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0}
     for element in link.inertial.walk() if link.inertial is not None else ():
         if element.name in values and element.text:
-            values[element.name] = float(element.text)
+            values[element.name] = number_of(element.text)
         elif element.name == "pose":
             pose = pose @ pose_of(element.text, notation_of(element.attributes))
     xy, xz, yz = values["ixy"], values["ixz"], values["iyz"]

@@ -7,7 +7,11 @@ from dataclasses import dataclass, field
 
 from gazelle.description.sdformat.document.console import Code, Console, SdfError
 from gazelle.description.sdformat.document.specification import Definition, Parameter
-from gazelle.description.sdformat.document.values import default_text, printed_value
+from gazelle.description.sdformat.document.values import (
+    default_text,
+    empty_pose,
+    printed_value,
+)
 from gazelle.description.sdformat.element import SdfElement
 from gazelle.description.sdformat.release import Release
 
@@ -163,6 +167,8 @@ def set_text(element: SdfElement, parameter: Parameter, text: str, console: Cons
     text = text.strip()
     if not text and not _refuses_empty(parameter, console):
         element.text = default_text(parameter, console, as_typed=True)
+        if parameter.kind == "pose" and console.release is Release.V12:
+            element.text = empty_pose(element.attributes)
         return True
     value = printed_value(parameter, text, element.attributes, console) if text else None
     if value is None:

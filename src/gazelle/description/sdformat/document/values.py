@@ -18,7 +18,9 @@ __all__ = [
     "PoseNotation",
     "bool_of",
     "default_text",
+    "empty_pose",
     "notation_of",
+    "number_of",
     "pose_of",
     "printed_pose",
     "printed_value",
@@ -89,16 +91,37 @@ def bool_of(text: str) -> bool | None:
     return True if word in ("1", "true") else False if word in ("0", "false") else None
 
 
+def number_of(text: str) -> float:
+    """Return the number that an accepted text begins with, as ``std::stod`` does; 0 for none."""
+    found = _HEX.match(text) or _NUMBER.match(text) or _WORD_NUMBER.match(text)
+    if found is None:
+        return 0.0
+    return float(int(found[0], 16)) if _HEX.fullmatch(found[0]) else float(found[0])
+
+
 def pose_of(text: str, notation: PoseNotation = _RADIANS) -> Pose:
-    """Return the pose that a text means, metres and radians unless `notation` says other."""
-    numbers = [float(word) for word in text.split()] or [0.0] * notation.size
-    x, y, z = numbers[:3]
+    """Return the pose that an accepted text means, metres and radians unless `notation` says other.
+
+    A text of another length is that of a default and means no rotation.
+    """
+    numbers = [number_of(word) for word in text.split()]
+    x, y, z = (*numbers[:3], 0.0, 0.0, 0.0)[:3]
+    if len(numbers) != notation.size:
+        return Pose((x, y, z))
     if notation.quaternion:
         qx, qy, qz, qw = numbers[3:]
     else:
         angles = [math.radians(value) if notation.degrees else value for value in numbers[3:]]
         qw, qx, qy, qz = quaternion_of(*angles)
     return Pose((x, y, z), (qx, qy, qz, qw))
+
+
+def empty_pose(attributes: Mapping[str, str]) -> str:
+    """Return what is printed for a ``<pose>`` that is there and empty."""
+    if notation_of(attributes).quaternion:
+        return "0 0 0   0 0 0 1"
+    spaced = "degrees" in attributes or "rotation_format" in attributes
+    return "0 0 0   0 0 0" if spaced else "0 0 0 0 0 0"
 
 
 def notation_of(attributes: Mapping[str, str]) -> PoseNotation:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gazelle.description.sdformat.document.console import Code, SdfError
+from gazelle.description.sdformat.document.values import number_of
 from gazelle.description.sdformat.element import SdfElement
 
 __all__ = [
@@ -131,7 +132,7 @@ def check_light(light: SdfElement, errors: list[SdfError]) -> None:
 def check_axis(axis: SdfElement, errors: list[SdfError]) -> None:
     """Report an axis without direction."""
     xyz = axis.find("xyz")
-    if xyz is not None and not any(map(float, xyz.text.split()[:3])):
+    if xyz is not None and not any(map(number_of, xyz.text.split()[:3])):
         message = "The norm of the xyz vector cannot be zero"
         errors.append(SdfError(Code.ELEMENT_INVALID, message))
 
@@ -167,7 +168,7 @@ def check_inertial(link: SdfElement, errors: list[SdfError]) -> None:
     if inertial is None:
         return
     found = inertial.find("mass")
-    mass = float(found.text) if found is not None else 1.0
+    mass = number_of(found.text) if found is not None else 1.0
     if mass < 0 or not _is_possible(_moments(inertial.find("inertia"))):
         message = f"A link named {link.attributes['name']} has invalid inertia."
         errors.append(SdfError(Code.LINK_INERTIA_INVALID, message))
@@ -177,7 +178,7 @@ def _moments(inertia: SdfElement | None) -> dict[str, float]:
     values = {name: float(name[1] == name[2]) for name in _MOMENTS}
     for child in inertia.children if inertia is not None else ():
         if child.name in values:
-            values[child.name] = float(child.text)
+            values[child.name] = number_of(child.text)
     return values
 
 
