@@ -99,3 +99,11 @@ def test_values_for_arguments_that_are_not_there_are_told(remarks: Remarks) -> N
 def test_argument_in_a_branch_not_taken_is_no_mistake(remarks: Remarks) -> None:
     text = '<xacro:if value="0"><xacro:arg name="rate" default="1"/></xacro:if>'
     assert remarks(text, rate="5") == []
+
+
+def test_scope_that_does_not_exist_is_told(remarks: Remarks) -> None:
+    (found,) = remarks('<xacro:property name="n" value="5" scope="glbal"/>')
+    assert (found.code, found.severity) == ("xacro.bad-element", Severity.WARNING)
+    assert found.message.startswith("there is no scope 'glbal'")
+    assert (found.span.column, found.fix) == (43, "did you mean 'global'?")
+    assert remarks('<xacro:property name="n" value="5" scope="local"/>') == []

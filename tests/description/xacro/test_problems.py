@@ -105,6 +105,16 @@ def test_decimal_comma_has_its_own_words(fail: Fail) -> None:
     assert fail('<v a="${sqrt(0,25)}"/>').fix == "write the decimal sign as a dot: 0.25"
 
 
+def test_commas_of_lists_are_no_decimal_commas(fail: Fail) -> None:
+    assert fail('<v a="${[1,2][5]}"/>').code == "xacro.bad-expression"
+    assert fail('<v a="${[1,2] + 3}"/>').code == "xacro.bad-expression"
+
+
+def test_include_whose_name_is_unknown_is_one_error(fail: Fail) -> None:
+    error = fail('<xacro:include filename="${no}/x.xacro"/><v a="${of_x}"/>')
+    assert (error.code, error.span.column) == ("xacro.undefined-name", 26)
+
+
 def test_decimal_commas_that_xacro_passes_are_warned_of(expand: Expand) -> None:
     text = '<xacro:property name="r" value="0,5"/>\n<v a="${r * 2}"/>'
     (warning,) = expand(text, succeeds=True)
@@ -145,6 +155,11 @@ def test_pairs_that_are_split_are_no_decimal_commas(expand: Expand) -> None:
             '<xacro:macro name="m" params="x"/><v a="${x}"/>',
             "; it is a parameter of macro 'm' (one.xacro:2) and known only inside it",
             "define the property above its use, or correct its name",
+        ),
+        (
+            '<xacro:property name="b"><o/></xacro:property><v a="${b}"/>',
+            "; it is a block of elements here, and no value",
+            'put the block in with <xacro:insert_block name="b"/>',
         ),
         ('<v a="${abs(-1)}"/>', "", "write python.abs: xacro has it there"),
     ],

@@ -35,7 +35,6 @@ class Failure:
         expression: what stood in the innermost ``${…}``, empty when none.
         symbols: names known to the expression.
         macros: macros known there.
-        macro: the macro of a call that failed.
         locals: variables of the innermost frames by name of the function.
     """
 
@@ -52,7 +51,6 @@ class Failure:
     expression: str = ""
     symbols: Any = None
     macros: Any = None
-    macro: Any = None
     locals: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     @property
@@ -128,11 +126,9 @@ def _look_at(frame: FrameType, failure: Failure) -> None:
     elif name == "_resolve_":
         _work_on_property(local, failure)
     elif name == "eval_default_arg":
-        failure.macro = local["macro"]
-        _work_on(failure.macro.body, failure)
+        _work_on(local["macro"].body, failure)
         failure.attribute = "params"
     else:
-        failure.macro = local.get("m", failure.macro)
         table = local.get("symbols", local.get("table"))
         failure.symbols = table if isinstance(table, dict) else failure.symbols
         if (node := node_in(frame)) is not None:

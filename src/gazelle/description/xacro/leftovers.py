@@ -20,6 +20,8 @@ _ADDRESS = re.compile(r"https?://(www\.|wiki\.)?ros\.org/(wiki/)?xacro/?")
 _PREFIXED = re.compile(r'xmlns:(\w+)="(?:https?://(?:www\.|wiki\.)?ros\.org/(?:wiki/)?xacro)/?"')
 _COMMA_ATTRIBUTE = re.compile(rb"[\"']\s*[-+]?\d+,\d+\s*[\"']")
 _COMMA_VALUE = re.compile(r"\s*[-+]?\d+,\d+\s*")
+_SCOPE = re.compile(rb"\sscope\s*=\s*[\"'](?!global[\"']|parent[\"']|local[\"'])")
+_SCOPES = ("global", "parent")
 _SPLITTERS = (b"tokenize", b".split(")
 _TUPLE = re.compile(r"\((-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)\)")
 _WITHOUT_PREFIX = {
@@ -55,7 +57,8 @@ def report_leftovers(
         fix = "write the text without CDATA, with &lt; and &amp;"
         diagnostics.report("xacro.not-expanded", message, place, fix=fix)
     _report_addresses(text, session, diagnostics)
-    _report_commas(written, text, session, diagnostics)
+    _report_sources(session, diagnostics)
+    _report_pairs(text, written, session, diagnostics)
     _report_unused(session, file, given, diagnostics)
 
 
@@ -107,30 +110,49 @@ def _report_addresses(text: str, session: Session, diagnostics: Diagnostics) -> 
             diagnostics.report("xacro.namespace-address", message, span)
 
 
-def _report_commas(written: Written, text: str, session: Session, diagnostics: Diagnostics) -> None:
-    """Report numbers with a decimal comma: Python multiplies such a text, or makes a pair of it."""
-    sources = b"".join(_bytes_of(file) for file in dict.fromkeys(session.tracker.files))
+def _report_sources(session: Session, diagnostics: Diagnostics) -> None:
+    """Report numbers with a decimal comma, which are texts to Python, and scopes of no effect."""
     for file in dict.fromkeys(session.tracker.files):
         data = _bytes_of(file)
-        if not _COMMA_ATTRIBUTE.search(data) or any(word in data for word in _SPLITTERS):
+        has_commas = _COMMA_ATTRIBUTE.search(data) and not any(word in data for word in _SPLITTERS)
+        if not has_commas and not _SCOPE.search(data):
             continue
         root = read_xml(Path(file), Diagnostics())
         for tag in root.walk() if root is not None else ():
-            if tag.name.startswith("xacro:"):
+            if tag.name == "xacro:property":
+                _report_scope(tag, diagnostics)
+            if has_commas and tag.name.startswith("xacro:"):
                 _report_comma(tag, diagnostics)
+
+
+def _report_pairs(text: str, written: Written, session: Session, diagnostics: Diagnostics) -> None:
+    """Report a pair of numbers in the result that no file has: an expression with a comma."""
     pair = _TUPLE.search(text)
-    if pair is not None and pair[0].encode() not in sources:
-        message = f"'{pair[0]}' is in the result: '{pair[1]},{pair[2]}' in an expression is a pair"
-        message += " of numbers to Python"
-        fix = "write the decimal sign as a dot"
-        span = _place_at(written, text.count("\n", 0, pair.start()) + 1)
-        diagnostics.report("xacro.decimal-comma", message, span, fix=fix, severity=Severity.WARNING)
+    if pair is None:
+        return
+    if any(pair[0].encode() in _bytes_of(file) for file in session.tracker.files):
+        return
+    message = f"'{pair[0]}' is in the result: '{pair[1]},{pair[2]}' in an expression is a pair"
+    message += " of numbers to Python"
+    fix = "write the decimal sign as a dot"
+    span = _place_at(written, text.count("\n", 0, pair.start()) + 1)
+    diagnostics.report("xacro.decimal-comma", message, span, fix=fix, severity=Severity.WARNING)
 
 
 def _place_at(written: Written, line: int) -> SourceSpan | None:
     """Return where the last element that starts at or before a line of the result was written."""
     index = bisect_right(written.lines, line) - 1
     return written.places[index] if index >= 0 else None
+
+
+def _report_scope(tag: Tag, diagnostics: Diagnostics) -> None:
+    scope = tag.attributes.get("scope", "local")
+    if scope in {*_SCOPES, "local"} or "$" in scope:
+        return
+    message = f"there is no scope '{scope}'; the property is known here alone, as without scope"
+    fix = did_you_mean(scope, _SCOPES) or "write global or parent"
+    span = attribute_span(tag.span, "scope")
+    diagnostics.report("xacro.bad-element", message, span, fix=fix, severity=Severity.WARNING)
 
 
 def _report_comma(tag: Tag, diagnostics: Diagnostics) -> None:

@@ -104,19 +104,20 @@ def repaired(failure: Failure, finding: Finding, repairs: Repairs) -> bool:
     Returns:
         Whether something was taken out that was still there.
     """
+    tag = str(getattr(failure.node, "tagName", ""))
     if finding.code == "xacro.undefined-name" and finding.subject not in ("", *repairs.names):
         repairs.names.add(finding.subject)
-        return True
+        if tag != "xacro:include":
+            return True
     if finding.code == "xacro.argument-missing":
         repairs.suspects.add(finding.subject)
     culprit = failure.session.properties.get(finding.subject) if finding.subject else None
     if finding.code in _ABOUT_VALUES and culprit is not None:
         # Every expression with this value would fail.
         return repairs.replace_part(culprit, "value", "")
-    place, node = failure.element, failure.node
+    place = failure.element
     if finding.code in {"limits.expansion", "xacro.recursion", "xml.entity"} or place is None:
         return False
-    tag = str(getattr(node, "tagName", ""))
     if tag == "xacro:include" or finding.code.startswith("xml."):
         calls = failure.session.tracker.calls
         repairs.is_incomplete = True

@@ -52,6 +52,8 @@ def _unfit(text: str, macro: Any, failure: Failure) -> Finding:
         given = listed(failure.locals["handle_macro_call"]["node"].attributes.keys(), "nothing")
         message = f"{text}: macro '{name}' needs {listed(missing)}; given: {given}"
         fix = "add " + " ".join(f'{item}="…"' for item in missing)
+        if any(macro.params.count(item) > 1 for item in missing):
+            fix = "name each parameter once in params"
         return Finding("xacro.bad-call", f"{message}; {_signature(macro)}", span, fix, name)
     blocks = [item for item in macro.params if item.startswith("*")]
     message = f"{text}: macro '{name}' takes {len(blocks)} block(s) ({listed(blocks)})"

@@ -14,7 +14,7 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["explain_expression"]
 
 _COMMA_VALUE = re.compile(r"\s*[-+]?\d+,\d+\s*")
-_COMMA = re.compile(r"(?<![\w.,])\d+,\d+(?![\w.,])")
+_COMMA = re.compile(r"(?<![\w.,\[])\d+,\d+(?![\w.,\]])")
 _WITH_UNIT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*([a-zA-Z°]+)\s*")
 _LONGEST = 60
 
@@ -38,7 +38,7 @@ def explain_expression(failure: Failure) -> Finding | None:
             f"{name} = {_shown(value)}{_where(name, failure)}" for name, value in values
         )
         message += f"; here {shown}"
-    comma = _decimal_comma(failure.expression, values)
+    comma = _decimal_comma(failure.expression, values) if isinstance(cause, TypeError) else ""
     if comma:
         fix = f"write the decimal sign as a dot: {comma.replace(',', '.')}"
         return Finding("xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause))

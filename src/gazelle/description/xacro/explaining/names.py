@@ -43,6 +43,9 @@ def _undefined(name: str, failure: Failure) -> Finding:
     )
     if name in python:
         fix = f"write python.{name}: xacro has it there"
+    elif f"**{name}" in known or f"*{name}" in known:
+        message += "; it is a block of elements here, and no value"
+        fix = f'put the block in with <xacro:insert_block name="{name}"/>'
     else:
         note, fix = _elsewhere(name, failure)
         message += note
