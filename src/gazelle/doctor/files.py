@@ -102,6 +102,11 @@ def _examine_robot(
     examination.diagnostics.extend(found)
     if models and not found.errors:
         server = Program("gazebo", words=(examination.options.world,))
+        if examination.options.probe:
+            from gazelle.doctor.probes import stood_on_ground
+
+            # Nobody has placed it, and half in the ground it would be thrown.
+            models = tuple(stood_on_ground(model) for model in models)
         _bring_up(StartPlan(server, models=models), file.name, examination)
 
 

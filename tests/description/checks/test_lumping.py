@@ -101,6 +101,16 @@ def test_name_that_gazebo_replaces_is_a_notice() -> None:
     assert place(item) == "<bodyName>imu_link</bodyName>"
 
 
+def test_link_without_mass_needs_some_to_be_preserved(workspaces_dir: Path) -> None:
+    folder = workspaces_dir / "turtlebot3_ws/src/turtlebot3/turtlebot3_description/urdf"
+    found = examined(folder / "turtlebot3_burger.urdf.xacro").by_code("robot.lumped-frame")
+    (item,) = found
+    assert "<frameName> 'imu_link' becomes 'base_footprint'" in item.message
+    assert item.fix.endswith(
+        "and give 'imu_link' an <inertial>: preserved links without one are dropped"
+    )
+
+
 def test_gravity_of_a_lumped_link_would_lift_the_whole_body() -> None:
     (item,) = _of("robot.lumped-value")
     assert "gravity is switched off for 'imu_link'" in item.message

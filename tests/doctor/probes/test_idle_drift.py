@@ -47,3 +47,10 @@ def test_robot_without_ground_falls() -> None:
     assert item.message == "robot 'cube' falls: 706 m in 10 s, and nothing touches it"
     assert pytest.approx(706, abs=1) == 9.8 / 2 * (12.201**2 - 2.201**2)
     assert item.fix.startswith("put a ground plane into the world")
+
+
+def test_falling_robot_is_not_told_to_drive() -> None:
+    sections, found = probed(robot("pain_14_wheels/broken/swapped.urdf"))
+    assert [item.code for item in found] == ["probe.falls"]
+    assert set(sections) == {"probe_spawn", "probe_idle_drift"}
+    assert sections["probe_idle_drift"].rows[0][4] == "falls"

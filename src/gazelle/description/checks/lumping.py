@@ -154,4 +154,8 @@ def _report(
 
 def _preserve(model: Model, child: str) -> str:
     joint = lumped_joints(model)[child].name
-    return f'<gazebo reference="{joint}"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
+    words = f'<gazebo reference="{joint}"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
+    link = model.link(child)
+    if link is not None and (link.inertial is None or link.inertial.estimated):
+        words += f", and give '{child}' an <inertial>: preserved links without one are dropped"
+    return words

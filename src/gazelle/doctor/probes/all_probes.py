@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.dry_start.node import DryNode
 from gazelle.doctor.probes.controllers import probe_controllers
 from gazelle.doctor.probes.drive import probe_drive, twist_topics
-from gazelle.doctor.probes.idle_drift import probe_idle_drift
+from gazelle.doctor.probes.idle_drift import FALLS, probe_idle_drift
 from gazelle.doctor.probes.robots import robots_of
 from gazelle.doctor.probes.spawn import probe_spawn
 from gazelle.doctor.report import Section
@@ -82,7 +82,12 @@ def _probed(
     tell("probe: spawn")
     yield probe_spawn(simulation, robots, diagnostics)
     tell("probe: idle drift")
-    yield probe_idle_drift(simulation, robots, diagnostics)
+    drift = probe_idle_drift(simulation, robots, diagnostics)
+    yield drift
+    fallen = {row[0] for row in drift.rows if row[-1] == FALLS}
+    robots = [robot for robot in robots if robot.name not in fallen]
+    if not robots:
+        return
     # From the start again: an arm that hangs down by now would hide that it sags.
     simulation.reset()
     if simulation.server.controls.managers:

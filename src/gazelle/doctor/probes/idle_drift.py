@@ -16,7 +16,10 @@ from gazelle.doctor.probes.motion import (
 from gazelle.doctor.report import Section
 from gazelle.simulator.simulation import Simulation
 
-__all__ = ["probe_idle_drift"]
+__all__ = ["FALLS", "probe_idle_drift"]
+
+FALLS = "falls"
+"""Verdict on a robot of which nothing more can be learned."""
 
 _SETTLE_S = 2.0
 _WATCH_S = 10.0
@@ -42,18 +45,17 @@ def probe_idle_drift(
         base = moves[base_name(robot)]
         worst = max(moves, key=lambda name: moves[name].moved_m)
         still = base.moved_m < _STILL_M and base.turned_deg < _STILL_DEG
-        if not still:
-            _report(simulation, robot, base, worst, diagnostics)
+        verdict = "still" if still else _report(simulation, robot, base, worst, diagnostics)
         shown = (_length(base.moved_m), f"{base.turned_deg:.3g}°")
         most = f"{worst} ({_length(moves[worst].moved_m)})"
-        rows.append((robot.name, *shown, most, "still" if still else "moves"))
+        rows.append((robot.name, *shown, most, verdict))
     title = f"idle robots: {_WATCH_S:g} s without a command, after {_SETTLE_S:g} s of settling"
     return Section("probe_idle_drift", title, _COLUMNS, tuple(rows))
 
 
 def _report(
     simulation: Simulation, robot: Model, base: Motion, worst: str, diagnostics: Diagnostics
-) -> None:
+) -> str:
     touching = contacts_of(simulation, robot, with_itself=False)
     link = robot.link(worst)
     place = link.span if link is not None else robot.span
@@ -67,7 +69,7 @@ def _report(
             "it a <collision> whose mesh can be found"
         )
         diagnostics.report("probe.falls", text, place, fix=fix)
-        return
+        return FALLS
     text = (
         f"robot '{robot.name}' moved {_length(base.moved_m)} and turned {base.turned_deg:.3g}° "
         f"in {_WATCH_S:g} s without a command; link '{worst}' moved most"
@@ -76,6 +78,7 @@ def _report(
         f"; it touches {', '.join(sorted(touching)[:4])}" if touching else "; it touches nothing"
     )
     diagnostics.report("probe.idle-drift", text, place)
+    return "moves"
 
 
 def _length(value_m: float) -> str:
