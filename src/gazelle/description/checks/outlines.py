@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.checks.inertia_shapes import shape_points_m
-from gazelle.description.model import Box, Collision, Link, Model, Shape, Sphere
+from gazelle.description.model import Collision, Link, Model, Shape
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 
-__all__ = ["Outline", "Outlines", "is_round"]
+__all__ = ["Outline", "Outlines"]
 
 Array = NDArray[np.float64]
 
@@ -81,8 +81,3 @@ class Outlines:
             placed = np.asarray(pose.transform(points))
             if np.abs(placed).max() < _FARTHEST_M:  # false for what is no number, too
                 yield Outline(link, collision, placed)
-
-
-def is_round(shape: Shape) -> bool:
-    """Tell whether a shape has no corner to drag: spheres, cylinders and their kin."""
-    return not isinstance(shape, Box) and (isinstance(shape, Sphere) or hasattr(shape, "radius_m"))
