@@ -26,7 +26,7 @@ class SdfElement:
     children: list[SdfElement] = field(default_factory=list)
     line: int = 0
 
-    def add(self, name: str, text: str = "", **attributes: str) -> SdfElement:
+    def add(self, name: str, text: str = "", /, **attributes: str) -> SdfElement:
         """Append a child and return it."""
         child = SdfElement(name, dict(attributes), text)
         self.children.append(child)
