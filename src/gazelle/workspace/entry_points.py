@@ -26,7 +26,14 @@ def console_scripts(folder: Path) -> dict[str, str]:
         if path.is_file():
             try:
                 scripts.update(reader(path.read_text(encoding="utf-8")))
-            except (OSError, ValueError, SyntaxError, configparser.Error):
+            except (
+                OSError,
+                ValueError,
+                SyntaxError,
+                MemoryError,
+                RecursionError,
+                configparser.Error,
+            ):
                 continue
     return scripts
 

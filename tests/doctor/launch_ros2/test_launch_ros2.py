@@ -287,3 +287,37 @@ def test_documents_launch_file(workspaces_dir: Path) -> None:
         "move_group",
         "rviz2",
     ]
+
+
+def test_path_that_is_only_kept_or_asked_about_may_be_missing(check: Check) -> None:
+    text = (
+        "import os\nfrom ament_index_python.packages import get_package_share_directory as share\n"
+    )
+    text += "kept = os.path.join(share('bot'), 'config', 'user.yaml')\n"
+    text += "asked = os.path.join(share('bot'), 'config', 'more.yaml')\n"
+    text += "extra = [asked] if os.path.exists(asked) else []\n"
+    text += "opened = open(os.path.join(share('bot'), 'urdf', 'bot.urdf')).read()\n"
+    found, _ = check("a.launch.py", text + PYTHON.format(""))
+    (item,) = found.by_code("launch_ros2.file-missing")
+    assert "has no 'urdf/bot.urdf'" in item.message
+
+
+def test_argument_that_has_to_be_given_is_a_warning(check: Check) -> None:
+    text = "from launch.substitutions import LaunchConfiguration\n"
+    node = "Node(package='rviz2', executable='rviz2', name=LaunchConfiguration('robot_ip'))"
+    (item,) = check("a.launch.py", text + PYTHON.format(node))[0].by_code(
+        "launch_ros2.argument-undeclared"
+    )
+    assert item.severity is Severity.WARNING
+    assert item.message.endswith("the launch stops there, unless robot_ip:=… is given")
+    found, _ = check("a.launch.py", text + PYTHON.format(node), robot_ip="127.0.0.1")
+    assert not found.by_code("launch_ros2.argument-undeclared")
+
+
+def test_spawned_controllers_of_generated_parameters_are_not_judged(check: Check) -> None:
+    text = "from ament_index_python.packages import get_package_share_directory as share\n"
+    text += "made = generate(share('bot') + '/config/c.yaml')\n"
+    nodes = "Node(package='controller_manager', executable='ros2_control_node', parameters=[made]),"
+    nodes += "Node(package='controller_manager', executable='spawner', arguments=['left_arm'])"
+    found, _ = check("a.launch.py", text + PYTHON.format(nodes))
+    assert not found.by_code("launch_ros2.controller-missing")

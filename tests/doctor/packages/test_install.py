@@ -176,3 +176,25 @@ def test_documents_packages_have_true_findings_only(check: Any, workspaces_dir: 
         assert {item.code for item in found} == codes
     found, _ = check("urdf_exam", workspaces_dir / "catkin_ws" / "src")
     assert {item.severity for item in found} == {Severity.INFO}
+
+
+@pytest.mark.parametrize(
+    ("build_type", "name", "text"),
+    [
+        (
+            "ament_cmake",
+            "CMakeLists.txt",
+            AMENT.format(f"install(FILES {'x' * 5000} DESTINATION s)"),
+        ),
+        ("ament_cmake", "CMakeLists.txt", "install(" * 3000),
+        ("ament_cmake", "CMakeLists.txt", "set(A ${A}${A}x)\n" * 400 + AMENT.format("")),
+        ("ament_python", "setup.py", "(" * 5000),
+        ("ament_python", "setup.py", "x = '\0'\n"),
+        ("ament_python", "setup.py", "x = [0]\nfor i in range(5000):\n    x = x + x\n"),
+    ],
+)
+def test_broken_build_files_come_to_an_end(
+    check: Any, make: Any, build_type: str, name: str, text: str
+) -> None:
+    found, _ = check("bot", make(build_type, **{name: text, "launch__a.launch.py": ""}))
+    assert all(item.code.startswith("package.") for item in found)

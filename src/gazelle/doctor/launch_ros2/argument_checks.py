@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
+from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, nearest_names
 from gazelle.doctor.launch_ros2.following import Followed
 
 __all__ = ["check_arguments"]
@@ -39,11 +39,14 @@ def _check_uses(item: Followed, diagnostics: Diagnostics) -> None:
         if use.name in declared or use.name in seen or not use.name:
             continue
         seen.add(use.name)
+        hint = did_you_mean(use.name, declared)
         text = f"launch configuration '{use.name}' does not exist: no DeclareLaunchArgument "
         text += "declares it; the launch stops there"
-        hint = did_you_mean(use.name, declared)
+        text += "" if hint else f", unless {use.name}:=… is given"
         fix = hint or f"add DeclareLaunchArgument('{use.name}', default_value=…)"
-        diagnostics.report("launch_ros2.argument-undeclared", text, use.span, fix=fix)
+        severity = Severity.ERROR if hint else Severity.WARNING
+        code = "launch_ros2.argument-undeclared"
+        diagnostics.report(code, text, use.span, fix=fix, severity=severity)
 
 
 def _check_given(item: Followed, diagnostics: Diagnostics) -> None:

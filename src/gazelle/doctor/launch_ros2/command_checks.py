@@ -10,6 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import Followed
 from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.records import Command, RobotSource
+from gazelle.doctor.packages.places import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["check_commands", "robots_of"]
@@ -40,7 +41,7 @@ def robots_of(files: Sequence[Followed]) -> Iterator[RobotSource]:
             if use.name.endswith(_ENDINGS)
         ]
         for robot in found:
-            if robot.path.is_file() and robot.path not in seen:
+            if is_file(robot.path) and robot.path not in seen:
                 seen.add(robot.path)
                 yield robot
 
@@ -71,7 +72,7 @@ def _check_words(command: Command, diagnostics: Diagnostics) -> None:
 
 def _check_wrapped(command: Command, workspace: Workspace, diagnostics: Diagnostics) -> None:
     robot = _robot(command)
-    if command.is_wrapped or robot is None or not robot.path.is_file():
+    if command.is_wrapped or robot is None or not is_file(robot.path):
         return
     expanded = expand_xacro(
         robot.path, mappings=robot.mappings, workspace=workspace, diagnostics=Diagnostics()

@@ -11,6 +11,7 @@ from gazelle.doctor.launch_ros2.locating import located, package_of
 from gazelle.doctor.launch_ros2.records import Use
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.known_packages import known_packages
+from gazelle.doctor.packages.places import is_file, is_folder
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.workspace import Package, Workspace
 
@@ -55,8 +56,10 @@ def check_paths(files: Sequence[Followed], workspace: Workspace, diagnostics: Di
         seen.add(use.name)
         inside = Path(use.name).relative_to(package.path).as_posix()
         if located(use.name) is None:
+            if not any(item.file.uses_path(use.name) for item in files):
+                continue
             _report_missing(package, inside, use, diagnostics)
-        elif Path(use.name).is_file() and not _is_installed(package, inside):
+        elif is_file(Path(use.name)) and not _is_installed(package, inside):
             left_out.setdefault(package.name, []).append(inside)
             first.setdefault(package.name, use.span)
     for name, items in left_out.items():
@@ -94,7 +97,7 @@ def _package_uses(files: Sequence[Followed]) -> Iterator[Use]:
 def _report_missing(package: Package, inside: str, use: Use, diagnostics: Diagnostics) -> None:
     path = package.path / inside
     parent = path.parent
-    names = sorted(item.name for item in parent.iterdir()) if parent.is_dir() else []
+    names = sorted(item.name for item in parent.iterdir()) if is_folder(parent) else []
     source = SourcePackage(package)
     everywhere = [name for name in source.files if Path(name).name == path.name]
     text = f"package '{package.name}' has no '{inside}' ([Errno 2] No such file or directory: "

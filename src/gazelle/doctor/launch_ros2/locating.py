@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.doctor.packages.places import is_there
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.installed import installed_source
 
@@ -18,7 +19,13 @@ def located(name: str) -> Path | None:
     path = Path(name)
     if not path.is_absolute():
         return None
-    return path if path.exists() else installed_source(path)
+    if is_there(path):
+        return path
+    try:
+        return installed_source(path)
+    except (OSError, ValueError):
+        # Names that are too long, or hold a NUL.
+        return None
 
 
 def package_of(path: Path, workspace: Workspace) -> Package | None:

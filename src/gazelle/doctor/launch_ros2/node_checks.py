@@ -59,6 +59,9 @@ def check_spawners(
     diagnostics: Diagnostics,
 ) -> None:
     """Report controllers that are spawned and configured nowhere."""
+    managers = [node for node in _nodes(files) if node.executable == "ros2_control_node"]
+    if not all(node.parameters.is_complete for node in managers):
+        return
     known: list[str] = []
     for path in parameter_files:
         document = read_document(path, Diagnostics())

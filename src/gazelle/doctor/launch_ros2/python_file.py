@@ -18,7 +18,7 @@ from gazelle.doctor.launch_ros2.records import (
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
-from gazelle.doctor.static_python import UNKNOWN, Call, Evaluator
+from gazelle.doctor.static_python import UNKNOWN, Call, Evaluator, parse_python
 from gazelle.workspace import Workspace
 
 __all__ = ["read_python_file"]
@@ -30,6 +30,7 @@ _FOLDER_CALLS = frozenset(
     {"get_package_share_directory", "get_package_share_path", "get_package_prefix"}
 )
 _JOINS = frozenset({"join", "joinpath"})
+_TESTS = frozenset({"exists", "isfile"})
 
 
 def read_python_file(
@@ -49,8 +50,8 @@ def read_python_file(
     """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
-        tree = ast.parse(text)
-    except (OSError, SyntaxError, ValueError) as error:
+        tree = parse_python(text)
+    except (OSError, SyntaxError) as error:
         line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
         message = f"the launch file is not Python 3: {getattr(error, 'msg', error)}"
         span = SourceSpan(str(path), line, column)
@@ -81,6 +82,7 @@ class _Reader:
         self._workspace = workspace
         self._wrapped: set[int] = set()
         self._asked: list[Call] = []
+        self._tested: set[str] = set()
         self._performed_calls: set[int] = set()
 
     def follow(self, tree: ast.Module) -> None:
@@ -105,6 +107,12 @@ class _Reader:
         self._performed_calls = {
             id(inner) for call in evaluator.calls for inner in _inside([call.owner, *_given(call)])
         } | {id(call) for call in self._asked}
+        # Files that are asked about first may be missing.
+        self._tested = {
+            call.arguments[0]
+            for call, _ in evaluator.computed
+            if call.name in _TESTS and call.arguments and isinstance(call.arguments[0], str)
+        }
         for call, outcome in evaluator.computed:
             self._take_computed(call, outcome)
         for call in evaluator.calls:
@@ -133,6 +141,8 @@ class _Reader:
         if call.name in _FOLDER_CALLS and call.arguments and isinstance(call.arguments[0], str):
             self.file.packages.append(Use(call.arguments[0], self._span(call)))
         elif call.name in _JOINS and isinstance(outcome, str) and PurePath(outcome).suffix:
+            if outcome in self._tested:
+                return
             self.file.paths.append(Use(outcome, self._span(call)))
 
     def _take(self, call: Call) -> None:
@@ -146,6 +156,7 @@ class _Reader:
             "ExecuteProcess": self._process,
             "Command": self._command,
             "check_output": self._run,
+            "open": self._open,
             "process_file": self._process_file,
             "run": self._run,
             "SetParameter": self._set_parameter,
@@ -217,6 +228,11 @@ class _Reader:
         text = self._values.begin(words)
         wrapped = id(call) in self._wrapped
         self.file.commands.append(Command(text, self._span(call), True, wrapped))
+
+    def _open(self, call: Call) -> None:
+        path = self._values.text(call.get("file", 0))
+        if path is not None:
+            self.file.opened.add(path)
 
     def _run(self, call: Call) -> None:
         """Take ``subprocess.run(["xacro", …])`` for what it is."""

@@ -146,6 +146,7 @@ class LaunchFile:
         uses: launch arguments that are read, without those that bring a default along.
         packages: packages whose folders are asked for.
         paths: files of packages that are named.
+        opened: files that the file itself opens.
         sets_parameters: parameters of all nodes that follow (``SetParameter``).
         text: the file.
     """
@@ -158,5 +159,16 @@ class LaunchFile:
     nodes: list[LaunchedNode] = field(default_factory=list)
     includes: list[Include] = field(default_factory=list)
     commands: list[Command] = field(default_factory=list)
+    opened: set[str] = field(default_factory=set)
     sets_parameters: set[str] = field(default_factory=set)
     text: str = ""
+
+    def uses_path(self, path: str) -> bool:
+        """Tell whether a path goes to something that is started, and not only into a variable."""
+        if path in self.opened or any(item.path == path for item in self.includes):
+            return True
+        if any(path in command.text for command in self.commands):
+            return True
+        if any(item.default == path for item in self.arguments):
+            return True
+        return any(path in node.parameters.files or path in node.arguments for node in self.nodes)

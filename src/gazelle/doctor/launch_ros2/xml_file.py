@@ -167,6 +167,7 @@ class _Reader:
         is_of_package = "$(find-pkg-share" in tag.attributes.get(key, "")
         if text is not None and is_of_package and PurePath(text).suffix and " " not in text:
             self._file.paths.append(Use(text, tag.span))
+            self._file.opened.add(text)
         return text
 
     def _substituted(self, kind: str, words: str, tag: Tag) -> str | None:

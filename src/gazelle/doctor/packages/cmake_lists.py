@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.packages.cmake import Command, SyntaxProblem, Word, read_commands
+from gazelle.doctor.packages.places import is_file, is_folder
 
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]
 
@@ -169,7 +170,7 @@ class _Walker:
         return found
 
     def _replaced(self, text: str) -> str:
-        for _ in range(_DEEPEST):
+        for _ in range(2):  # once, and once more for ${${name}}
             new = _VARIABLE.sub(lambda found: self._variables.get(found[1] or "", found[0]), text)
             if new == text or len(new) > _MOST_STEPS:
                 break
@@ -214,12 +215,12 @@ class _Walker:
     def _subdirectory(self, step: Step) -> None:
         folder = str(Path(step.folder) / step.words[0])
         file = self._root / folder / "CMakeLists.txt"
-        if file.is_file():
+        if is_file(file):
             self.read(file, folder)
 
     def _include(self, step: Step) -> None:
         path = self._root / step.folder / step.words[0]
-        if path.is_file():
+        if is_file(path):
             self.read(path, step.folder)
         elif "/" in step.words[0] or step.words[0].endswith(".cmake"):
             self.lists.hidden.append(step)
@@ -280,4 +281,4 @@ def _globbed(base: Path, pattern: str, *, recursive: bool) -> list[Path]:
     if "*" in folder or "${" in folder:
         return []
     search = Path(folder).rglob if recursive else Path(folder).glob
-    return list(islice(search(name or "*"), _MOST_FILES)) if Path(folder).is_dir() else []
+    return list(islice(search(name or "*"), _MOST_FILES)) if is_folder(Path(folder)) else []

@@ -7,6 +7,7 @@ from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.install_rules import InstallRule
+from gazelle.doctor.packages.places import is_folder, is_there
 from gazelle.doctor.packages.source import SourcePackage
 
 __all__ = ["check_install", "is_needed"]
@@ -130,13 +131,13 @@ def _check_source(source: SourcePackage, rule: InstallRule, diagnostics: Diagnos
     ):
         return
     severity = Severity.ERROR if source.is_ros2 else Severity.WARNING
-    if not path.exists():
+    if not is_there(path):
         text = f"'{rule.source}' is to be installed and does not exist"
         text += f" ({_failure(source, rule)})"
         hint = did_you_mean(rule.source, _siblings(path, rule.is_folder))
         code = "package.install-missing"
         diagnostics.report(code, text, rule.span, fix=hint, severity=severity)
-    elif path.is_dir() and not rule.is_folder:
+    elif is_folder(path) and not rule.is_folder:
         text = f"'{rule.source}' is a folder, and only files can stand here"
         text += f" ({_failure(source, rule)})"
         fix = f"name the files: glob('{rule.source}/*.*')"
@@ -154,7 +155,7 @@ def _failure(source: SourcePackage, rule: InstallRule) -> str:
 
 def _siblings(path: Path, folders: bool) -> list[str]:
     base = path.parent
-    if not base.is_dir():
+    if not is_folder(base):
         return []
     names = [item for item in sorted(base.iterdir()) if item.is_dir() == folders]
     return [item.name for item in names if not item.name.startswith(".")]
@@ -186,10 +187,10 @@ def _check_globs(source: SourcePackage, diagnostics: Diagnostics) -> None:
         path = source.folder / folder
         text = f"glob('{item.pattern}') finds no file, and nothing says so when building"
         hint = ""
-        if folder and not path.is_dir():
+        if folder and not is_folder(path):
             text = f"glob('{item.pattern}') finds no file: there is no folder '{folder}'"
             hint = did_you_mean(path.name, _siblings(path, True))
-        elif path.is_dir() and any(path.iterdir()):
+        elif is_folder(path) and any(path.iterdir()):
             names = sorted(entry.name for entry in path.iterdir())
             hint = f"the folder has {_listed(names)}"
         diagnostics.report("package.empty-glob", text, item.span, fix=hint)

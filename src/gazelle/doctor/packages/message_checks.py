@@ -7,6 +7,7 @@ from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.packages.cmake_lists import Step
+from gazelle.doctor.packages.places import is_file
 from gazelle.doctor.packages.source import SourcePackage
 
 __all__ = ["check_messages"]
@@ -100,7 +101,7 @@ def _check_listed(
     source: SourcePackage, step: Step, names: list[str], files: list[str], diagnostics: Diagnostics
 ) -> None:
     for name in names:
-        if "${" in name or (source.folder / step.folder / name).is_file():
+        if "${" in name or is_file(source.folder / step.folder / name):
             continue
         text = f"{step.name}() lists '{name}', and there is no such file; CMake stops there"
         hint = did_you_mean(name, files)

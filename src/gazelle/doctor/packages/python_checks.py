@@ -7,7 +7,9 @@ import os
 from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
+from gazelle.doctor.packages.places import is_file, is_folder
 from gazelle.doctor.packages.source import SourcePackage
+from gazelle.doctor.static_python import parse_python
 from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["check_python"]
@@ -55,7 +57,7 @@ def _check_modules(source: SourcePackage, diagnostics: Diagnostics) -> None:
         folder = source.folder / setup.folders.get(name, f"{base}/{name.replace('.', '/')}").strip(
             "/"
         )
-        if not folder.is_dir():
+        if not is_folder(folder):
             text = f"packages names '{name}', and there is no folder '{folder.name}' (error: "
             text += f"package directory '{folder.name}' does not exist)"
             names = [item.name for item in source.folder.iterdir() if item.is_dir()]
@@ -134,7 +136,7 @@ def _module_file(source: SourcePackage, module: str) -> Path | None:
     inside = module.replace(".", "/")
     for base in (source.folder, source.folder / "src"):
         for name in (f"{inside}.py", f"{inside}/__init__.py"):
-            if (base / name).is_file():
+            if is_file(base / name):
                 return base / name
     return None
 
@@ -150,8 +152,8 @@ def _modules_below(source: SourcePackage, own: str) -> list[str]:
 def _names_in(file: Path) -> set[str] | None:
     """Return the names a module has at its top level; None when that cannot be told."""
     try:
-        tree = ast.parse(file.read_text(encoding="utf-8", errors="replace"))
-    except (SyntaxError, ValueError, OSError):
+        tree = parse_python(file.read_text(encoding="utf-8", errors="replace"))
+    except (SyntaxError, OSError):
         return None
     names: set[str] = set()
     for node in ast.walk(tree):

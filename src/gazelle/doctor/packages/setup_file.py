@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.packages.install_rules import InstallRule
-from gazelle.doctor.static_python import UNKNOWN, Call, Evaluator, is_known
+from gazelle.doctor.static_python import UNKNOWN, Call, Evaluator, is_known, parse_python
 
 __all__ = ["EmptyGlob", "SetupFile", "read_setup"]
 
@@ -66,9 +66,9 @@ def read_setup(folder: Path) -> SetupFile | None:
         return None
     found = SetupFile(file, scripts_folder=_scripts_folder(folder / "setup.cfg"))
     try:
-        tree = ast.parse(file.read_text(encoding="utf-8", errors="replace"))
-    except (SyntaxError, ValueError) as error:
-        found.error = error if isinstance(error, SyntaxError) else SyntaxError(str(error))
+        tree = parse_python(file.read_text(encoding="utf-8", errors="replace"))
+    except SyntaxError as error:
+        found.error = error
         return found
     evaluator = Evaluator(file, folder, functions={"find_packages": _packages_of(folder)})
     evaluator.run(tree)
@@ -130,7 +130,7 @@ def _place_of(file: Path, text: str) -> SourceSpan | None:
 def _find_globs(found: SetupFile, node: ast.Call, evaluator: Evaluator, folder: Path) -> None:
     """Note the globs of ``data_files`` that find nothing."""
     wanted = next((item.value for item in node.keywords if item.arg == "data_files"), None)
-    tree = ast.parse(found.file.read_text(encoding="utf-8", errors="replace"))
+    tree = parse_python(found.file.read_text(encoding="utf-8", errors="replace"))
     inside = ast.walk(wanted) if isinstance(wanted, ast.List) else ast.walk(tree)
     for item in inside:
         if not isinstance(item, ast.Call) or not item.args:

@@ -13,6 +13,7 @@ from gazelle.description.model import Model
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages.dependency_checks import uses
+from gazelle.doctor.packages.places import is_file
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.document import plain, read_document
 from gazelle.workspace import Package, Workspace
@@ -115,7 +116,7 @@ def _of_assistant(
         return
     owner = workspace.packages.get(str(urdf.get("package")))
     file = owner.path / str(urdf.get("relative_path")) if owner is not None else None
-    if file is not None and file.is_file():
+    if file is not None and is_file(file):
         words = str(urdf.get("xacro_args") or "").split()
         pairs = (word.partition(":=") for word in words if ":=" in word)
         yield file, {name: value for name, _, value in pairs}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.doctor.static_python.evaluating import Evaluator
+from gazelle.doctor.static_python.parsing import parse_python
 from gazelle.doctor.static_python.values import UNKNOWN, Call, Unknown, is_known
 
-__all__ = ["UNKNOWN", "Call", "Evaluator", "Unknown", "is_known"]
+__all__ = ["UNKNOWN", "Call", "Evaluator", "Unknown", "is_known", "parse_python"]

@@ -51,7 +51,7 @@ def library(folder: Path, file: Path, environ: Mapping[str, str]) -> dict[str, C
     def listed(top: str = ".") -> list[str]:
         return sorted(path.name for path in islice((folder / top).iterdir(), _MOST))
 
-    def variable(name: str, default: Any = None) -> Any:
+    def variable(name: str, default: Any = UNKNOWN) -> Any:
         return environ.get(name, default)
 
     own: dict[str, Callable[..., Any]] = {
