@@ -299,6 +299,14 @@ def test_property_names_that_python_does_not_take(fail: Fail) -> None:
     assert twice.message == "property 'a' has more than one of value, default and remove"
 
 
+def test_number_in_an_attribute_element_is_explained(fail: Fail) -> None:
+    """The official program ends with a traceback here."""
+    error = fail('<a>\n  <b><xacro:attribute name="mass" value="${2 * 1.5}"/></b></a>')
+    assert (error.code, str(error.span)) == ("xacro.failed", "one.xacro:3:3")
+    assert error.message.startswith("'float' object has no attribute 'replace'")
+    assert error.fix == 'write value="${str(…)}" in <xacro:attribute>'
+
+
 def test_missing_argument_says_how_to_give_it(fail: Fail) -> None:
     fix = fail('<v a="$(arg p)"/>').fix
     assert fix == 'pass p:=… or write <xacro:arg name="p" default="…"/>'

@@ -9,9 +9,19 @@ from xml.dom import Node, minidom
 from gazelle.description.xacro.dom import place_of
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["Written", "written"]
+__all__ = ["UnwritableError", "Written", "written"]
 
 _INDENT = "  "
+
+
+class UnwritableError(Exception):
+    """An attribute is no text: ``<xacro:attribute>`` sets what its expression gives."""
+
+    def __init__(self, element: Any, name: str, value: object) -> None:
+        self.element = element
+        self.name = name
+        self.value = value
+        super().__init__(f"{type(value).__name__!r} object has no attribute 'replace'")
 
 
 @dataclass
@@ -52,7 +62,10 @@ class Written:
         attributes = element._get_attributes()
         for name in sorted(attributes.keys()):
             write(f' {name}="')
-            minidom._write_data(self, attributes[name].value, **escape_options)  # type: ignore[attr-defined]
+            value = attributes[name].value
+            if not isinstance(value, str):
+                raise UnwritableError(element, name, value)
+            minidom._write_data(self, value, **escape_options)  # type: ignore[attr-defined]
             write('"')
         children = element.childNodes
         if not children:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 
+from gazelle.description.xacro.dom import place_of
 from gazelle.description.xacro.explaining.finding import Finding, one_line
 from gazelle.description.xacro.failure import Failure
+from gazelle.description.xacro.writing import UnwritableError
 from gazelle.diagnostics import did_you_mean
 
 __all__ = ["explain_element"]
@@ -17,6 +19,8 @@ _CONDITION = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which is
 def explain_element(failure: Failure) -> Finding | None:
     """Explain missing attributes, conditions and names; None for other failures."""
     text = str(failure.error)
+    if isinstance(failure.error, UnwritableError):
+        return _unwritable(failure.error, failure)
     found = _MISSING.search(text)
     if found is not None:
         return _missing(found[1], found[2], failure)
@@ -29,6 +33,14 @@ def explain_element(failure: Failure) -> Finding | None:
         span = failure.attribute_place("name")
         return Finding("xacro.bad-element", one_line(text), span, "give it another name")
     return None
+
+
+def _unwritable(error: UnwritableError, failure: Failure) -> Finding:
+    tag, value = error.element.tagName, f"{error.name}={error.value!r}"
+    message = f"{error}: <xacro:attribute> gives <{tag}> the number {value}, and xacro can only"
+    message += " write texts"
+    fix = 'write value="${str(…)}" in <xacro:attribute>'
+    return Finding("xacro.failed", message, place_of(error.element) or failure.span, fix)
 
 
 def _missing(tag: str, attribute: str, failure: Failure) -> Finding:
