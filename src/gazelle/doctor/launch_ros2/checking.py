@@ -25,6 +25,7 @@ __all__ = ["check_launch"]
 _COLUMNS = ("node", "package", "executable", "parameters", "started by")
 _WORLDS = (".world", ".sdf")
 _UNKNOWN = "?"
+_SHOWN = 4
 
 
 def check_launch(
@@ -99,7 +100,7 @@ def _sections(files: Sequence[Followed], path: Path) -> tuple[Section, ...]:
             node.name or _UNKNOWN if node.name is not None else node.executable or _UNKNOWN,
             node.package or _UNKNOWN,
             node.executable or _UNKNOWN,
-            ", ".join([*node.parameters.values, *(Path(p).name for p in node.parameters.files)]),
+            _listed([*node.parameters.values, *(Path(p).name for p in node.parameters.files)]),
             f"{item.file.path.name}:{node.span.line}",
         )
         for item in files
@@ -107,3 +108,8 @@ def _sections(files: Sequence[Followed], path: Path) -> tuple[Section, ...]:
     )
     title = f"nodes of {path.name}"
     return (Section("nodes", title, _COLUMNS, rows),) if rows else ()
+
+
+def _listed(names: Sequence[str]) -> str:
+    rest = len(names) - _SHOWN
+    return ", ".join(names[:_SHOWN]) + (f" and {rest} more" if rest > 0 else "")

@@ -107,7 +107,7 @@ def _report_no_build_file(source: SourcePackage, root: Tag, diagnostics: Diagnos
     text = f"the package has no {name}: it runs from its source folder here, and on "
     text += f"ROS_PACKAGE_PATH; {'colcon build' if source.is_ros2 else 'catkin_make'} cannot "
     text += f"build it ({kind})"
-    fix = f"gazelle new shows what a {kind} package needs"
+    fix = f"gazelle new shows what a package of type {kind} needs"
     diagnostics.report("package.no-build-file", text, root.span, fix=fix)
 
 
