@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from functools import lru_cache
 
 __all__ = ["did_you_mean", "nearest_names"]
 
 
 def nearest_names(name: str, existing: Iterable[str], *, count: int = 3) -> tuple[str, ...]:
     """Return the names most like `name`, best first; upper and lower case count as equal."""
+    return _nearest(name, tuple(existing), count)
+
+
+@lru_cache(maxsize=1024)
+def _nearest(name: str, existing: tuple[str, ...], count: int) -> tuple[str, ...]:
+    """Remember the answers: damaged files repeat the same unknown word thousands of times."""
     by_folded: dict[str, str] = {}
     for item in existing:
         by_folded.setdefault(item.casefold(), item)

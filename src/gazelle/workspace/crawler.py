@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.workspace.manifest import quick_name
+from gazelle.limits import read_limited
+from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
 
 __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]
 
@@ -133,7 +134,7 @@ def _package_at(folder: Path, manifest: Path) -> FoundPackage:
     name = None
     if manifest.name == "package.xml":
         try:
-            name = quick_name(manifest.read_bytes())
+            name = quick_name(read_limited(manifest, MANIFEST_BYTES))
         except OSError:
             name = None
     return FoundPackage(name or folder.name, folder, manifest)

@@ -9,8 +9,21 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.parsers import expat
 
-__all__ = ["Export", "Manifest", "ManifestError", "quick_name", "read_manifest"]
+from gazelle.limits import read_limited
 
+__all__ = [
+    "MANIFEST_BYTES",
+    "Export",
+    "Manifest",
+    "ManifestError",
+    "quick_name",
+    "read_manifest",
+]
+
+MANIFEST_BYTES = 4 << 20
+"""Size of the largest manifest that is read, in bytes."""
+
+_DEEPEST = 100
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _DEPENDS = frozenset(
@@ -85,7 +98,9 @@ class Manifest:
 
 def quick_name(data: bytes) -> str | None:
     """Return the package name without parsing the whole file; None when there is none."""
-    found = _NAME.search(_COMMENT.sub(b"", data) if b"<!--" in data else data)
+    # Behind the last '-->' no comment ends, and looking for the end of each would take for ever.
+    end = data.rfind(b"-->") + 3
+    found = _NAME.search(_COMMENT.sub(b"", data[:end]) + data[end:] if end > 2 else data)
     return found.group(1).decode("utf-8", "replace") if found else None
 
 
@@ -97,12 +112,15 @@ def read_manifest(path: Path) -> Manifest:
     """
     collector = _Collector()
     try:
-        collector.parse(path.read_bytes())
+        collector.parse(read_limited(path, MANIFEST_BYTES))
     except OSError as error:
         raise ManifestError(error.strerror or str(error)) from error
     except expat.ExpatError as error:
         reason = f"not well-formed XML: {expat.ErrorString(error.code)}"
         raise ManifestError(reason, error.lineno, error.offset + 1) from error
+    except (LookupError, ValueError) as error:
+        # Python's own words about an encoding that is unknown or of several bytes.
+        raise ManifestError(f"not well-formed XML: {error}", 1, 1) from error
     if collector.root != "package":
         raise ManifestError(f"the root element is <{collector.root}>, not <package>", 1, 1)
     return _manifest(collector, is_rosbuild=path.name == "manifest.xml")
@@ -130,6 +148,8 @@ class _Collector:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         if not self._stack:
             self.root, self.root_attributes = name, attributes
+        if len(self._stack) >= _DEEPEST:
+            raise ManifestError(f"<{name}> is nested deeper than {_DEEPEST} elements")
         self._stack.append((name, attributes, []))
 
     def _end(self, name: str) -> None:

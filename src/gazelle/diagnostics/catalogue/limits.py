@@ -1,4 +1,4 @@
-"""Codes of limits: what a file asks for is refused before it takes the machine's time and memory."""
+"""Codes of limits: a file is refused before it takes the machine's time and memory."""
 
 from __future__ import annotations
 
