@@ -31,6 +31,20 @@ def test_friction_and_contact_keys_become_a_surface() -> None:
     )
 
 
+def test_friction_goes_where_the_replaced_surface_was_in_memory() -> None:
+    contact = "<collision><surface><contact><ode><kp>5</kp></ode></contact></surface></collision>"
+    blocks = (f'<gazebo reference="base">{keys}</gazebo>' for keys in ("<kd>1</kd>", contact))
+    model = converted(
+        link("base", PARTS), *blocks, '<gazebo reference="base"><mu1>3</mu1></gazebo>'
+    )
+    collision = model.children[0].find("collision")
+    assert collision is not None
+    # Both real programs do this.
+    assert _shown(collision.children[-1]) == (
+        "<surface><contact><ode><kp>5</><mu>3</></></><friction></></>"
+    )
+
+
 def test_a_material_names_gazebos_own_script() -> None:
     visual = _of_link("<material>Gazebo/Red</material>").find("visual")
     assert visual is not None

@@ -19,8 +19,9 @@ _MATERIALS = "file://media/materials/scripts/gazebo.material"
 class _Surface:
     """The ``<surface>`` of a collision, and where in it frictions and contacts are written.
 
-    A second surface replaces the first one, but where it lacks a part, numbers go on being written
-    into the replaced one's and are lost: the library keeps its pointers (and may crash at it).
+    A second surface replaces the first one. Where it lacks a part, the library goes on writing
+    into the replaced one's, which no longer exists: new elements have taken the memory, the last
+    one freed first. So friction is found in contacts then, or is lost (or the library crashes).
     """
 
     def __init__(self, collision: SdfElement) -> None:
@@ -28,13 +29,17 @@ class _Surface:
         self._whole: SdfElement | None = None
         self._parts: dict[str, SdfElement | None] = {"contact": None, "friction": None}
         self._odes: dict[str, SdfElement | None] = {"contact": None, "friction": None}
+        self._freed: list[SdfElement] = []
 
     def replace(self, surface: SdfElement) -> None:
         """Put a surface in the place of the one that is there."""
         if self._whole is not None:
             remove(self._collision, self._whole)
+            self._freed = list(_walked(self._whole, last_first=True))
         self._collision.children.append(surface)
         self._whole = surface
+        for element in _walked(surface, last_first=False):
+            self._take_memory(element)
         for name in self._parts:
             part = surface.find(name)
             self._parts[name] = part
@@ -43,12 +48,23 @@ class _Surface:
 
     def complete(self) -> None:
         """Make what is still missing."""
-        if self._whole is None:
-            self._whole = self._collision.add("surface")
+        self._whole = self._whole or self._collision.add("surface")
         for name, part in self._parts.items():
-            found = part or found_or_added(self._whole, name)
-            self._parts[name] = found
-            self._odes[name] = self._odes[name] or found_or_added(found, "ode")
+            self._parts[name] = found = part or self._found_or_made(self._whole, name)
+            self._odes[name] = self._odes[name] or self._found_or_made(found, "ode")
+
+    def _found_or_made(self, owner: SdfElement, name: str) -> SdfElement:
+        found = owner.find(name)
+        if found is None:
+            found = owner.add(name)
+            self._take_memory(found)
+        return found
+
+    def _take_memory(self, element: SdfElement) -> None:
+        gone = self._freed.pop(0) if self._freed else None
+        for name, ode in self._odes.items():
+            if ode is not None and ode is gone:
+                self._odes[name] = element
 
     @property
     def friction_ode(self) -> SdfElement:
@@ -124,3 +140,12 @@ def _set(owner: SdfElement, extension: Extension, words: dict[str, str], console
     for word, name in words.items():
         if word in extension.numbers:
             set_value(owner, name, exact_text([extension.numbers[word]]), console)
+
+
+def _walked(element: SdfElement, *, last_first: bool) -> Iterator[SdfElement]:
+    """Yield an element and all below it, each before what is in it."""
+    waiting = [element]
+    while waiting:
+        found = waiting.pop()
+        yield found
+        waiting += found.children if last_first else found.children[::-1]
