@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.limits.names import exists
 from gazelle.workspace.resolved import Resolved
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class ReadContext:
         if "://" in text:
             return Resolved(None, note="there is no workspace to look in")
         path = (self.base_dir or Path()) / text
-        return Resolved(path if path.exists() else None, (str(path),))
+        return Resolved(path if exists(path) else None, (str(path),))
 
     def report_note(self, uri: str, found: Resolved, span: SourceSpan, code: str) -> None:
         """Report how a file was found when it was not as written; each way of it once.

@@ -17,6 +17,7 @@ from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.grouping import grouped
+from gazelle.limits.names import exists, is_file, is_folder
 from gazelle.workspace import Resolved, Workspace
 
 __all__ = ["TEXT_NAME", "load_models", "load_world"]
@@ -65,8 +66,8 @@ def _load_models(
     path = _locate(text, workspace, diagnostics)
     if path is None:
         return ()
-    if path.is_dir() or path.name == _MODEL_CONFIG:
-        folder = path if path.is_dir() else path.parent
+    if is_folder(path) or path.name == _MODEL_CONFIG:
+        folder = path if is_folder(path) else path.parent
         model = read_model_file(folder, workspace=workspace, diagnostics=diagnostics)
         return () if model is None else (model,)
     return _models_of_file(path, workspace, diagnostics, mappings)
@@ -140,7 +141,7 @@ def _world_of_path(
     if found.path is None:
         _report_not_found("world", text, found, diagnostics)
         return None
-    root = _peek(found.path) if found.path.is_file() else None
+    root = _peek(found.path) if is_file(found.path) else None
     if root in _SDF_ROOTS:
         return read_world_file(found.path, workspace=workspace, diagnostics=diagnostics)
     models = _load_models(str(found.path), workspace, diagnostics, mappings)
@@ -220,7 +221,7 @@ def _locate(text: str, workspace: Workspace | None, diagnostics: Diagnostics) ->
 
 def _resolved(text: str, workspace: Workspace | None) -> Resolved:
     path = Path(text)
-    if path.exists():
+    if exists(path):
         return Resolved(path)
     if workspace is not None:
         return workspace.resolve(text)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from gazelle.geometry.building import part_from_corners
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart, Rgba
 from gazelle.geometry.shading import group_points
+from gazelle.limits.names import is_file
 
 __all__ = ["read_dae"]
 
@@ -182,7 +183,7 @@ class _Reader:
             folder.parent / "materials" / "textures" / leaf,
         )
         for path in candidates:
-            if path.is_file():
+            if is_file(path):
                 return path
         places = ", ".join(str(path) for path in dict.fromkeys(candidates))
         text = f"texture '{written}' not found, the part is shown plain; looked for {places}"

@@ -17,6 +17,7 @@ from gazelle.geometry.building import part_from_corners
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
 from gazelle.geometry.pose import Pose
 from gazelle.geometry.shading import group_points, unit_rows
+from gazelle.limits.names import is_file
 
 __all__ = ["read_gltf"]
 
@@ -217,7 +218,7 @@ class _Reader:
         if uri.startswith("data:"):
             return self._read(uri)
         path = self._file.parent / unquote(uri)
-        if path.is_file():
+        if is_file(path):
             return path
         text = f"texture '{uri}' not found, the part is shown plain; looked for {path}"
         self._notes[MeshNote("mesh.missing-texture", text)] = None

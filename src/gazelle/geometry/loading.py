@@ -100,7 +100,9 @@ def load_mesh_reported(
 
 def _read(data: bytes, file: Path) -> Mesh:
     try:
-        mesh = _reader(data, file)(data, file)
+        # Numbers that are too large show below; numpy would say so on standard error.
+        with np.errstate(all="ignore"):
+            mesh = _reader(data, file)(data, file)
     except (MemoryError, RecursionError) as error:
         raise MeshError(file, "what it asks for does not fit into the memory") from error
     for part in mesh.parts:

@@ -107,7 +107,7 @@ def inertia_matrix(inertia: Inertia6) -> NDArray[np.float64]:
 
 def inertia_from_matrix(matrix: NDArray[np.float64]) -> Inertia6:
     """Return ixx, ixy, ixz, iyy, iyz, izz of a symmetric 3×3 matrix."""
-    m = ((matrix + matrix.T) / 2).tolist()
+    m = (matrix / 2 + matrix.T / 2).tolist()
     return (m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2])
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.geometry.mesh import MeshMaterial, MeshNote
+from gazelle.limits.names import is_file
 
 __all__ = ["read_mtl"]
 
@@ -71,7 +72,7 @@ def _textured(material: MeshMaterial, name: str, file: Path, notes: list[MeshNot
         folder / leaf,
         folder.parent / "materials" / "textures" / leaf,
     ):
-        if path.is_file():
+        if is_file(path):
             return replace(material, texture=path)
     text = f"texture '{name}' not found beside '{file.name}', the part is shown plain"
     notes.append(MeshNote("mesh.missing-texture", text))

@@ -12,6 +12,7 @@ from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
+from gazelle.limits.names import exists, is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["Loaded", "Source", "loaded_from", "models_from", "world_from"]
@@ -86,7 +87,7 @@ def world_from(
         return World()
     text = os.fspath(source)
     path = Path(text)
-    if not path.is_file():
+    if not is_file(path):
         named = text if text.endswith((".world", ".sdf")) else f"worlds/{text}.world"
         found = workspace.world_file(named)
         if found.path is None:
@@ -116,7 +117,7 @@ def _holds_world(text: str) -> bool:
 
 def _existing(text: str, workspace: Workspace) -> Path:
     path = Path(text).expanduser()
-    if path.exists():
+    if exists(path):
         return path
     if "://" in text:
         found = workspace.resolve(text)

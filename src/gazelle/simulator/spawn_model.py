@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
+from gazelle.limits.names import exists, is_file
 from gazelle.simulator.messages import message_class, pose_message, service_class
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.spawn_arguments import (
@@ -127,9 +128,9 @@ class _Spawner:
     def _from_file(self, name: str) -> str:
         self._say(f"Loading model XML from file {name}")
         path = Path(name)
-        if not path.exists():
+        if not exists(path):
             raise _SpawnError(f"Error: specified file {name} does not exist")
-        if not path.is_file():
+        if not is_file(path):
             raise _SpawnError(f"Error: specified file {name} is not a file")
         try:
             text = path.read_text(encoding="utf-8")

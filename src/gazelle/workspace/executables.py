@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from gazelle.limits.names import is_file
 from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["executable_names", "executables_named"]
@@ -56,7 +57,7 @@ def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str
 
 
 def _add(found: dict[Path, None], path: Path) -> None:
-    if path.is_file():
+    if is_file(path):
         found.setdefault(path)
 
 
@@ -68,7 +69,7 @@ def _module_file(path: Path, target: str) -> Path:
     module = target.partition(":")[0].strip().replace(".", "/")
     for base in (path, path / "src"):
         for name in (f"{module}.py", f"{module}/__init__.py"):
-            if (base / name).is_file():
+            if is_file(base / name):
                 return base / name
     return path / f"{module}.py"
 

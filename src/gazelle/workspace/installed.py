@@ -12,6 +12,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from gazelle.limits.names import exists, is_file
+
 __all__ = ["installed_source"]
 
 _LISTS = "CMakeLists.txt"
@@ -48,13 +50,13 @@ def installed_source(path: Path) -> Path | None:
             found = package / rule.source / inside[len(rule.target) :].lstrip("/")
         else:
             continue
-        if found != path and found.exists():
+        if found != path and exists(found):
             return found
     return None
 
 
 def _is_package(folder: Path) -> bool:
-    return (folder / _LISTS).is_file() and any((folder / name).is_file() for name in _MANIFESTS)
+    return is_file(folder / _LISTS) and any(is_file(folder / name) for name in _MANIFESTS)
 
 
 @lru_cache(maxsize=256)

@@ -6,6 +6,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from gazelle.limits.names import is_file
+
 __all__ = [
     "folders_around",
     "fuel_model",
@@ -21,7 +23,7 @@ _LEVELS = 4
 
 def is_model_folder(folder: Path) -> bool:
     """Return whether a folder holds a model (``model.config`` or ``model.sdf``)."""
-    return any((folder / name).is_file() for name in _FILES)
+    return any(is_file(folder / name) for name in _FILES)
 
 
 def folders_around(base_dir: Path | None) -> Iterator[Path]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from gazelle.limits.names import exists
 from gazelle.workspace.crawler import FoundPackage
 from gazelle.workspace.executables import executable_names, executables_named
 from gazelle.workspace.manifest import Export, Manifest
@@ -52,7 +53,7 @@ class Package:
     def find_file(self, relative: str) -> Path | None:
         """Return a file or folder of the package by its path inside, None when absent."""
         path = self.path / relative
-        return path if path.exists() else None
+        return path if exists(path) else None
 
     def find_executables(self, type_name: str) -> tuple[Path, ...]:
         """Return the files that ``rosrun <package> <type_name>`` could mean, best first.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
+from gazelle.limits.names import exists
 from gazelle.workspace.installed import installed_source
 
 __all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
@@ -65,7 +66,7 @@ def locate(base: Path, relative: str) -> tuple[Path | None, str]:
     and the note says so: such files work on Windows and macOS and fail on Linux.
     """
     path = base / relative if relative else base
-    if path.exists():
+    if exists(path):
         return path, ""
     source = installed_source(path.absolute())
     if source is not None:
@@ -82,7 +83,7 @@ def nearest_below(base: Path, relative: str) -> tuple[str, ...]:
     parts = [part for part in Path(relative).parts if part not in {"", "/"}]
     folder = base
     for index, part in enumerate(parts):
-        if (folder / part).exists():
+        if exists(folder / part):
             folder = folder / part
             continue
         near = nearest_names(part, _names_in(folder))
@@ -117,13 +118,13 @@ def _ignoring_case(base: Path, relative: str) -> Path | None:
         if part == "..":
             folder = folder.parent
             continue
-        if not (folder / part).exists():
+        if not exists(folder / part):
             same = [name for name in _names_in(folder) if name.casefold() == part.casefold()]
             if len(same) != 1:
                 return None
             part = same[0]  # noqa: PLW2901
         folder = folder / part
-    return folder if folder.exists() else None
+    return folder if exists(folder) else None
 
 
 def _names_in(folder: Path) -> list[str]:

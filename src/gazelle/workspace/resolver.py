@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from gazelle.diagnostics import nearest_names
+from gazelle.limits.names import is_file, is_folder
 from gazelle.workspace.models import folders_around, fuel_model, is_model_folder
 from gazelle.workspace.resolved import Resolved, locate, nearest_below, nearest_packages
 
@@ -50,14 +51,11 @@ def resolve_world(workspace: Workspace, name: str, base_dir: Path | None) -> Res
     for item in names:
         for base in bases:
             path = base / Path(item).expanduser()
-            if path.is_file():
+            if is_file(path):
                 return Resolved(path, tuple(dict.fromkeys([*tried, str(path)])))
             tried.append(str(path))
     worlds = {
-        path.name
-        for base in bases
-        for path in sorted((base / "worlds").glob("*"))
-        if path.is_file()
+        path.name for base in bases for path in sorted((base / "worlds").glob("*")) if is_file(path)
     }
     return Resolved(
         None, tuple(dict.fromkeys(tried)), nearest_names(Path(name).name, sorted(worlds))
@@ -112,7 +110,7 @@ def _in_model(workspace: Workspace, name: str, inside: str, base_dir: Path | Non
     for folder in _model_candidates(workspace, name):
         tried.append(str(folder / inside) if inside else str(folder))
         path, note = locate(folder, inside)
-        if path is not None and (inside or path.is_dir()):
+        if path is not None and (inside or is_folder(path)):
             return Resolved(path, tuple(tried), note=note)
     return (
         _off_the_path(workspace, name, inside, base_dir)

@@ -14,6 +14,7 @@ from gazelle.description.materials.gazebo import (
 from gazelle.description.materials.ogre import OgreMaterial, parse_material_script
 from gazelle.description.model import Material, Rgba
 from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.limits.names import is_file, is_folder
 
 __all__ = ["material_from_scripts"]
 
@@ -72,7 +73,7 @@ def _locate(uri: str, context: ReadContext, span: SourceSpan | None) -> Path | N
 def _scripts(folders: Sequence[Path]) -> list[Path]:
     scripts: list[Path] = []
     for path in folders:
-        if path.is_dir():
+        if is_folder(path):
             scripts += sorted(path.glob("*.material"))
         elif path.suffix == ".material":
             scripts.append(path)
@@ -91,7 +92,7 @@ def _read(script: Path, context: ReadContext) -> dict[str, OgreMaterial]:
 
 def _texture_folders(folders: Sequence[Path]) -> list[Path]:
     """Return where OGRE would look: the folders named, and ``textures`` beside ``scripts``."""
-    named = [path if path.is_dir() else path.parent for path in folders]
+    named = [path if is_folder(path) else path.parent for path in folders]
     return [*named, *(path.parent / "textures" for path in named)]
 
 
@@ -134,7 +135,7 @@ def _texture(material: OgreMaterial, folders: Sequence[Path], context: ReadConte
         return None
     for folder in folders:
         path = folder / material.texture
-        if path.is_file():
+        if is_file(path):
             return path
     if not context.first_time("texture", material.span):
         return None

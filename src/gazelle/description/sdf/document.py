@@ -17,6 +17,7 @@ from gazelle.description.sdf.versions import version_of
 from gazelle.description.sdf.worlds import read_world, report_actor
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.names import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["SdfDocument", "read_model_file", "read_sdf", "read_world_file"]
@@ -116,7 +117,7 @@ def read_model_file(
         The first model; None (reported) when there is none.
     """
     file = Path(path)
-    if file.is_dir():
+    if is_folder(file):
         context = ReadContext(workspace, diagnostics, str(file), file)
         found = model_file_in(file, context)
         if found is None:

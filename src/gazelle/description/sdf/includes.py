@@ -10,6 +10,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.sdf.model_config import model_file_in
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.limits.names import is_folder
 from gazelle.workspace.resolved import Resolved
 
 __all__ = ["closes_circle", "included_file", "share_findings"]
@@ -28,7 +29,7 @@ def included_file(tag: Tag, context: ReadContext) -> Path | None:
         return None
     found = context.resolve(uri)
     path = found.path or _by_last_name(uri, context)
-    file = model_file_in(path, context) if path is not None and path.is_dir() else path
+    file = model_file_in(path, context) if path is not None and is_folder(path) else path
     if file is None:
         _report_missing(uri, found, place, context)
     else:

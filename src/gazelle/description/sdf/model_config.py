@@ -9,6 +9,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.sdf.versions import NEWEST_VERSION, version_from
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.names import is_file
 
 __all__ = ["ModelConfig", "model_file_in", "read_model_config"]
 
@@ -46,7 +47,7 @@ class ModelConfig:
 
 def read_model_config(folder: Path, context: ReadContext) -> ModelConfig | None:
     """Return a model folder's ``model.config``; None when there is none or it is broken."""
-    file = next((folder / name for name in _CONFIGS if (folder / name).is_file()), None)
+    file = next((folder / name for name in _CONFIGS if is_file(folder / name)), None)
     if file is None:
         return None
     root = _root(file, context)
@@ -81,12 +82,12 @@ def model_file_in(folder: Path, context: ReadContext) -> Path | None:
     usual = folder / _USUAL_FILE
     if config is not None:
         best = config.best_file
-        if best and (folder / best).is_file():
+        if best and is_file(folder / best):
             return folder / best
         wrong = f"names '{best}', which is not in its folder" if best else "names no SDF file"
         message = f"'{config.file}' {wrong}; model.sdf is tried"
         context.diagnostics.report("sdf.model-config", message, SourceSpan(str(config.file)))
-    return usual if usual.is_file() else None
+    return usual if is_file(usual) else None
 
 
 def _root(config: Path, context: ReadContext) -> Tag | None:

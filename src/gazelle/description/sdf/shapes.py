@@ -22,6 +22,7 @@ from gazelle.description.model import (
 )
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3
 from gazelle.description.xml import Tag, floats_from
+from gazelle.limits.names import is_folder
 
 __all__ = ["read_shape"]
 
@@ -181,7 +182,7 @@ def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
         )
         return None
     found = context.resolve(uri)
-    if found.path is None or found.path.is_dir():
+    if found.path is None or is_folder(found.path):
         if context.first_time("missing file", uri, context.file):
             context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
         return None

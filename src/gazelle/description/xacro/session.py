@@ -24,6 +24,7 @@ from gazelle.description.xml.reader import too_much_in
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import NotFoundError
 from gazelle.limits import TEXT_BYTES, compile_limited, names_in_code, read_limited
+from gazelle.limits.names import exists
 from gazelle.workspace import Workspace
 from gazelle.workspace.installed import installed_source
 
@@ -294,7 +295,7 @@ def _found_source(function: Callable[[str], str]) -> Callable[[str], str]:
     def absolute(filename: str) -> str:
         name = function(filename)
         path = Path(name)
-        source = None if path.exists() else installed_source(path.absolute())
+        source = None if exists(path) else installed_source(path.absolute())
         return name if source is None else str(source)
 
     return absolute

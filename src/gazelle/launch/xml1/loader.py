@@ -13,6 +13,7 @@ from gazelle.launch.xml1.elements import HANDLERS
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.tables import ELEMENTS
+from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["load_launch_files", "load_launch_text"]
@@ -115,7 +116,7 @@ def _include(tag: Tag, scope: Scope, reading: Reading) -> None:
     if os.path.realpath(path) in map(os.path.realpath, _open_files(scope)):
         chain = " → ".join([*_open_files(scope), str(path)])
         raise TagError("launch.include-cycle", f"include cycle: {chain}")
-    if not path.is_file():
+    if not is_file(path):
         raise TagError("launch.include-missing", *reading.missing_file(path))
     reading.count_include()
     root = read_xml(path, reading.diagnostics)

@@ -18,6 +18,7 @@ from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.values import flatten, load_yaml, param_value
 from gazelle.limits import TEXT_BYTES, read_limited, read_text_limited
+from gazelle.limits.names import exists, is_file, is_folder
 
 __all__ = ["param", "rosparam"]
 
@@ -69,7 +70,10 @@ def _load(tag: Tag, name: str, target: str, scope: Scope, reading: Reading) -> N
         raise TagError("launch.bad-yaml", message, fix='add param="name"')
     leaves = _absolute_leaves(target, data)
     reading.config.params.update(leaves)
-    reading.config.param_spans.update(dict.fromkeys(leaves, reading.located(tag.span, scope)))
+    place = reading.located(tag.span, scope)
+    reading.config.param_spans.update(dict.fromkeys(leaves, place))
+    if file:
+        reading.config.yaml_files[place] = (file, target)
 
 
 def _absolute_leaves(target: str, data: Any) -> dict[str, Any]:
@@ -116,7 +120,7 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
         raise TagError("launch.param-command-failed", f"[{name}]: {error}: {command}") from error
     if words and Path(words[0]).name in {"xacro", "xacro.py"}:
         return _run_xacro(words[1:], name, reading)
-    reading.config.text_files += [word for word in words[1:] if Path(word).is_file()]
+    reading.config.text_files += [word for word in words[1:] if is_file(word)]
     environment = {**node_environment(reading.environ, reading.workspace), **scope.env}
     try:
         done = subprocess.run(words, capture_output=True, env=environment, check=False)
@@ -175,7 +179,7 @@ def _read_bytes(path: Path, tag: Tag) -> bytes:
 
 def _nearest_file(path: Path) -> str:
     """Return what of the same folder may have been meant, empty when nothing is near."""
-    if path.exists() or not path.parent.is_dir():
+    if exists(path) or not is_folder(path.parent):
         return ""
     return did_you_mean(path.name, (item.name for item in path.parent.iterdir()))
 

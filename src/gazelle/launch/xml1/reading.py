@@ -14,6 +14,7 @@ from gazelle.launch.xml1.substitution import Substitution, SubstitutionError, di
 from gazelle.launch.xml1.tables import ELEMENTS
 from gazelle.launch.xml1.values import bool_value
 from gazelle.limits import scaled
+from gazelle.limits.names import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["Reading", "TagError"]
@@ -178,7 +179,7 @@ class Reading:
     def missing_file(self, path: Path) -> tuple[str, None, str]:
         """Return message, no place and fix for an included file that is not there."""
         message = f"[Errno 2] No such file or directory: '{path}'"
-        if not path.parent.is_dir():
+        if not is_folder(path.parent):
             return f"{message}; the folder does not exist either", None, ""
         here = sorted(item.name for item in path.parent.iterdir() if item.suffix == path.suffix)
         return (

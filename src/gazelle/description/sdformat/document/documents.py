@@ -20,6 +20,7 @@ from gazelle.description.sdformat.release import Release
 from gazelle.description.sdformat.urdf import urdf_to_sdf
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
+from gazelle.limits.names import exists, is_folder
 
 __all__ = ["normalised", "read_document", "read_document_file"]
 
@@ -43,16 +44,16 @@ def read_document_file(word: str, *, release: Release, find: Find) -> Document:
     """
     console = Console(release)
     path = Path(word)
-    if not path.exists():
+    if not exists(path):
         found = find(word)
         if found is None:
             _say_unfound(word, console)
             return Document(None, "", (), console)
         path = found
     file: Path | None = path
-    if path.is_dir():
+    if is_folder(path):
         file = model_file(path, console)
-    if file is None or not file.exists():
+    if file is None or not exists(file):
         console.error("no-file", f"File [{file or ''}] doesn't exist.")
         return Document(None, "", (), console)
     return _read(file.read_bytes(), str(file), console, find, (file.resolve(),))

@@ -21,6 +21,7 @@ from gazelle.description.sdformat.document.records import Document
 from gazelle.description.sdformat.document.specification import Definition, specification
 from gazelle.description.sdformat.document.values import bool_of, default_text
 from gazelle.description.sdformat.element import SdfElement
+from gazelle.limits.names import is_folder
 
 __all__ = ["read_include"]
 
@@ -94,7 +95,7 @@ def _file_of(raw: SdfElement, here: Place, reading: Reading, find: Find) -> Path
     if path is None:
         _fail_to_find(uri, at, reading)
         return None
-    if not path.is_dir():
+    if not is_folder(path):
         if reading.is_new:
             return path
         message = f"Directory doesn't exist[{path}]"

@@ -8,6 +8,7 @@ from gazelle.description.sdformat.document.console import Console
 from gazelle.description.sdformat.release import Release
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
+from gazelle.limits.names import exists
 
 __all__ = ["model_file", "version_numbers"]
 
@@ -20,9 +21,9 @@ def model_file(folder: Path, console: Console) -> Path | None:
         console: receives reasons.
     """
     config = folder / "model.config"
-    if not config.exists():
+    if not exists(config):
         config = folder / "manifest.xml"
-        if not config.exists():
+        if not exists(config):
             where = f"in [{folder}]" if console.release is Release.V12 else "for the model"
             console.error("no-config", f"Could not find model.config or manifest.xml {where}")
             return None

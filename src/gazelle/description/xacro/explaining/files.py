@@ -12,6 +12,7 @@ from gazelle.description.xacro.explaining.finding import Finding, one_line
 from gazelle.description.xacro.failure import Failure
 from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
+from gazelle.limits.names import exists, is_folder
 
 __all__ = ["explain_file"]
 
@@ -36,7 +37,7 @@ def _unreadable(error: OSError, failure: Failure) -> Finding:
     path = Path(name)
     message = f"cannot read '{os.path.normpath(name)}': {error.strerror}"
     written = str(failure.locals.get("load_yaml", {}).get("filename", ""))
-    if not path.is_absolute() and not path.exists():
+    if not path.is_absolute() and not exists(path):
         message += f"; looked for it at '{path.absolute()}'"
     if failure.element is None:
         return Finding(
@@ -52,7 +53,7 @@ def _unreadable(error: OSError, failure: Failure) -> Finding:
 def _near(path: Path, files: tuple[str, ...]) -> str:
     folder = path.parent
     readers = [Path(name).name for name in files]
-    if not folder.is_dir():
+    if not is_folder(folder):
         return f"there is no folder '{folder}'"
     names = (item.name for item in folder.iterdir() if item.suffix == path.suffix)
     return did_you_mean(path.name, (name for name in names if name not in readers))

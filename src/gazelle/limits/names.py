@@ -1,0 +1,24 @@
+"""Asking for files by names that users wrote: too long, unreadable or no names at all."""
+
+from __future__ import annotations
+
+import os
+
+__all__ = ["exists", "is_file", "is_folder"]
+
+# Path's own methods raise where a name is too long or a folder may not be looked into.
+
+
+def exists(path: str | os.PathLike[str]) -> bool:
+    """Tell whether something of this name is there; False where nobody can tell."""
+    return os.path.exists(path)  # noqa: PTH110
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file of this name is there; False where nobody can tell."""
+    return os.path.isfile(path)  # noqa: PTH113
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a folder of this name is there; False where nobody can tell."""
+    return os.path.isdir(path)  # noqa: PTH112

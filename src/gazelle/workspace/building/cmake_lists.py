@@ -1,0 +1,284 @@
+"""``CMakeLists.txt`` with its variables replaced, as far as that is known without configuring."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from typing import NamedTuple
+
+from gazelle.diagnostics import SourceSpan
+from gazelle.workspace.building.cmake import Command, SyntaxProblem, Word, read_commands
+from gazelle.workspace.building.places import is_file, is_folder
+
+__all__ = ["CMakeLists", "Step", "read_cmake_lists"]
+
+_VARIABLE = re.compile(r"\$\{([\w./+-]+)\}|\$(ENV|CACHE)\{[^}]*\}")
+_MOST_STEPS = 20_000
+_MOST_FILES = 5_000
+_DEEPEST = 8
+_ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
+
+
+class Step(NamedTuple):
+    """A command with the words it gets.
+
+    Attributes:
+        folder: of the file it stands in, relative to the package, empty for its own.
+        is_conditional: it stands in an ``if``.
+    """
+
+    name: str
+    words: tuple[str, ...]
+    span: SourceSpan
+    folder: str = ""
+    is_conditional: bool = False
+
+    def after(self, keyword: str, keywords: Iterable[str]) -> tuple[str, ...]:
+        """Return the words after a keyword, up to the next one of `keywords`."""
+        if keyword not in self.words:
+            return ()
+        rest = self.words[self.words.index(keyword) + 1 :]
+        known = set(keywords)
+        end = next((place for place, word in enumerate(rest) if word in known), len(rest))
+        return rest[:end]
+
+
+@dataclass(slots=True)
+class CMakeLists:
+    """What a package's ``CMakeLists.txt`` does.
+
+    Attributes:
+        file: its path.
+        project: name given to ``project()``, empty when there is none.
+        project_span: where.
+        steps: its commands in order, those of included files and subfolders in their places.
+        problem: where its syntax is wrong.
+        hidden: commands that may do more than was read: own macros and files of elsewhere.
+    """
+
+    file: Path
+    project: str = ""
+    project_span: SourceSpan | None = None
+    steps: list[Step] = field(default_factory=list)
+    problem: tuple[SyntaxProblem, SourceSpan] | None = None
+    hidden: list[Step] = field(default_factory=list)
+
+    def called(self, *names: str) -> tuple[Step, ...]:
+        """Return the calls of these commands."""
+        return tuple(step for step in self.steps if step.name in names)
+
+
+def read_cmake_lists(folder: Path, name: str) -> CMakeLists | None:
+    """Read a package's ``CMakeLists.txt``; None when it has none.
+
+    Args:
+        folder: of the package.
+        name: of the package, for catkin's variables.
+    """
+    file = folder / "CMakeLists.txt"
+    if not file.is_file():
+        return None
+    walker = _Walker(folder, CMakeLists(file), name)
+    walker.read(file, "")
+    return walker.lists
+
+
+class _Walker:
+    def __init__(self, folder: Path, lists: CMakeLists, name: str) -> None:
+        self.lists = lists
+        self._root = folder
+        self._name = name
+        self._variables = _known_variables(folder, name)
+        self._own: dict[str, list[Command]] = {}
+        self._depth = 0
+        self._ifs = 0
+
+    def read(self, file: Path, folder: str) -> None:
+        """Follow a file's commands."""
+        if self._depth >= _DEEPEST:
+            return
+        self._depth += 1
+        commands, problem = read_commands(file.read_text(encoding="utf-8", errors="replace"))
+        if problem is not None and self.lists.problem is None:
+            span = SourceSpan(str(file), problem.line, problem.column)
+            self.lists.problem = (problem, span)
+        here = self._variables.get("CMAKE_CURRENT_SOURCE_DIR", "")
+        self._variables["CMAKE_CURRENT_SOURCE_DIR"] = str(self._root / folder)
+        self._variables["CMAKE_CURRENT_LIST_DIR"] = str(file.parent)
+        self._follow(commands, file, folder)
+        self._variables["CMAKE_CURRENT_SOURCE_DIR"] = here
+        self._depth -= 1
+
+    def _follow(self, commands: Sequence[Command], file: Path, folder: str) -> None:
+        place = 0
+        while place < len(commands) and len(self.lists.steps) < _MOST_STEPS:
+            command = commands[place]
+            if command.name in _ENDS:
+                end = _end_of(commands, place)
+                self._block(command, commands[place + 1 : end], file, folder)
+                place = end + 1
+                continue
+            self._command(command, file, folder)
+            place += 1
+
+    def _block(self, command: Command, body: Sequence[Command], file: Path, folder: str) -> None:
+        words = self._words(command.words)
+        if command.name != "foreach":
+            if words:
+                self._own[words[0].lower()] = list(body)
+            return
+        if not words:
+            return
+        for item in self._looped(words[1:]):
+            self._variables[words[0]] = item
+            self._follow(body, file, folder)
+
+    def _looped(self, words: Sequence[str]) -> list[str]:
+        if not words or words[0] not in {"IN", "RANGE"}:
+            return list(words)
+        found: list[str] = []
+        is_list = False
+        for word in words[1:] if words[0] == "IN" else ():
+            if word in {"LISTS", "ITEMS"}:
+                is_list = word == "LISTS"
+            elif is_list:
+                found += filter(None, self._variables.get(word, "").split(";"))
+            else:
+                found.append(word)
+        return found
+
+    def _command(self, command: Command, file: Path, folder: str) -> None:
+        span = SourceSpan(str(file), command.line, command.column, len(command.name))
+        words = tuple(self._words(command.words))
+        self._ifs += {"if": 1, "endif": -1}.get(command.name, 0)
+        step = Step(command.name, words, span, folder, self._ifs > 0)
+        self.lists.steps.append(step)
+        handler = _HANDLERS.get(command.name)
+        if handler is not None and words:
+            handler(self, step)
+        elif command.name in self._own and _installs(self._own[command.name]):
+            self.lists.hidden.append(step)
+
+    def _words(self, words: Iterable[Word]) -> list[str]:
+        found: list[str] = []
+        for word in words:
+            text = self._replaced(word.text)
+            found += [text] if word.quoted else filter(None, text.split(";"))
+        return found
+
+    def _replaced(self, text: str) -> str:
+        for _ in range(2):  # once, and once more for ${${name}}
+            new = _VARIABLE.sub(lambda found: self._variables.get(found[1] or "", found[0]), text)
+            if new == text or len(new) > _MOST_STEPS:
+                break
+            text = new
+        return text
+
+    # -- commands that change what later ones mean ------------------------------------------
+
+    def _project(self, step: Step) -> None:
+        self.lists.project = self.lists.project or step.words[0]
+        self.lists.project_span = self.lists.project_span or step.span
+        for key in ("PROJECT_NAME", "CMAKE_PROJECT_NAME"):
+            self._variables[key] = step.words[0]
+
+    def _set(self, step: Step) -> None:
+        values = step.after(step.words[0], ("CACHE", "PARENT_SCOPE"))
+        self._variables[step.words[0]] = ";".join(values)
+
+    def _list(self, step: Step) -> None:
+        if step.words[0] in {"APPEND", "PREPEND"} and len(step.words) > 1:
+            name = step.words[1]
+            parts = [self._variables.get(name, ""), *step.words[2:]]
+            self._variables[name] = ";".join(part for part in parts if part)
+
+    def _file(self, step: Step) -> None:
+        if not step.words[0].startswith("GLOB") or len(step.words) < 2:
+            return
+        rest = [word for word in step.words[2:] if word != "CONFIGURE_DEPENDS"]
+        base = self._root / step.folder
+        relative: Path | None = None
+        if rest and rest[0] == "RELATIVE":
+            relative, rest = Path(rest[1]) if len(rest) > 1 else base, rest[2:]
+        found: list[str] = []
+        for pattern in rest:
+            for path in _globbed(base, pattern, recursive=step.words[0] == "GLOB_RECURSE"):
+                is_below = relative is not None and path.is_relative_to(relative)
+                found.append(
+                    str(path.relative_to(relative)) if is_below and relative else str(path)
+                )
+        self._variables[step.words[1]] = ";".join(sorted(found))
+
+    def _subdirectory(self, step: Step) -> None:
+        folder = str(Path(step.folder) / step.words[0])
+        file = self._root / folder / "CMakeLists.txt"
+        if is_file(file):
+            self.read(file, folder)
+
+    def _include(self, step: Step) -> None:
+        path = self._root / step.folder / step.words[0]
+        if is_file(path):
+            self.read(path, step.folder)
+        elif "/" in step.words[0] or step.words[0].endswith(".cmake"):
+            self.lists.hidden.append(step)
+
+
+_HANDLERS: dict[str, Callable[[_Walker, Step], None]] = {
+    "project": _Walker._project,
+    "set": _Walker._set,
+    "list": _Walker._list,
+    "file": _Walker._file,
+    "add_subdirectory": _Walker._subdirectory,
+    "include": _Walker._include,
+}
+
+
+def _known_variables(folder: Path, name: str) -> dict[str, str]:
+    """Return what catkin, GNUInstallDirs and CMake itself set; catkin's are relative to prefix."""
+    root = str(folder)
+    return {
+        "PROJECT_NAME": name,
+        "PROJECT_SOURCE_DIR": root,
+        "CMAKE_SOURCE_DIR": root,
+        "CMAKE_CURRENT_SOURCE_DIR": root,
+        "CMAKE_INSTALL_PREFIX": "",
+        "CMAKE_INSTALL_BINDIR": "bin",
+        "CMAKE_INSTALL_DATADIR": "share",
+        "CMAKE_INSTALL_DATAROOTDIR": "share",
+        "CMAKE_INSTALL_INCLUDEDIR": "include",
+        "CMAKE_INSTALL_LIBDIR": "lib",
+        "CATKIN_GLOBAL_BIN_DESTINATION": "bin",
+        "CATKIN_GLOBAL_LIB_DESTINATION": "lib",
+        "CATKIN_GLOBAL_SHARE_DESTINATION": "share",
+        "CATKIN_PACKAGE_BIN_DESTINATION": f"lib/{name}",
+        "CATKIN_PACKAGE_ETC_DESTINATION": f"etc/{name}",
+        "CATKIN_PACKAGE_INCLUDE_DESTINATION": f"include/{name}",
+        "CATKIN_PACKAGE_LIB_DESTINATION": "lib",
+        "CATKIN_PACKAGE_PYTHON_DESTINATION": f"lib/python3/dist-packages/{name}",
+        "CATKIN_PACKAGE_SHARE_DESTINATION": f"share/{name}",
+    }
+
+
+def _end_of(commands: Sequence[Command], begin: int) -> int:
+    """Return the place of the command that closes a block, the file's end when none does."""
+    opening, closing, depth = commands[begin].name, _ENDS[commands[begin].name], 0
+    for place in range(begin, len(commands)):
+        depth += {opening: 1, closing: -1}.get(commands[place].name, 0)
+        if depth == 0:
+            return place
+    return len(commands)
+
+
+def _installs(body: Iterable[Command]) -> bool:
+    return any(command.name in {"install", "catkin_install_python"} for command in body)
+
+
+def _globbed(base: Path, pattern: str, *, recursive: bool) -> list[Path]:
+    folder, _, name = (str(base / pattern)).rpartition("/")
+    if "*" in folder or "${" in folder:
+        return []
+    search = Path(folder).rglob if recursive else Path(folder).glob
+    return list(islice(search(name or "*"), _MOST_FILES)) if is_folder(Path(folder)) else []

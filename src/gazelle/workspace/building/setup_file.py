@@ -1,0 +1,176 @@
+"""``setup.py`` and ``setup.cfg`` of Python packages, read without running them."""
+
+from __future__ import annotations
+
+import ast
+import configparser
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import Any
+
+from gazelle.diagnostics import SourceSpan
+from gazelle.workspace.building.install_rules import InstallRule
+from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, is_known, parse_python
+
+__all__ = ["EmptyGlob", "SetupFile", "read_setup"]
+
+
+@dataclass(frozen=True, slots=True)
+class EmptyGlob:
+    """A ``glob(…)`` that finds no file."""
+
+    pattern: str
+    span: SourceSpan
+
+
+@dataclass(slots=True)
+class SetupFile:
+    """What ``setup()`` is called with.
+
+    Attributes:
+        file: ``setup.py``.
+        error: why it is no Python, empty when it is.
+        is_called: ``setup()`` or catkin's ``generate_distutils_setup()`` is called at all.
+        name: of the distribution; None when unknown.
+        rules: of ``data_files``.
+        has_all_rules: False when a part of ``data_files`` is known at run time only.
+        empty_globs: patterns without a file.
+        modules: of ``packages``; None when unknown.
+        folders: ``package_dir``.
+        span: of the call.
+        scripts_folder: where ``setup.cfg`` puts executables, empty when it says nothing.
+    """
+
+    file: Path
+    error: SyntaxError | None = None
+    is_called: bool = False
+    name: str | None = None
+    rules: list[InstallRule] = field(default_factory=list)
+    has_all_rules: bool = True
+    empty_globs: list[EmptyGlob] = field(default_factory=list)
+    modules: tuple[str, ...] | None = None
+    folders: dict[str, str] = field(default_factory=dict)
+    span: SourceSpan | None = None
+    scripts_folder: str = ""
+
+    @property
+    def is_for_ament(self) -> bool:
+        """It puts something below ``share/``, as packages of ROS 2 do."""
+        return any(rule.destination.startswith("share") for rule in self.rules)
+
+
+def read_setup(folder: Path) -> SetupFile | None:
+    """Read a package's ``setup.py``; None when it has none."""
+    file = folder / "setup.py"
+    if not file.is_file():
+        return None
+    found = SetupFile(file, scripts_folder=_scripts_folder(folder / "setup.cfg"))
+    try:
+        tree = parse_python(file.read_text(encoding="utf-8", errors="replace"))
+    except SyntaxError as error:
+        found.error = error
+        return found
+    evaluator = Evaluator(file, folder, functions={"find_packages": _packages_of(folder)})
+    evaluator.run(tree)
+    for call in evaluator.calls:
+        if call.name in {"setup", "generate_distutils_setup"}:
+            found.is_called = True
+        if call.name == "setup":
+            _fill(found, call)
+            _find_globs(found, call.node, evaluator, folder)
+    return found
+
+
+def _fill(found: SetupFile, call: Call) -> None:
+    found.span = SourceSpan(str(found.file), call.node.lineno, call.node.col_offset + 1)
+    name = call.get("name")
+    found.name = name if isinstance(name, str) else None
+    modules = call.get("packages", default=[])
+    if isinstance(modules, list | tuple) and is_known(modules):
+        found.modules = tuple(str(item) for item in modules)
+    folders = call.get("package_dir", default={})
+    found.folders = folders if isinstance(folders, dict) and is_known(folders) else {}
+    rows = call.get("data_files", default=[])
+    if not isinstance(rows, list | tuple):
+        found.has_all_rules = False
+        return
+    for row in rows:
+        _add_row(found, row)
+
+
+def _add_row(found: SetupFile, row: Any) -> None:
+    if not isinstance(row, list | tuple) or len(row) != 2:
+        found.has_all_rules = False
+        return
+    destination, files = row
+    if not isinstance(destination, str | PurePath) or not isinstance(files, list | tuple):
+        found.has_all_rules = False
+        return
+    for item in files:
+        if not isinstance(item, str | PurePath):
+            found.has_all_rules = False
+            continue
+        source = PurePath(item).as_posix()
+        span = found.span or SourceSpan(str(found.file))
+        span = _place_of(found.file, str(item)) or span
+        found.rules.append(InstallRule(source, str(destination).strip("/"), False, span))
+
+
+def _place_of(file: Path, text: str) -> SourceSpan | None:
+    """Return where a name stands in a file, None when it is computed."""
+    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    for number, line in enumerate(lines, 1):
+        for quote in ("'", '"'):
+            column = line.find(f"{quote}{text}{quote}")
+            if column >= 0:
+                return SourceSpan(str(file), number, column + 2, len(text))
+    return None
+
+
+def _find_globs(found: SetupFile, node: ast.Call, evaluator: Evaluator, folder: Path) -> None:
+    """Note the globs of ``data_files`` that find nothing."""
+    wanted = next((item.value for item in node.keywords if item.arg == "data_files"), None)
+    tree = parse_python(found.file.read_text(encoding="utf-8", errors="replace"))
+    inside = ast.walk(wanted) if isinstance(wanted, ast.List) else ast.walk(tree)
+    for item in inside:
+        if not isinstance(item, ast.Call) or not item.args:
+            continue
+        name = item.func.id if isinstance(item.func, ast.Name) else getattr(item.func, "attr", "")
+        if name not in {"glob", "iglob"}:
+            continue
+        pattern = evaluator.value(item.args[0], evaluator.names)
+        if isinstance(pattern, str) and evaluator.value(item, evaluator.names) == []:
+            place = item.args[0]
+            length = (place.end_col_offset or 0) - place.col_offset
+            span = SourceSpan(str(found.file), place.lineno, place.col_offset + 1, length)
+            found.empty_globs.append(EmptyGlob(pattern, span))
+
+
+def _packages_of(folder: Path) -> Any:
+    """Return setuptools' ``find_packages`` over names of folders."""
+
+    def find(where: str = ".", exclude: Any = (), include: Any = ("*",)) -> Any:
+        from fnmatch import fnmatch
+
+        base = folder / where
+        names = sorted(
+            ".".join(file.parent.relative_to(base).parts) for file in base.rglob("__init__.py")
+        )
+        outside = [name for name in names if any(fnmatch(name, item) for item in exclude)]
+        inside = [name for name in names if any(fnmatch(name, item) for item in include)]
+        return [name for name in inside if name and name not in outside] or UNKNOWN
+
+    return find
+
+
+def _scripts_folder(file: Path) -> str:
+    parser = configparser.ConfigParser(interpolation=None)
+    try:
+        parser.read(file, encoding="utf-8")
+    except (configparser.Error, UnicodeDecodeError):
+        return ""
+    for key in ("install_scripts", "install-scripts"):
+        value = parser.get("install", key, fallback="")
+        if value:
+            return value.strip()
+    return ""

@@ -1,0 +1,9 @@
+"""Python files read as text: what their expressions come to, without running them."""
+
+from __future__ import annotations
+
+from gazelle.workspace.static_python.evaluating import Evaluator
+from gazelle.workspace.static_python.parsing import parse_python
+from gazelle.workspace.static_python.values import UNKNOWN, Call, Unknown, is_known
+
+__all__ = ["UNKNOWN", "Call", "Evaluator", "Unknown", "is_known", "parse_python"]

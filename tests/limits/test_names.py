@@ -1,0 +1,65 @@
+"""Names of files that no file can have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gazelle.description.loader import load_models, load_world
+from gazelle.diagnostics import Diagnostics
+from gazelle.errors import UserFileError
+from gazelle.launch.xml1.loader import load_launch_text
+from gazelle.limits.names import exists, is_file, is_folder
+from gazelle.workspace import Workspace
+
+_LONG = "a" * 5000
+_ADDRESSES = [
+    f"{start}{_LONG}" for start in ("", "/", "file://", "package://p/", "package://", "model://")
+]
+
+
+def test_names_that_cannot_be_are_not_there(tmp_path: Path) -> None:
+    (tmp_path / "a").touch()
+    assert (exists(tmp_path), is_folder(tmp_path), is_file(tmp_path)) == (True, True, False)
+    assert (exists(tmp_path / "a"), is_file(str(tmp_path / "a"))) == (True, True)
+    for name in (_LONG, "a\0b", ""):
+        assert not (exists(name) or is_file(name) or is_folder(name))
+
+
+@pytest.mark.parametrize("address", _ADDRESSES, ids=lambda address: address[:12])
+def test_descriptions_with_such_names_are_read(address: str) -> None:
+    mesh = f'<collision><geometry><mesh filename="{address}"/></geometry></collision>'
+    robot = f'<robot name="r"><link name="l">{mesh}</link></robot>'
+    world = (
+        f'<sdf version="1.6"><world name="w"><include><uri>{address}</uri></include></world></sdf>'
+    )
+    for workspace in (Workspace.discover(extra=[]), None):
+        diagnostics = Diagnostics()
+        load_models(robot, workspace=workspace, diagnostics=diagnostics)
+        load_models(address, workspace=workspace, diagnostics=diagnostics)
+        assert {"load.not-found"} <= {item.code for item in diagnostics.errors}
+        try:
+            load_world(world, workspace=workspace, diagnostics=Diagnostics())
+        except UserFileError as error:
+            assert error.diagnostics
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        f'<include file="{_LONG}"/>',
+        f'<rosparam file="{_LONG}"/>',
+        f'<param name="a" textfile="{_LONG}"/>',
+        f'<param name="a" binfile="{_LONG}"/>',
+        f'<param name="a" command="xacro {_LONG}"/>',
+    ],
+    ids=lambda element: element[:16],
+)
+def test_launch_files_with_such_names_are_told(element: str) -> None:
+    diagnostics = Diagnostics()
+    workspace = Workspace.discover(extra=[])
+    load_launch_text(
+        f"<launch>{element}</launch>", {}, workspace=workspace, diagnostics=diagnostics
+    )
+    assert diagnostics.errors
