@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.doctor.packages.places import is_there
 from gazelle.workspace import Package, Workspace
+from gazelle.workspace.building.places import is_there
 from gazelle.workspace.installed import installed_source
 
 __all__ = ["located", "package_of"]

@@ -18,8 +18,8 @@ from gazelle.doctor.launch_ros2.records import (
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
-from gazelle.doctor.static_python import UNKNOWN, Call, Evaluator, parse_python
 from gazelle.workspace import Workspace
+from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, parse_python
 
 __all__ = ["read_python_file"]
 

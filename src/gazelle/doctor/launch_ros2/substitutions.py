@@ -8,8 +8,8 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from gazelle.doctor.launch_ros2.records import Argument
-from gazelle.doctor.static_python import Call
 from gazelle.workspace import Workspace
+from gazelle.workspace.static_python import Call
 
 __all__ = ["Substitutions"]
 

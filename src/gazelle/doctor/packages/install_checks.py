@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
-from gazelle.doctor.packages.install_rules import InstallRule
-from gazelle.doctor.packages.places import is_folder, is_there
 from gazelle.doctor.packages.source import SourcePackage
+from gazelle.workspace.building.install_rules import InstallRule
+from gazelle.workspace.building.places import is_folder, is_there
 
 __all__ = ["check_install", "is_needed"]
 

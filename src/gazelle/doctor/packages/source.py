@@ -10,10 +10,10 @@ from pathlib import Path
 
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.packages.cmake_lists import CMakeLists, read_cmake_lists
-from gazelle.doctor.packages.install_rules import InstallRules, cmake_rules
-from gazelle.doctor.packages.setup_file import SetupFile, read_setup
 from gazelle.workspace import Package
+from gazelle.workspace.building.cmake_lists import CMakeLists, read_cmake_lists
+from gazelle.workspace.building.install_rules import InstallRules, cmake_rules
+from gazelle.workspace.building.setup_file import SetupFile, read_setup
 
 __all__ = ["SourcePackage"]
 

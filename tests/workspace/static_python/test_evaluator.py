@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.doctor.static_python import UNKNOWN, Evaluator
+from gazelle.workspace.static_python import UNKNOWN, Evaluator
 
 
 def evaluated(text: str, folder: Path = Path("/nowhere"), **environ: str) -> dict[str, Any]:

@@ -1,0 +1,1 @@
+"""What building a package installs, and a workspace built without compilers."""
