@@ -13,7 +13,6 @@ from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
 from gazelle.description.source_maps import placed
 from gazelle.description.text_place import TEXT_NAME, place_of_text, read_text
 from gazelle.description.urdf import read_urdf
-from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.grouping import grouped
@@ -174,6 +173,9 @@ def _models_of_file(
         return ()
     is_xacro = path.suffix == ".xacro" or _has_xacro(root)
     if is_xacro:
+        # Most files are no xacro, which brings the DOM along.
+        from gazelle.description.xacro import expand_xacro
+
         expanded = expand_xacro(
             path, mappings=mappings, workspace=workspace, diagnostics=diagnostics
         )
