@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic
+from gazelle.doctor.condensing import condensed
 from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examination import Examination
 from gazelle.doctor.files import examine_file, kind_word
@@ -58,9 +59,15 @@ def examine(
     return Report(
         target=target.name,
         kind=kind,
-        findings=_once(without_superseded(tuple(examination.diagnostics))),
+        findings=tuple(_findings(examination)),
         sections=tuple(examination.sections),
     )
+
+
+def _findings(examination: Examination) -> list[Diagnostic]:
+    packages = examination.workspace.packages.values()
+    declared = {name for item in packages if not item.is_builtin for name in item.depends}
+    return condensed(_once(without_superseded(tuple(examination.diagnostics))), declared)
 
 
 def _once(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -11,15 +11,18 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.descriptions import examine_models
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.examination import Examination
-from gazelle.doctor.kinds import Kind
+from gazelle.doctor.kinds import Kind, is_semantic
 from gazelle.doctor.launch import examine_launch
 from gazelle.doctor.launch_ros2 import check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
 from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.target import package_at
+from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["examine_file", "kind_word"]
+
+_EMPTY = BUILTIN / "worlds" / "empty.world"
 
 
 def kind_word(kind: Kind) -> str:
@@ -65,7 +68,7 @@ def _examine_ros2(file: Path, examination: Examination) -> None:
         examination.see(path)
     examination.add(*found.sections)
     for robot in found.robots:
-        if examination.see(robot.path):
+        if examination.see(robot.path) and not is_semantic(robot.path):
             _examine_robot(robot.path, examination, robot.mappings)
     for world in found.worlds:
         if examination.see(world):
@@ -101,7 +104,10 @@ def _examine_robot(
     )
     examination.diagnostics.extend(found)
     if models and not found.errors:
-        server = Program("gazebo", words=(examination.options.world,))
+        world = examination.options.world
+        # A package of the workspace may have an empty.world of its own, which says other things.
+        place = str(_EMPTY) if world == "empty" else world
+        server = Program("gazebo", words=(place,))
         if examination.options.probe:
             from gazelle.doctor.probes import stood_on_ground
 

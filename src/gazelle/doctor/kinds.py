@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["Kind", "kind_of", "looks_like"]
+__all__ = ["Kind", "is_semantic", "kind_of", "looks_like"]
 
 _PEEK_BYTES = 4096
 _XML_SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".launch", ".model", ".srdf", ".test")
@@ -40,6 +40,11 @@ def looks_like(path: Path) -> bool:
     return name in {"package.xml", "manifest.xml", "model.config"} or name.endswith(known)
 
 
+def is_semantic(path: Path) -> bool:
+    """Tell from its name whether a file is an SRDF, or the xacro of one."""
+    return path.name.endswith((".srdf", ".srdf.xacro"))
+
+
 def kind_of(path: Path, diagnostics: Diagnostics) -> Kind | None:
     """Return what a file is; None, and a finding, when it is nothing that can be examined."""
     if path.name in {"package.xml", "manifest.xml"}:
@@ -66,18 +71,24 @@ def _is_binary(start: bytes) -> bool:
 def _kind_of_text(path: Path, start: bytes, diagnostics: Diagnostics) -> Kind | None:
     name = path.name
     if name.endswith(_ROS2_SUFFIXES):
-        return Kind.LAUNCH_ROS2
+        return None if name.endswith(".py") and _is_launch_test(path) else Kind.LAUNCH_ROS2
     if name.endswith(_YAML_SUFFIXES):
         return _kind_of_yaml(start)
     if name == "model.config":
         return Kind.MODEL
-    if name.endswith(".srdf"):
+    if is_semantic(path):
         return Kind.SEMANTICS
     if start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return _kind_of_xml(path, diagnostics)
     text = f"'{path}' is no XML, YAML or launch file"
     diagnostics.report("doctor.unknown-file", text, SourceSpan(str(path)))
     return None
+
+
+def _is_launch_test(path: Path) -> bool:
+    """Tell a test of launch_testing, which is named as a launch file, from a launch file."""
+    text = path.read_bytes()
+    return b"def generate_launch_description" not in text and b"generate_test_description" in text
 
 
 def _kind_of_yaml(start: bytes) -> Kind:

@@ -28,6 +28,8 @@ from gazelle.geometry import (
 
 __all__ = ["Piece", "convex_pieces", "polyline_pieces"]
 
+_UNSPLIT = "a run splits it into convex pieces"
+
 Array = NDArray[np.float64]
 
 CONVEX_SHARE = 0.9
@@ -124,10 +126,11 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
         pieces.extend(found)
         if note:
             notes.setdefault(note)
+    if _UNSPLIT in notes:
+        return _Decomposition(tuple(pieces), f"{filled}; {_UNSPLIT}")
     how = f" ({'; '.join(notes)})" if notes else ""
-    return _Decomposition(
-        tuple(pieces), f"{filled} and collides as {len(pieces)} convex pieces{how}"
-    )
+    count = f"{len(pieces)} convex piece{'s' * (len(pieces) != 1)}"
+    return _Decomposition(tuple(pieces), f"{filled} and collides as {count}{how}")
 
 
 def _hull_and_share(mesh: Mesh) -> tuple[MeshPart, float]:
@@ -161,9 +164,11 @@ def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:
             solids = filter(_is_solid, parts.parts)
             return [Piece(np.asarray(part.vertices_m)) for part in solids], ""
         if not is_splitting():
-            return [Piece(np.asarray(hull.vertices_m))], parts.note
+            return [Piece(np.asarray(hull.vertices_m))], _UNSPLIT
     if scenery:
         prisms = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
         return [Piece(points) for points in prisms], "its surface as thin solids, for it rests"
-    why = "an open one has no inside" if share == 0 else "pip install 'gazelle-sim[convex]' splits"
-    return [Piece(np.asarray(hull.vertices_m))], f"a hollow part as its hull: {why}"
+    if share == 0:
+        return [Piece(np.asarray(hull.vertices_m))], "an open part as its hull: it has no inside"
+    note = "a hollow part as its hull: pip install 'gazelle-sim[convex]' splits it"
+    return [Piece(np.asarray(hull.vertices_m))], note

@@ -95,6 +95,7 @@ class LaunchConfig:
         files: files read, in the order they were opened.
         params: values by absolute name, in the order first set.
         param_spans: places of the elements that set them, where known.
+        yaml_files: file and namespace of each ``<rosparam>`` that loads one, by its place.
         clear_params: namespaces emptied before the parameters are set.
         deleted_params: names deleted before the parameters are set.
         dumps: namespaces to write to files afterwards.
@@ -107,6 +108,7 @@ class LaunchConfig:
     files: list[str] = field(default_factory=list)
     params: dict[str, Any] = field(default_factory=dict)
     param_spans: dict[str, SourceSpan] = field(default_factory=dict)
+    yaml_files: dict[SourceSpan, tuple[str, str]] = field(default_factory=dict)
     clear_params: list[str] = field(default_factory=list)
     deleted_params: list[str] = field(default_factory=list)
     dumps: list[ParamDump] = field(default_factory=list)

@@ -41,6 +41,12 @@ def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransfo
     if len(words) not in counts:
         raise LaunchError(f"static_transform_publisher got {len(words)} arguments\n{usage}")
     count = counts[len(words)]
+    if not with_period and count == 7 and _is_number(words[8]) and not _is_number(words[6]):
+        raise LaunchError(
+            f"static_transform_publisher of tf2_ros takes no period: leave out '{words[8]}'. The "
+            f"original takes the words before for a quaternion and sends '{words[7]}' -> "
+            f"'{words[8]}'\n{usage}"
+        )
     try:
         numbers = [float(word) for word in words[:count]]
         period_ms = float(words[-1]) if with_period else 0.0
@@ -54,6 +60,14 @@ def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransfo
         qx, qy, qz, qw = numbers[3:]
         pose = Pose((x, y, z), (qx, qy, qz, qw))
     return StaticTransform(pose, words[count], words[count + 1], period_ms)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def run_tf(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:

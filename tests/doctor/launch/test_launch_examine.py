@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from xml.sax.saxutils import escape
 
 import pytest
@@ -132,6 +133,95 @@ def test_node_nobody_knows_makes_missing_joint_states_uncertain(launched: Launch
     assert wheel in codes(launched(QUIET, ROLLING, spawn, STATES))
     driver = '<node name="driver" pkg="bot" type="driver"/>'
     assert wheel not in codes(launched(QUIET, ROLLING, spawn, STATES, driver), "info")
+
+
+@pytest.mark.parametrize("package", ["amcl", "joy", "move_base", "rqt_graph"])
+def test_nodes_of_navigation_send_no_joint_states(launched: Launch, package: str) -> None:
+    node = f'<node name="n" pkg="{package}" type="{package}"/>'
+    report = launched(QUIET, ROLLING, SPAWN.format(ARGS, ""), STATES, node)
+    assert "doctor.joint-without-state" in codes(report)
+
+
+def test_amcl_connects_the_map_with_the_odometry(launched: Launch) -> None:
+    rename = '<param name="odom_frame_id" value="wheels"/>'
+    node = f'<node name="n" pkg="amcl" type="amcl">{rename}</node>'
+    report = launched(QUIET, ROBOT, SPAWN.format(ARGS, ""), STATES, node)
+    (table,) = (section for section in report.sections if section.name == "frames")
+    assert ("map → wheels", "moving", "/n") in table.rows
+
+
+@pytest.mark.parametrize(
+    ("parameters", "row"),
+    [
+        ("", ("odom → base_link", "moving", "/n")),
+        ('<param name="world_frame" value="map"/>', ("map → odom", "moving", "/n")),
+        ('<param name="publish_tf" value="false"/>', None),
+    ],
+)
+def test_filter_of_robot_localization_sends_what_its_world_frame_asks_for(
+    launched: Launch, parameters: str, row: tuple[str, str, str] | None
+) -> None:
+    node = '<node name="n" pkg="robot_localization" type="ekf_localization_node">{}</node>'
+    report = launched(QUIET, ROBOT, SPAWN.format(ARGS, ""), STATES, node.format(parameters))
+    rows = [row for section in report.sections if section.name == "frames" for row in section.rows]
+    assert rows == ([row] if row else [])
+
+
+def test_cartographer_leaves_the_frames_open_and_the_joints_not(launched: Launch) -> None:
+    node = '<node name="n" pkg="cartographer_ros" type="cartographer_node"/>'
+    found = codes(launched(QUIET, ROLLING, SPAWN.format(ARGS, ""), STATES, node))
+    assert "doctor.joint-without-state" in found
+    assert "doctor.frames-apart" not in found
+
+
+def test_xacro_in_a_comment_is_expanded_enough(launched: Launch) -> None:
+    robot = _description(_LINK.format("a"), "<!-- <xacro:arm parent='a'/> -->")
+    assert "doctor.description-not-expanded" not in codes(launched(QUIET, robot))
+    open_ = _description(_LINK.format("a"), "<xacro:arm parent='a'/>")
+    assert "doctor.description-not-expanded" in codes(launched(QUIET, open_))
+
+
+@pytest.mark.parametrize(
+    ("name", "is_slip"),
+    [("amcl/use_map_topic", False), ("use_simtime", True), ("use_simulated_time", True)],
+)
+def test_only_a_slip_for_the_clock_is_one(launched: Launch, name: str, is_slip: bool) -> None:
+    report = launched(f'<param name="{name}" value="true"/>')
+    assert ("doctor.sim-time-name" in codes(report)) is is_slip
+
+
+def test_finding_about_a_value_stands_in_the_yaml_file(written: Write, examined: Examine) -> None:
+    text = "use_sim_time: true\nbot:\n  use_sim_time: true\n"
+    load = '<launch><rosparam file="$(find bot)/c.yaml" ns="a"/></launch>'
+    folder = written(**{"one.launch": load, "c.yaml": text})
+    found = [
+        item
+        for item in examined(folder, "bot", "one.launch").findings
+        if item.code == "doctor.sim-time-name"
+    ]
+    places = [(Path(item.span.file).name, item.span.line) for item in found if item.span]
+    assert places == [("c.yaml", 1), ("c.yaml", 3)]
+    assert all(item.span and item.span.via[0].file.endswith("one.launch") for item in found)
+
+
+def test_part_of_a_launch_lacks_its_robot_by_right(written: Write, examined: Examine) -> None:
+    part = f"<launch>{QUIET}{SPAWN.format(ARGS, '')}{STATES}</launch>"
+    folder = written(**{"part.launch": part})
+    lacks = {"doctor.no-description", "doctor.spawn-fails"}
+    alone = examined(folder, "bot", "part.launch").findings
+    assert {str(item.severity) for item in alone if item.code in lacks} == {"error"}
+    wide = [item for item in examined(folder, "bot").findings if item.code in lacks]
+    assert {str(item.severity) for item in wide} == {"info"}
+    assert all("right where the launch that includes this one" in item.message for item in wide)
+
+
+def test_launch_that_needs_the_environment_is_a_notice_in_a_package(
+    written: Write, examined: Examine
+) -> None:
+    folder = written(**{"one.launch": '<launch><arg name="a" value="$(env LIDAR_HOST)"/></launch>'})
+    (found,) = (item for item in examined(folder, "bot").findings if "LIDAR_HOST" in item.message)
+    assert (found.code, str(found.severity)) == ("doctor.needs-arguments", "info")
+    assert "launch.env-missing" in codes(examined(folder, "bot", "one.launch"))
 
 
 def test_missing_joint_states_are_a_notice_where_no_robot_is(launched: Launch) -> None:

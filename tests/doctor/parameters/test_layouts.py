@@ -71,6 +71,13 @@ def test_every_mistake_of_the_ros2_file_has_place_and_fix(
     assert item.span.column > 0
 
 
+def test_node_that_is_named_twice_has_the_parameters_of_both() -> None:
+    items = package("ros2_arm", FIXTURES / "broken").by_code("control.double-parameter")
+    (item,) = (found for found in items if found.span is not None and found.span.line == 16)
+    assert str(item.severity) == "info"
+    assert item.message.endswith("rcl adds the two up, programs in Python see the last one only")
+
+
 def test_ros2_layout_in_a_ros1_package_and_names_as_flags() -> None:
     found = package("ros1_arm", FIXTURES / "broken")
     (layout,) = found.by_code("parameters.ros2-layout")

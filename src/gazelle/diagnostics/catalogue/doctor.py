@@ -31,6 +31,16 @@ ENTRIES = (
         "name a package, a folder with robots, worlds or launch files, or a file",
     ),
     Entry(
+        "doctor.packages-elsewhere",
+        "warning",
+        "A launch uses packages of ROS that are not here",
+        "They exist, and are installed beside ROS; Gazelle replaces some and does not have these. "
+        "Nodes of them are not started, files of them not included.",
+        "install ROS with them, or put their sources into the workspace; nothing is wrong with "
+        "the launch file",
+        "ResourceNotFound",
+    ),
+    Entry(
         "doctor.needs-arguments",
         "info",
         "A launch file of a package needs arguments",

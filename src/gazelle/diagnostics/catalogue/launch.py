@@ -177,7 +177,7 @@ ENTRIES = (
         "error",
         "A node is compiled code that is not here",
         "Gazelle runs Python nodes and its own built-in nodes; C++ has to be built first.",
-        "source a ROS that has it, or replace the node by the built-in named in the message",
+        "build it with catkin and source its workspace, or write the node in Python",
         "Cannot locate node of type in package",
     ),
     Entry(

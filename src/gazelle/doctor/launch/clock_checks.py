@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from difflib import SequenceMatcher
 
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 
@@ -12,6 +13,7 @@ __all__ = ["check_clock"]
 
 _NAME = "/use_sim_time"
 _WORD = "use_sim_time"
+_LEAST_LIKENESS = 0.76
 
 
 def check_clock(
@@ -48,12 +50,19 @@ def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
             continue
         if last == _WORD:
             text = f"parameter '{name}' has no effect: nodes of ROS 1 look at {_NAME} only"
-        elif last.startswith("use") and did_you_mean(last, [_WORD]):
-            text = f"parameter '{name}' is looked at by no node; {did_you_mean(last, [_WORD])}"
+        elif _is_misspelled(last):
+            text = f"parameter '{name}' is looked at by no node; did you mean '{_WORD}'?"
         else:
             continue
-        place = launched.config.param_spans.get(name)
+        place = launched.places.get(name)
         diagnostics.report("doctor.sim-time-name", text, place, fix=fix)
+
+
+def _is_misspelled(name: str) -> bool:
+    """Tell whether a name is a slip for the clock's: ``use_map_topic`` is another thing."""
+    words = name.casefold().replace("_", "")
+    likeness = SequenceMatcher(None, words, _WORD.replace("_", "")).ratio()
+    return name.startswith("use") and likeness >= _LEAST_LIKENESS
 
 
 def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Diagnostics) -> None:
@@ -71,7 +80,7 @@ def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Di
     elif not owners and value is True:
         text = f"{_NAME} is true and nothing in this launch publishes /clock: time stands at 0 "
         text += "until a simulator or `rosbag play --clock` runs elsewhere"
-        diagnostics.report("doctor.no-clock", text, launched.config.param_spans.get(_NAME))
+        diagnostics.report("doctor.no-clock", text, launched.places.get(_NAME))
 
 
 def _has_a_clock(node: LaunchedNode) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.descriptions import examine_models, examine_text
 from gazelle.doctor.dry_start import DryStart, dry_start
 from gazelle.doctor.examination import Examination
@@ -16,6 +17,7 @@ from gazelle.doctor.launch.launched import Launched, Role, launched_from
 from gazelle.doctor.launch.name_checks import check_descriptions, check_remaps, check_topics
 from gazelle.doctor.launch.node_checks import check_nodes, nodes_section
 from gazelle.doctor.launch.node_topics import topics_of
+from gazelle.doctor.launch.parameter_places import placed
 from gazelle.doctor.launch.plan import start_plan
 from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
@@ -25,6 +27,9 @@ from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.xml1.loader import load_launch_files
 
 __all__ = ["examine_launch"]
+
+_DESCRIPTION = "robot_description"
+_LACKS = frozenset({"doctor.no-controller-manager", "doctor.no-description", "doctor.spawn-fails"})
 
 
 def examine_launch(files: Sequence[Path], examination: Examination) -> None:
@@ -44,8 +49,9 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
     )
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
-    if examination.is_wide and _report_required(config, examination):
+    if examination.is_wide and _report_required(config, found, examination):
         return
+    whole, examination = examination, replace(examination, diagnostics=Diagnostics())
     examination.diagnostics.extend(found)
     executables = _executables(config, examination)
     name = " ".join(file.name for file in files)
@@ -53,10 +59,33 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
     starts = _starts(launched, examination)
     _examine_descriptions(launched, starts, examination)
     _check(launched, starts, examination)
+    is_part = whole.is_wide and not any(name.endswith(_DESCRIPTION) for name in config.params)
+    told = examination.diagnostics
+    for item in told:
+        whole.diagnostics.add(_of_a_part(item) if is_part else item)
 
 
-def _report_required(config: LaunchConfig, examination: Examination) -> bool:
-    """Tell of a file that means nothing without arguments; True when it is one."""
+def _of_a_part(item: Diagnostic) -> Diagnostic:
+    """Soften what a launch lacks that is a part of others, which load the robot before it."""
+    if item.code not in _LACKS or (item.code == "doctor.spawn-fails" and not _asks(item)):
+        return item
+    text = f"{item.message}; right where the launch that includes this one loads the robot"
+    return replace(item, severity=Severity.INFO, message=text)
+
+
+def _asks(item: Diagnostic) -> bool:
+    return f"{_DESCRIPTION}'" in item.message
+
+
+def _report_required(config: LaunchConfig, found: Diagnostics, examination: Examination) -> bool:
+    """Tell of a file that means nothing without arguments or environment; True when it is one."""
+    unset = found.by_code("launch.env-missing")
+    if unset:
+        text = f"'{Path(config.files[0]).name}' needs the environment and is not examined: "
+        text += unset[0].message
+        fix = "examine it with the variable exported"
+        examination.diagnostics.report("doctor.needs-arguments", text, unset[0].span, fix=fix)
+        return True
     needed = [item for item in config.args if item.default is None and item.value is None]
     given = examination.options.arguments
     missing = [item for item in needed if item.name not in given]
@@ -94,10 +123,12 @@ def _starts(launched: Launched, examination: Examination) -> dict[str, DryStart]
         heard = Diagnostics()
         plan = start_plan(launched, server, heard)
         start = dry_start(plan, workspace=examination.workspace, diagnostics=heard)
-        examination.diagnostics.extend(heard)
+        told = tuple(placed(item, launched.places) for item in heard)
+        for item in told:
+            examination.diagnostics.add(item)
         if start is not None:
             found[server.full_name] = start
-            examination.add(*simulation_sections(start, heard, subject=launched.name))
+            examination.add(*simulation_sections(start, told, subject=launched.name))
             probe(start, plan, examination)
     return found
 

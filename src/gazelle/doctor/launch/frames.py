@@ -109,6 +109,11 @@ def frames_of(
                 is_complete &= known.is_complete and not sends
             case Role.VIEW:
                 continue
+            case _ if known.known is not None and known.known.transforms is not None:
+                edges += [
+                    Edge(parent, child, node.full_name, "moving", node.spec.span)
+                    for parent, child in known.known.transforms
+                ]
             case _:
                 is_complete &= known.is_complete
     return Frames(tuple(edges), tuple(publishers), is_complete)
@@ -151,7 +156,7 @@ def _joints_heard(
         node = item.node
         if node.role is Role.VIEW:
             continue
-        if not item.is_complete:
+        if not item.is_complete and item.known is None:
             return None
         if topic not in item.publishes:
             continue

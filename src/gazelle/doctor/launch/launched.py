@@ -9,7 +9,9 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.dry_start import Program
+from gazelle.doctor.launch.parameter_places import parameter_places
 from gazelle.graph.names import parse_command_line, remap, resolve
 from gazelle.graph.parameter_tree import ParameterTree
 from gazelle.launch.config import LaunchConfig, NodeSpec
@@ -96,6 +98,7 @@ class Launched:
         parameters: the parameter store before any node has started.
         name: of the launch, for tables.
         is_whole: its files were read without an error.
+        places: where each parameter is set, in a YAML file where one is loaded.
     """
 
     config: LaunchConfig
@@ -103,6 +106,7 @@ class Launched:
     parameters: ParameterTree = field(default_factory=ParameterTree)
     name: str = ""
     is_whole: bool = True
+    places: Mapping[str, SourceSpan] = field(default_factory=dict)
 
     def of_role(self, *roles: Role) -> tuple[LaunchedNode, ...]:
         """Return the nodes that have one of the roles."""
@@ -148,7 +152,7 @@ def launched_from(
     parameters = ParameterTree()
     for key, value in config.params.items():
         parameters.set(key, value)
-    return Launched(config, nodes, parameters, name, is_whole)
+    return Launched(config, nodes, parameters, name, is_whole, parameter_places(config))
 
 
 def _node(spec: NodeSpec, executable: Executable | None) -> LaunchedNode:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
@@ -12,6 +13,7 @@ from gazelle.graph.names import resolve
 __all__ = ["check_descriptions", "check_remaps", "check_topics"]
 
 _WORD = "robot_description"
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NEEDS_DESCRIPTION = {
     Role.STATE_PUBLISHER: "ends at once",
     Role.JOINT_STATES: "publishes nothing",
@@ -76,14 +78,14 @@ def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
         if isinstance(value, str) and _is_unexpanded(value):
             text = f"parameter '{name}' holds xacro that nobody has expanded: its "
             text += "${…} and <xacro:…> mean nothing to a URDF reader"
-            place = launched.config.param_spans.get(name)
+            place = launched.places.get(name)
             fix = 'write command="$(find xacro)/xacro FILE" in place of textfile='
             diagnostics.report("doctor.description-not-expanded", text, place, fix=fix)
 
 
 def _is_unexpanded(text: str) -> bool:
-    start = text.lstrip()
-    return start.startswith("<") and "<robot" in text and "<xacro:" in text
+    start = _COMMENT.sub("", text).lstrip()
+    return start.startswith("<") and "<robot" in start and "<xacro:" in start
 
 
 def _report_no_description(

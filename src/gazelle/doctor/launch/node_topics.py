@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.doctor.dry_start import DryStart
+from gazelle.doctor.launch.known_nodes import KnownNode, known_node
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.launch.script_reading import read_script
 from gazelle.graph.names import resolve
@@ -24,6 +25,7 @@ class NodeTopics:
         publishes, listens: after remapping.
         written: names before remapping that its code uses, global.
         is_complete: the node surely uses no others.
+        known: what is known of joint states and tf of a node whose topics are not.
     """
 
     node: LaunchedNode
@@ -31,6 +33,7 @@ class NodeTopics:
     listens: Mapping[str, str]
     written: frozenset[str]
     is_complete: bool = True
+    known: KnownNode | None = None
 
 
 def topics_of(launched: Launched, starts: Mapping[str, DryStart]) -> tuple[NodeTopics, ...]:
@@ -65,7 +68,8 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             return _of_relay(node)
         case Role.MODEL_SPAWNER | Role.CONTROLLER_SPAWNER:
             return _named(node, {}, {})
-    return NodeTopics(node, {}, {}, frozenset(), is_complete=False)
+    known = known_node(node, launched)
+    return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=known)
 
 
 def _named(

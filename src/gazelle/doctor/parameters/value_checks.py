@@ -11,6 +11,9 @@ from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.parameters.document import Document, scalars
 from gazelle.doctor.parameters.layouts import MARK, Layout
 
+_MARK = "ros__parameters"
+_ADDED_UP = "rcl adds the two up, programs in Python see the last one only"
+
 __all__ = ["check_values"]
 
 # PyYAML's own tables (YAML 1.1 without y and n), and rcl_yaml_param_parser's, which has them.
@@ -43,7 +46,7 @@ def check_values(
     """
     if layout is Layout.MAP:
         return
-    _check_doubles(document, document.root, diagnostics)
+    _check_doubles(document, document.root, diagnostics, adds_up=layout is Layout.ROS2)
     for key, node, inside in scalars(document.root):
         if node.style is not None or "$(" in node.value:
             continue
@@ -119,8 +122,14 @@ def _check_point(
     diagnostics.report("control.number-as-text", text, span, fix=fix, severity=severity)
 
 
-def _check_doubles(document: Document, node: yaml.Node, diagnostics: Diagnostics) -> None:
-    """Report keys that a mapping has twice."""
+def _check_doubles(
+    document: Document, node: yaml.Node, diagnostics: Diagnostics, *, adds_up: bool = False
+) -> None:
+    """Report keys that a mapping has twice.
+
+    rcl adds the parameters of a node up when its name comes twice (``find_node`` of its YAML
+    parser): only what stands below ``ros__parameters`` is replaced.
+    """
     if isinstance(node, yaml.SequenceNode):
         for item in node.value:
             _check_doubles(document, item, diagnostics)
@@ -128,12 +137,16 @@ def _check_doubles(document: Document, node: yaml.Node, diagnostics: Diagnostics
         return
     first: dict[str, yaml.Node] = {}
     for key, value in node.value:
-        _check_doubles(document, value, diagnostics)
         name = str(key.value)
+        is_above = adds_up and name != _MARK
+        _check_doubles(document, value, diagnostics, adds_up=is_above)
         if name in first and name != "<<":
             line = first[name].start_mark.line + 1
-            text = f"key '{name}' is there twice, first in line {line}; the last one counts"
-            diagnostics.report("control.double-parameter", text, document.span(key))
+            text = f"key '{name}' is there twice, first in line {line}; "
+            text += _ADDED_UP if is_above else "the last one counts"
+            severity = Severity.INFO if is_above else None
+            span = document.span(key)
+            diagnostics.report("control.double-parameter", text, span, severity=severity)
         first.setdefault(name, key)
 
 

@@ -1,0 +1,57 @@
+"""Where the parameters of a launch are written: in its files, or in YAML that they load."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import yaml
+
+from gazelle.diagnostics import Diagnostic, SourceSpan
+from gazelle.graph.names import resolve
+from gazelle.launch.config import LaunchConfig
+from gazelle.limits import read_text_limited
+from gazelle.limits.yaml_text import LimitedLoader
+
+__all__ = ["parameter_places", "placed"]
+
+_NAME = re.compile(r"'(/[^'\s]+)'")
+
+
+def parameter_places(config: LaunchConfig) -> dict[str, SourceSpan]:
+    """Return where each parameter is set; the line of the YAML file where one is loaded."""
+    places = dict(config.param_spans)
+    for element, (file, target) in config.yaml_files.items():
+        for name, span in _lines(file, target):
+            if config.param_spans.get(name) == element:
+                places[name] = replace(span, via=(element, *element.via))
+    return places
+
+
+def placed(item: Diagnostic, places: Mapping[str, SourceSpan]) -> Diagnostic:
+    """Return a finding that names a parameter at the place where that is set."""
+    if item.span is not None:
+        return item
+    named = (places[name] for name in _NAME.findall(item.message) if name in places)
+    return replace(item, span=next(named, None))
+
+
+def _lines(file: str, target: str) -> Iterator[tuple[str, SourceSpan]]:
+    try:
+        root = yaml.compose(read_text_limited(Path(file)), Loader=LimitedLoader)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError):
+        return  # whoever loaded it has told why it cannot be read
+    if isinstance(root, yaml.MappingNode):
+        yield from _leaves(root, target or "/", file)
+
+
+def _leaves(node: yaml.MappingNode, name: str, file: str) -> Iterator[tuple[str, SourceSpan]]:
+    for key, value in node.value:
+        full = resolve(str(key.value), name)
+        mark = key.start_mark
+        length = len(str(key.value))
+        yield full, SourceSpan(file, mark.line + 1, mark.column + 1, length)
+        if isinstance(value, yaml.MappingNode):
+            yield from _leaves(value, full, file)
