@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
+import contextlib
+import io
 import sys
 from importlib import import_module
 from typing import NamedTuple
@@ -9,6 +12,9 @@ from typing import NamedTuple
 from gazelle.diagnostics import did_you_mean
 
 __all__ = ["main"]
+
+_MORE = "Call `ros2 <command> -h` for more detailed usage."
+_BUFFERING = "--use-python-default-buffering"
 
 
 class _Command(NamedTuple):
@@ -21,32 +27,66 @@ _COMMANDS = {
     "action": _Command("gazelle.cli.ros2.action", "Various action related sub-commands"),
     "control": _Command("gazelle.cli.ros2.control", "Various control related sub-commands"),
     "param": _Command("gazelle.cli.ros2.param", "Various param related sub-commands"),
+    "topic": _Command("gazelle.cli.ros2.topic", "Various topic related sub-commands"),
+}
+# Commands of ROS 2 that are not here, and what does their work.
+_ELSEWHERE = {
+    "launch": "launch files of ROS 2 (Python, YAML) do not run here yet; XML ones of ROS 1 do: "
+    "gazelle roslaunch PACKAGE FILE",
+    "security": "the graph is on this machine only (127.0.0.1); there is nothing to encrypt",
 }
 
 
 def main(argv: list[str]) -> int:
     """Run ``ros2 COMMAND …``."""
-    name = argv[0] if argv else ""
+    words = list(argv)
+    buffered = bool(words) and words[0] == _BUFFERING
+    if buffered:
+        del words[0]
+    name = words[0] if words else ""
     if name in {"", "-h", "--help"}:
-        print(_usage())
+        print(_usage(), end="")
         return 0
     command = _COMMANDS.get(name)
     if command is None:
-        hint = did_you_mean(name, _COMMANDS)
-        text = f"ros2: error: argument Call `ros2 <command> -h`: invalid choice: '{name}'"
-        known = f"choose from {', '.join(map(repr, _COMMANDS))}"
-        print(f"{text} ({hint or known})", file=sys.stderr)
+        return _refuse(name)
+    if not buffered:
+        _buffer_lines()
+    return int(import_module(command.module).main(words[1:]))
+
+
+def _refuse(name: str) -> int:
+    if name in _ELSEWHERE:
+        print(f"ros2 {name}: {_ELSEWHERE[name]}", file=sys.stderr)
         return 2
-    return int(import_module(command.module).main(argv[1:]))
+    hint = did_you_mean(name, _COMMANDS)
+    known = f"choose from {', '.join(map(repr, _COMMANDS))}"
+    print(
+        f"ros2: error: argument {_MORE}: invalid choice: '{name}' ({hint or known})",
+        file=sys.stderr,
+    )
+    return 2
+
+
+def _buffer_lines() -> None:
+    """Hand each line on at once, also into a pipe, as ros2cli does."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        with contextlib.suppress(ValueError, OSError):
+            sys.stdout.reconfigure(line_buffering=True)
 
 
 def _usage() -> str:
-    lines = [f"  {name:<10} {command.help}" for name, command in _COMMANDS.items()]
-    return "\n".join(
-        [
-            "usage: ros2 [-h] Call `ros2 <command> -h` for more detailed usage. ...",
-            "",
-            "Commands:",
-            *lines,
-        ]
+    parser = argparse.ArgumentParser(
+        prog="ros2",
+        description="ros2 is an extensible command-line tool for ROS 2.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument(
+        _BUFFERING,
+        action="store_true",
+        help="Do not force line buffering in stdout and instead use the python default buffering",
+    )
+    width = max(map(len, _COMMANDS))
+    lines = [f"{name:<{width}}  {one.help}" for name, one in sorted(_COMMANDS.items())]
+    parser.add_subparsers(title="Commands", description="\n".join(lines), metavar=_MORE)
+    return parser.format_help()

@@ -5,17 +5,28 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from typing import NamedTuple
 
 from gazelle.cli.rostopic.topics import wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node
 from gazelle.cli.tool import global_name, joined, option_parser
 from gazelle.graph import RawMessage
 
-__all__ = ["BandwidthMeter", "run"]
+__all__ = ["Bandwidth", "BandwidthMeter", "run"]
 
 _PERIOD_S = 1.0
 _WINDOW = 100
 _UNITS = ((1e6, "MB"), (1e3, "KB"), (1.0, "B"))
+
+
+class Bandwidth(NamedTuple):
+    """Bytes per second, bytes of messages, and how many messages."""
+
+    bytes_per_s: float
+    mean: float
+    least: int
+    most: int
+    window: int
 
 
 class BandwidthMeter:
@@ -31,18 +42,27 @@ class BandwidthMeter:
         with self._lock:
             self._items.append((now_s, size))
 
-    def report(self, now_s: float) -> str:
-        """Return what is printed once a second, empty before the second message."""
+    def read(self, now_s: float) -> Bandwidth | None:
+        """Return the statistics, None before the second message."""
         with self._lock:
             items = list(self._items)
         if len(items) < 2 or now_s <= items[0][0]:
-            return ""
+            return None
         sizes = [size for _, size in items]
-        per_second = sum(sizes) / (now_s - items[0][0])
-        scale, unit = next(one for one in _UNITS if per_second >= one[0] or one[0] == 1.0)
-        values = (per_second, sum(sizes) / len(sizes), min(sizes), max(sizes))
-        average, mean, least, most = (f"{value / scale:.2f}{unit}" for value in values)
-        return f"average: {average}/s\n\tmean: {mean} min: {least} max: {most} window: {len(items)}"
+        total = sum(sizes)
+        per_second, mean = total / (now_s - items[0][0]), total / len(sizes)
+        return Bandwidth(per_second, mean, min(sizes), max(sizes), len(items))
+
+    def report(self, now_s: float) -> str:
+        """Return what is printed once a second, empty before the second message."""
+        found = self.read(now_s)
+        if found is None:
+            return ""
+        scale, unit = next(one for one in _UNITS if found.bytes_per_s >= one[0] or one[0] == 1.0)
+        average, mean, least, most = (f"{value / scale:.2f}{unit}" for value in found[:4])
+        return (
+            f"average: {average}/s\n\tmean: {mean} min: {least} max: {most} window: {found.window}"
+        )
 
 
 def run(words: list[str]) -> int:

@@ -17,7 +17,7 @@ from gazelle.cli.rostopic.topics import wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
 from gazelle.cli.tool import add_flag, global_name, joined, option_parser
 
-__all__ = ["Rate", "RateMeter", "rate_report", "run"]
+__all__ = ["Rate", "RateMeter", "rate_report", "rate_table", "run"]
 
 _PERIOD_S = 1.0
 _LARGEST_WINDOW = 50_000
@@ -88,7 +88,7 @@ def rate_report(meters: Mapping[str, RateMeter]) -> str:
         (topic, *(f"{value:.4}" for value in rate[:4]), str(rate.window))
         for topic, rate in rates.items()
     ]
-    return _table(rows)
+    return rate_table(rows)
 
 
 def run(words: list[str]) -> int:
@@ -140,7 +140,8 @@ def _take(
         meter.add(now_ns() / 1e9)
 
 
-def _table(rows: list[tuple[str, ...]]) -> str:
+def rate_table(rows: list[tuple[str, ...]]) -> str:
+    """Return the table of several topics: name and the five numbers, as text."""
     widths = [max(map(len, column)) for column in zip(_HEADER, *rows, strict=True)]
     head = "   ".join(word.center(width) for word, width in zip(_HEADER, widths, strict=True))
     body = [
