@@ -11,8 +11,10 @@ from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.urdfdom import Robot, urdfdom_verdict
 from gazelle.description.xacro import expand_xacro
-from gazelle.description.xml import Tag, read_xml
+from gazelle.description.xml import Tag, parse_xml
+from gazelle.description.xml.reader import read_data
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
+from gazelle.limits.names import exists, is_file, is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["REFUSED", "UrdfFile", "mappings_of", "read_urdf_file", "report_findings", "robot_in"]
@@ -49,7 +51,11 @@ def read_urdf_file(word: str, mappings: dict[str, str]) -> UrdfFile:
     path = _located(word, workspace, diagnostics)
     if path is None:
         return UrdfFile("", diagnostics)
-    tag = read_xml(path, diagnostics)
+    # Once: it may be a pipe, as in `check_urdf <(xacro robot.xacro)`.
+    data = read_data(path, diagnostics)
+    if data is None:
+        return UrdfFile("", diagnostics)
+    tag = parse_xml(data, str(path), diagnostics)
     is_xacro = path.suffix == ".xacro" or (tag is not None and _has_xacro(tag))
     text: str | None
     if is_xacro and tag is not None:
@@ -60,7 +66,7 @@ def read_urdf_file(word: str, mappings: dict[str, str]) -> UrdfFile:
         text = None if expanded is None else expanded.text
         tag = None if expanded is None else expanded.tag(diagnostics)
     else:
-        text = _text_of(path)
+        text = data.decode("utf-8", errors="replace")
         tag = None if tag is None else placed(tag, exact=True)
     if tag is not None:
         folder = path.resolve().parent
@@ -91,24 +97,17 @@ def report_findings(file: UrdfFile) -> None:
 def _located(word: str, workspace: Workspace, diagnostics: Diagnostics) -> Path | None:
     if "://" not in word:
         path = Path(word)
-        if path.is_file():
+        if exists(path) and not is_folder(path):
             return path
-        reason = "is a folder" if path.is_dir() else "does not exist"
+        reason = "is a folder" if is_folder(path) else "does not exist"
         diagnostics.report("load.not-found", f"'{word}' {reason}", SourceSpan(word))
         return None
     found = workspace.resolve(word)
-    if found.path is None or not found.path.is_file():
+    if found.path is None or not is_file(found.path):
         diagnostics.report("load.not-found", found.explain(word), SourceSpan(word))
         return None
     _say(f"'{word}' is '{found.path}'")
     return found.path
-
-
-def _text_of(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8", errors="replace")
-    except OSError:
-        return ""
 
 
 def _has_xacro(root: Tag) -> bool:

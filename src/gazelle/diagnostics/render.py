@@ -86,6 +86,9 @@ def _source_line(span: SourceSpan, sources: Mapping[str, str]) -> str | None:
         return None
     try:
         source = sources.get(span.file)
+        if source is None and not Path(span.file).is_file():
+            # A pipe has been read, and a device has no lines.
+            return None
         if source is None:
             source = Path(span.file).read_text(encoding="utf-8", errors="replace")
     except (OSError, ValueError):

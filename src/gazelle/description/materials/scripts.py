@@ -14,6 +14,7 @@ from gazelle.description.materials.gazebo import (
 from gazelle.description.materials.ogre import OgreMaterial, parse_material_script
 from gazelle.description.model import Material, Rgba
 from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.limits import TEXT_BYTES, read_limited
 from gazelle.limits.names import is_file, is_folder
 
 __all__ = ["material_from_scripts"]
@@ -84,10 +85,20 @@ def _read(script: Path, context: ReadContext) -> dict[str, OgreMaterial]:
     """Return a script's materials, read once however many visuals name it."""
     key = ("material script", script)
     if key not in context.cache:
-        text = script.read_text(encoding="utf-8", errors="replace")
-        context.cache[key] = parse_material_script(text, str(script), context.diagnostics)
+        context.cache[key] = parse_material_script(
+            _text_of(script, context), str(script), context.diagnostics
+        )
     found: dict[str, OgreMaterial] = context.cache[key]
     return found
+
+
+def _text_of(script: Path, context: ReadContext) -> str:
+    try:
+        return read_limited(script, TEXT_BYTES).decode("utf-8", errors="replace")
+    except OSError as error:
+        message = f"material script '{script}' cannot be read: {error.strerror}"
+        context.diagnostics.report("material.bad-script", message, SourceSpan(str(script)))
+        return ""
 
 
 def _texture_folders(folders: Sequence[Path]) -> list[Path]:

@@ -155,7 +155,8 @@ def _urdf_parts(path: Path, context: ReadContext) -> ModelParts | None:
     """Return a URDF robot, which an ``<include>`` may name as well."""
     from gazelle.description.urdf import read_urdf
 
-    model = read_urdf(path.read_text(encoding="utf-8"), context=context)
+    root = read_xml(path, context.diagnostics)
+    model = None if root is None else read_urdf(root, context=context)
     if model is None:
         return None
     frames = {link.name: link.T_model_link for link in model.links}

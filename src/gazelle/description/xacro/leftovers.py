@@ -13,6 +13,7 @@ from gazelle.description.xacro.sources import definitions_in
 from gazelle.description.xacro.writing import Written
 from gazelle.description.xml import Tag, attribute_span, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
+from gazelle.limits import TEXT_BYTES, read_limited
 
 __all__ = ["report_leftovers"]
 
@@ -169,7 +170,7 @@ def _report_comma(tag: Tag, diagnostics: Diagnostics) -> None:
 
 def _bytes_of(file: str) -> bytes:
     try:
-        return Path(file).read_bytes()
+        return read_limited(file, TEXT_BYTES)
     except OSError:
         return b""
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import SourceSpan
+from gazelle.limits import TEXT_BYTES, read_limited
 
 __all__ = [
     "attribute_holding",
@@ -123,7 +124,7 @@ def _source(file: str) -> str:
 def _source_at(file: str, _mtime_ns: int, _size: int) -> str:
     """Read a file once for all the findings about it."""
     try:
-        data = Path(file).read_bytes()
+        data = read_limited(file, TEXT_BYTES)
     except (OSError, ValueError):
         return ""
     return data.decode("utf-8-sig", errors="replace").replace("\r\n", "\n")

@@ -11,7 +11,7 @@ from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.limits import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
 
-__all__ = ["parse_xml", "read_xml", "too_much_in"]
+__all__ = ["parse_xml", "read_data", "read_xml", "too_much_in"]
 
 _MOST_ELEMENTS = 500_000
 _MOST_ATTRIBUTES = 1000
@@ -26,19 +26,28 @@ _BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
 
 def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
     """Read a file and parse it; None (and an error reported) when that is impossible."""
+    data = read_data(path, diagnostics)
+    return None if data is None else parse_xml(data, str(path), diagnostics)
+
+
+def read_data(path: Path, diagnostics: Diagnostics) -> bytes | None:
+    """Return a document's bytes; None (and an error reported) when it cannot be read.
+
+    Args:
+        path: a file, or a pipe, which can be read only once.
+        diagnostics: receives ``xml.unreadable`` or ``limits.file-size``.
+    """
     try:
-        data = read_limited(path, TEXT_BYTES)
+        return read_limited(path, TEXT_BYTES)
     except FileLimitError as error:
         message = f"'{path}' is not read: {error.reason}"
         diagnostics.report("limits.file-size", message, SourceSpan(str(path)))
-        return None
     except OSError as error:
         reason = error.strerror or str(error)
         diagnostics.report(
             "xml.unreadable", f"cannot read '{path}': {reason}", SourceSpan(str(path))
         )
-        return None
-    return parse_xml(data, str(path), diagnostics)
+    return None
 
 
 def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | None:

@@ -20,6 +20,7 @@ from gazelle.description.sdformat.release import Release
 from gazelle.description.sdformat.urdf import urdf_to_sdf
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
+from gazelle.limits import TEXT_BYTES, read_limited
 from gazelle.limits.names import exists, is_folder
 
 __all__ = ["normalised", "read_document", "read_document_file"]
@@ -56,7 +57,12 @@ def read_document_file(word: str, *, release: Release, find: Find) -> Document:
     if file is None or not exists(file):
         console.error("no-file", f"File [{file or ''}] doesn't exist.")
         return Document(None, "", (), console)
-    return _read(file.read_bytes(), str(file), console, find, (file.resolve(),))
+    try:
+        data = read_limited(file, TEXT_BYTES)
+    except OSError as error:
+        console.error("no-file", f"File [{file}] cannot be read: {error.strerror}.")
+        return Document(None, "", (), console)
+    return _read(data, str(file), console, find, (file.resolve(),))
 
 
 def read_document(text: str | bytes, *, release: Release, file: str, find: Find) -> Document:
@@ -103,7 +109,7 @@ class _Includer:
             console.plain(f"Error: files include each other in a circle: {names}")
             return Document(None, "", (), console)
         try:
-            data = path.read_bytes()
+            data = read_limited(path, TEXT_BYTES)
         except OSError as error:
             console.error("no-file", f"File [{path}] doesn't exist. ({error.strerror})")
             return Document(None, "", (), console)

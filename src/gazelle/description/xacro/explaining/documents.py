@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from xml.parsers.expat import ErrorString, ExpatError, errors
 
 from gazelle.description.xacro.dom import EntityRefusedError
 from gazelle.description.xacro.explaining.finding import Finding
 from gazelle.description.xacro.failure import Failure
 from gazelle.diagnostics import SourceSpan
+from gazelle.limits import TEXT_BYTES, read_limited
 
 __all__ = ["NAMESPACE", "explain_document"]
 
@@ -43,7 +43,8 @@ def _unbound(span: SourceSpan) -> Finding:
 
 def _prefix_at(span: SourceSpan) -> str:
     try:
-        lines = Path(span.file).read_text("utf-8", errors="replace").split("\n")
+        data = read_limited(span.file, TEXT_BYTES)
+        lines = data.decode("utf-8", errors="replace").split("\n")
         tag = lines[span.line - 1][span.column :]
     except (OSError, IndexError):
         return ""
