@@ -16,7 +16,7 @@ _DEEPEST = 64
 # What PyYAML's constructors, and those of ROS's angles, let through.
 _UNREADABLE: tuple[type[Exception], ...]
 _UNREADABLE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, SyntaxError)
-_UNREADABLE += (LimitError,)
+_UNREADABLE += (LimitError, NameError)
 
 
 class YamlLimitError(yaml.MarkedYAMLError):
