@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
-from gazelle.graph.names import parse_command_line
+from gazelle.graph.names import join, parse_command_line
+from gazelle.nodes.ros2_words import file_params, split_words
 
 __all__ = ["NodeArguments", "read_arguments"]
 
@@ -28,6 +30,8 @@ class NodeArguments:
         output: ``screen``, or ``log`` for warnings and errors only on the terminal.
         log_file: where the node's log goes (``__log:=``), empty for nowhere.
         ready: called by a node that stays, once it has done what others may wait for.
+        log_level: least level that is logged (``--log-level``), empty for the default.
+        has_ros_args: the command line was ROS 2's, with ``--ros-args``.
     """
 
     name: str
@@ -38,6 +42,13 @@ class NodeArguments:
     output: str = "screen"
     log_file: str = ""
     ready: Callable[[], None] = _nobody_waits
+    log_level: str = ""
+    has_ros_args: bool = False
+
+    @property
+    def generation(self) -> Literal[1, 2]:
+        """The generation of ROS that whoever started the node speaks."""
+        return 2 if self.has_ros_args or os.environ.get("ROS_VERSION") == "2" else 1
 
 
 def read_arguments(
@@ -48,15 +59,24 @@ def read_arguments(
     output: str = "screen",
     ready: Callable[[], None] = _nobody_waits,
 ) -> NodeArguments:
-    """Split a node's words into ROS's and its own (wiki: Remapping Arguments)."""
-    line = parse_command_line(argv)
+    """Split a node's words into ROS's and its own (wiki: Remapping Arguments).
+
+    Raises:
+        LaunchError: an argument after ``--ros-args`` is not understood.
+        UserFileError: a parameter file has errors.
+    """
+    ros2 = split_words(argv)
+    line = parse_command_line(ros2.words)
+    name, space = line.name or default_name, line.namespace or namespace or "/"
     return NodeArguments(
-        name=line.name or default_name,
-        namespace=line.namespace or namespace or "/",
+        name=name,
+        namespace=space,
         remappings=dict(line.remappings),
-        params=dict(line.params),
+        params={**file_params(ros2.parameter_files, join(space, name)), **line.params},
         rest=tuple(line.rest),
         output=output,
         log_file=line.special.get("__log", ""),
         ready=ready,
+        log_level=ros2.log_level,
+        has_ros_args=ros2.found,
     )

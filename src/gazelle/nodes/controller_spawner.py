@@ -62,7 +62,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
     The generation is told from the arguments, or from what the manager offers.
     """
-    if is_ros2(arguments.rest):
+    if arguments.has_ros_args or is_ros2(arguments.rest):
         from gazelle.nodes.controller_spawner_ros2 import run as run_ros2
 
         return run_ros2(arguments, graph, stop)
@@ -81,7 +81,7 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
     node = _start(arguments, graph, stop, "unspawner")
     try:
         client = ManagerClient(node, "controller_manager", stop)
-        if is_ros2(arguments.rest):
+        if arguments.has_ros_args or is_ros2(arguments.rest):
             return unspawn(node, arguments.rest, stop)
         if not arguments.rest:
             raise LaunchError("usage: unspawner controller [controller ...]")

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
+from gazelle.graph.console import level_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
 
@@ -20,6 +21,8 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     )
     keep_log(node, arguments.log_file, arguments.output)
     offer_loggers(node)
+    if arguments.log_level:
+        node.log_level = level_of(arguments.log_level)
     for name, value in arguments.params.items():
         node.parameters.set(node.resolve_name(f"~{name}"), value)
     return node

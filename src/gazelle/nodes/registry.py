@@ -29,6 +29,7 @@ class BuiltinNode:
         light: it may share a process with other light ones.
         help: one line about it.
         aliases: other ``(package, type)`` names it answers to.
+        name: what the node calls itself when nobody names it, its type when empty.
     """
 
     package: str
@@ -37,6 +38,7 @@ class BuiltinNode:
     light: bool
     help: str
     aliases: tuple[tuple[str, str], ...] = ()
+    name: str = ""
 
     def load(self) -> Callable[..., Any]:
         """Import and return the function."""
@@ -181,6 +183,88 @@ _NODES = (
         light=True,
         help="stands for a window: stays alive and says what is missing",
         aliases=(("gazebo", "gzclient"), ("gazebo_ros", "gzclient.py"), *_VIEWS),
+    ),
+    BuiltinNode(
+        "turtlesim",
+        "turtlesim_node",
+        "gazelle.nodes.turtlesim.simulator:run",
+        light=True,
+        help="turtles that draw, without a window",
+        name="turtlesim",
+    ),
+    BuiltinNode(
+        "turtlesim",
+        "turtle_teleop_key",
+        "gazelle.nodes.turtlesim.teleop:run",
+        light=False,
+        help="drives a turtle from the keyboard",
+        name="teleop_turtle",
+    ),
+    BuiltinNode(
+        "turtlesim",
+        "mimic",
+        "gazelle.nodes.turtlesim.mimic:run",
+        light=True,
+        help="lets one turtle do what another one does",
+        name="turtle_mimic",
+    ),
+    BuiltinNode(
+        "turtlesim",
+        "draw_square",
+        "gazelle.nodes.turtlesim.draw_square:run",
+        light=True,
+        help="lets a turtle draw squares",
+    ),
+    BuiltinNode(
+        "turtlebot3_fake",
+        "turtlebot3_fake_node",
+        "gazelle.nodes.turtlebot3.fake:run",
+        light=True,
+        help="a TurtleBot3 that drives without physics",
+    ),
+    BuiltinNode(
+        "turtlebot3_gazebo",
+        "turtlebot3_drive",
+        "gazelle.nodes.turtlebot3.drive:run",
+        light=True,
+        help="wanders about without bumping into things",
+    ),
+    BuiltinNode(
+        "turtlebot3_slam",
+        "flat_world_imu_node",
+        "gazelle.nodes.turtlebot3.flat_world_imu:run",
+        light=True,
+        help="makes an IMU's accelerations those of flat ground",
+    ),
+    BuiltinNode(
+        "turtlebot3_teleop",
+        "turtlebot3_teleop_key",
+        "gazelle.nodes.turtlebot3.teleop:run",
+        light=False,
+        help="drives a TurtleBot3 from the keyboard",
+        name="turtlebot3_teleop",
+    ),
+    BuiltinNode(
+        "turtlebot3_teleop",
+        "teleop_keyboard",
+        "gazelle.nodes.turtlebot3.teleop:run_ros2",
+        light=False,
+        help="drives a TurtleBot3 from the keyboard, ROS 2's name",
+    ),
+    BuiltinNode(
+        "teleop_twist_keyboard",
+        "teleop_twist_keyboard.py",
+        "gazelle.nodes.teleop.twist_keyboard:run",
+        light=False,
+        help="drives any robot from the keyboard",
+        name="teleop_twist_keyboard",
+    ),
+    BuiltinNode(
+        "teleop_twist_keyboard",
+        "teleop_twist_keyboard",
+        "gazelle.nodes.teleop.twist_keyboard:run_ros2",
+        light=False,
+        help="drives any robot from the keyboard, ROS 2's name",
     ),
 )
 

@@ -1,0 +1,216 @@
+"""``teleop_twist_keyboard``: letters around k drive, any other key stops.
+
+Private parameters:
+
+| name | default | meaning |
+| --- | --- | --- |
+| ~speed, ~turn | 0.5, 1.0 | m/s and rad/s |
+| ~speed_limit, ~turn_limit | 1000 | the most they can become |
+| ~repeat_rate | 0 | Hz, sends the last command again; 0 for never |
+| ~key_timeout | 0.5 (ROS 1), 0 (ROS 2) | s without a key until the robot stops; 0 for never |
+| ~stamped, ~frame_id | false, "" | send ``TwistStamped`` |
+
+Keys and factors are those of ros-teleop's ``teleop_twist_keyboard``.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.graph import Graph
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
+from gazelle.nodes.teleop.twists import TwistSender, twist_sender
+
+__all__ = ["Driving", "run", "run_ros2"]
+
+_HEAD = """
+Reading from the keyboard  and Publishing to Twist!"""
+_ROS2_HEAD = """
+This node takes keypresses from the keyboard and publishes them
+as Twist/TwistStamped messages. It works best with a US keyboard layout."""
+_HELP = """
+---------------------------
+Moving around:
+   u    i    o
+   j    k    l
+   m    ,    .
+
+For Holonomic mode (strafing), hold down the shift key:
+---------------------------
+   U    I    O
+   J    K    L
+   M    <    >
+
+t : up (+z)
+b : down (-z)
+
+anything else : stop
+
+q/z : increase/decrease max speeds by 10%
+w/x : increase/decrease only linear speed by 10%
+e/c : increase/decrease only angular speed by 10%
+
+CTRL-C to quit
+"""
+# Along x, y and z, and about z.
+_MOVES = {
+    "i": (1, 0, 0, 0),
+    "o": (1, 0, 0, -1),
+    "j": (0, 0, 0, 1),
+    "l": (0, 0, 0, -1),
+    "u": (1, 0, 0, 1),
+    ",": (-1, 0, 0, 0),
+    ".": (-1, 0, 0, 1),
+    "m": (-1, 0, 0, -1),
+    "O": (1, -1, 0, 0),
+    "I": (1, 0, 0, 0),
+    "J": (0, 1, 0, 0),
+    "L": (0, -1, 0, 0),
+    "U": (1, 1, 0, 0),
+    "<": (-1, 0, 0, 0),
+    ">": (-1, -1, 0, 0),
+    "M": (-1, 1, 0, 0),
+    "t": (0, 0, 1, 0),
+    "b": (0, 0, -1, 0),
+}
+_STOP = (0, 0, 0, 0)
+# Factors of linear and angular speed.
+_FACTORS = {
+    "q": (1.1, 1.1),
+    "z": (0.9, 0.9),
+    "w": (1.1, 1.0),
+    "x": (0.9, 1.0),
+    "e": (1.0, 1.1),
+    "c": (1.0, 0.9),
+}
+_LINES_PER_HELP = 15
+_WAITING_S = 2.5
+_POLL_S = 0.05
+
+
+@dataclass(slots=True)
+class Driving:
+    """What keys have come to.
+
+    Attributes:
+        speed_m_s, turn_rad_s: how fast.
+        speed_limit_m_s, turn_limit_rad_s: the most they can become.
+        move: along x, y and z, and about z, each -1, 0 or 1.
+    """
+
+    speed_m_s: float = 0.5
+    turn_rad_s: float = 1.0
+    speed_limit_m_s: float = 1000.0
+    turn_limit_rad_s: float = 1000.0
+    move: tuple[int, int, int, int] = _STOP
+
+    def press(self, key: str) -> list[str]:
+        """Take a key, empty when none came in time; return what is printed."""
+        if key not in _FACTORS:
+            self.move = _MOVES.get(key, _STOP)
+            return []
+        speed, turn = _FACTORS[key]
+        self.speed_m_s = min(self.speed_limit_m_s, self.speed_m_s * speed)
+        self.turn_rad_s = min(self.turn_limit_rad_s, self.turn_rad_s * turn)
+        texts = []
+        if self.speed_m_s == self.speed_limit_m_s:
+            texts.append("Linear speed limit reached!")
+        if self.turn_rad_s == self.turn_limit_rad_s:
+            texts.append("Angular speed limit reached!")
+        return [*texts, self.text]
+
+    @property
+    def text(self) -> str:
+        """The speeds in words."""
+        return f"currently:\tspeed {self.speed_m_s}\tturn {self.turn_rad_s} "
+
+    def send(self, send: TwistSender) -> None:
+        """Send the velocities."""
+        x, y, z, turn = self.move
+        speed = self.speed_m_s
+        send((x * speed, y * speed, z * speed), turn * self.turn_rad_s)
+
+
+@dataclass(frozen=True, slots=True)
+class _Times:
+    """Seconds; 0 for never."""
+
+    key_s: float
+    repeat_s: float
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 1: wait for somebody who listens, then drive until Ctrl-C or told to stop."""
+    return _drive(arguments, graph, stop, is_ros2=arguments.generation == 2)
+
+
+def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 2: the same without waiting, and without stopping when no key comes."""
+    return _drive(arguments, graph, stop, is_ros2=True)
+
+
+def _drive(arguments: NodeArguments, graph: Graph, stop: threading.Event, *, is_ros2: bool) -> int:
+    with Keys("teleop_twist_keyboard", takes_ctrl_c=True) as keys:
+        node = start_node(arguments, graph)
+
+        def read(name: str, default: Any) -> Any:
+            return type(default)(private(node, arguments, name, default))
+
+        driving = Driving(
+            read("speed", 0.5),
+            read("turn", 1.0),
+            read("speed_limit", 1000.0),
+            read("turn_limit", 1000.0),
+        )
+        rate = read("repeat_rate", 0.0)
+        times = _Times(read("key_timeout", 0.0 if is_ros2 else 0.5), 1 / rate if rate > 0 else 0.0)
+        stamped, frame_id = read("stamped", False), read("frame_id", "")
+        send = twist_sender(node, is_stamped=stamped, frame_id=frame_id)
+        if is_ros2 or _wait_for_listener(send, keys, stop):
+            say(f"{_ROS2_HEAD if is_ros2 else _HEAD}{_HELP}\n{driving.text}")
+            _loop(driving, send, keys, times, stop)
+        send((0.0, 0.0, 0.0), 0.0)
+        node.shutdown()
+    return 0
+
+
+def _wait_for_listener(send: TwistSender, keys: Keys, stop: threading.Event) -> bool:
+    """Wait until somebody subscribes; False when told to end first."""
+    told_s = time.monotonic()
+    while not send.publisher.matched:
+        if stop.is_set() or keys.read(_POLL_S) in {None, CTRL_C}:
+            return False
+        if time.monotonic() - told_s >= _WAITING_S:
+            say(f"Waiting for subscriber to connect to {send.publisher.topic}")
+            told_s = time.monotonic()
+    return True
+
+
+def _loop(
+    driving: Driving, send: TwistSender, keys: Keys, times: _Times, stop: threading.Event
+) -> None:
+    lines, key_s, sent_s = 0, time.monotonic(), time.monotonic()
+    while not stop.is_set():
+        key = keys.read(_POLL_S if not times.repeat_s else min(_POLL_S, times.repeat_s / 2))
+        now_s = time.monotonic()
+        if key is None or key == CTRL_C:
+            return
+        is_late = not key and times.key_s > 0 and now_s - key_s >= times.key_s
+        if key or (is_late and any(driving.move)):
+            texts = driving.press(key)
+            for text in texts:
+                say(text)
+            lines += bool(texts)
+            if lines == _LINES_PER_HELP:
+                say(f"{_HEAD}{_HELP}")
+                lines = 0
+            key_s = now_s
+        elif not times.repeat_s or now_s - sent_s < times.repeat_s:
+            continue
+        driving.send(send)
+        sent_s = now_s

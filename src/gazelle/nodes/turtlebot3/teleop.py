@@ -1,0 +1,158 @@
+"""``turtlebot3_teleop_key``: w, x, a and d change the speeds step by step, s and space stop.
+
+The robot is that of the parameter ``model`` (ROS 1) or of ``TURTLEBOT3_MODEL`` (ROS 2, under the
+name ``teleop_keyboard``); it sets the limits. From Jazzy on, ROS 2's sends ``TwistStamped``.
+Numbers are those of ``turtlebot3_teleop`` (noetic and humble).
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gazelle.graph import Graph, Node
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
+from gazelle.nodes.teleop.twists import twist_sender
+
+__all__ = ["Limits", "Speeds", "limits_of", "run", "run_ros2"]
+
+_HELP = """
+Control Your TurtleBot3!
+---------------------------
+Moving around:
+        w
+   a    s    d
+        x
+
+w/x : increase/decrease linear velocity (Burger : ~ 0.22, Waffle and Waffle Pi : ~ 0.26)
+a/d : increase/decrease angular velocity (Burger : ~ 2.84, Waffle and Waffle Pi : ~ 1.82)
+
+space key, s : force stop
+
+CTRL-C to quit
+"""
+_LINEAR_STEP_M_S = 0.01
+_ANGULAR_STEP_RAD_S = 0.1
+_PERIOD_S = 0.1
+_LINES_PER_HELP = 20
+_STAMPED = frozenset({"jazzy", "kilted", "rolling"})
+_STEPS = {"w": (1, 0), "x": (-1, 0), "a": (0, 1), "d": (0, -1)}
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The fastest a robot may be told to go."""
+
+    linear_m_s: float
+    angular_rad_s: float
+
+
+_BURGER = Limits(0.22, 2.84)
+_WAFFLE = Limits(0.26, 1.82)
+
+
+def limits_of(model: str) -> Limits:
+    """Return the limits of burger, waffle or waffle_pi; burger's for any other."""
+    return _WAFFLE if model in {"waffle", "waffle_pi"} else _BURGER
+
+
+@dataclass(slots=True)
+class Speeds:
+    """What was asked for by keys, and what is sent on the way there.
+
+    Attributes:
+        limits: of the robot.
+        linear_m_s, angular_rad_s: asked for.
+        sent_m_s, sent_rad_s: sent last.
+    """
+
+    limits: Limits
+    linear_m_s: float = 0.0
+    angular_rad_s: float = 0.0
+    sent_m_s: float = 0.0
+    sent_rad_s: float = 0.0
+
+    def press(self, key: str) -> bool:
+        """Take a key; return whether it means something."""
+        if key in {" ", "s"}:
+            self.linear_m_s = self.angular_rad_s = self.sent_m_s = self.sent_rad_s = 0.0
+            return True
+        if key not in _STEPS:
+            return False
+        ahead, left = _STEPS[key]
+        linear = self.linear_m_s + ahead * _LINEAR_STEP_M_S
+        angular = self.angular_rad_s + left * _ANGULAR_STEP_RAD_S
+        self.linear_m_s = _within(linear, self.limits.linear_m_s)
+        self.angular_rad_s = _within(angular, self.limits.angular_rad_s)
+        return True
+
+    def advance(self) -> tuple[float, float]:
+        """Return what is sent next: at most half a step from what was sent last."""
+        self.sent_m_s = _towards(self.sent_m_s, self.linear_m_s, _LINEAR_STEP_M_S / 2)
+        self.sent_rad_s = _towards(self.sent_rad_s, self.angular_rad_s, _ANGULAR_STEP_RAD_S / 2)
+        return self.sent_m_s, self.sent_rad_s
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 1: drive until Ctrl-C, or told to stop; the robot is stopped."""
+
+    def model_of(node: Node) -> str:
+        return str(node.parameters.get("model")) if node.parameters.has("model") else "burger"
+
+    words = "currently:\tlinear vel %s\t angular vel %s "
+    return _drive(arguments, graph, stop, model_of, words, is_stamped=False)
+
+
+def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 2: the same with its words and, from Jazzy on, stamps."""
+    is_stamped = os.environ.get("ROS_DISTRO", "") in _STAMPED
+    words = "currently:\tlinear velocity %s\t angular velocity %s "
+
+    def model_of(_node: Node) -> str:
+        return os.environ.get("TURTLEBOT3_MODEL", "burger")
+
+    return _drive(arguments, graph, stop, model_of, words, is_stamped=is_stamped)
+
+
+def _drive(
+    arguments: NodeArguments,
+    graph: Graph,
+    stop: threading.Event,
+    model_of: Callable[[Node], str],
+    words: str,
+    *,
+    is_stamped: bool,
+) -> int:
+    with Keys("turtlebot3_teleop_key", takes_ctrl_c=True) as keys:
+        node = start_node(arguments, graph)
+        speeds = Speeds(limits_of(model_of(node)))
+        send = twist_sender(node, is_stamped=is_stamped)
+        say(_HELP)
+        lines = 0
+        while not stop.is_set():
+            key = keys.read(_PERIOD_S)
+            if key is None or key == CTRL_C:
+                break
+            if speeds.press(key):
+                lines += key in _STEPS
+                say(words % (speeds.linear_m_s, speeds.angular_rad_s))
+            if lines == _LINES_PER_HELP:
+                say(_HELP)
+                lines = 0
+            linear, angular = speeds.advance()
+            send((linear, 0.0, 0.0), angular)
+        send((0.0, 0.0, 0.0), 0.0)
+        node.shutdown()
+    return 0
+
+
+def _within(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit)
+
+
+def _towards(value: float, target: float, step: float) -> float:
+    return min(target, value + step) if target > value else max(target, value - step)

@@ -1,0 +1,1 @@
+"""turtlesim: the turtle, its keyboard, ``mimic`` and ``draw_square``, without a window."""

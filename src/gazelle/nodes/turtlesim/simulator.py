@@ -1,0 +1,307 @@
+"""``turtlesim_node``: turtles, the services that make and remove them, and the picture.
+
+Parameters:
+
+| name | default | meaning |
+| --- | --- | --- |
+| ~background_r, ~background_g, ~background_b | 69, 86, 255 | colour below the lines |
+| background_r, … | – | the same under the name it had up to Melodic |
+| holonomic | false | turtles go sideways too (ROS 2; ROS 1's always do) |
+| ~png | – | where the picture is written at the end, and by ``~save_image`` |
+
+A new background counts from the next ``clear`` (ROS 1) or at once (ROS 2). ``--png FILE`` is the
+same as ``_png:=FILE``.
+
+There is no window: the picture is on ``~_canvas`` while somebody looks; the
+underscore hides it from lists and from recordings of everything. ROS 2's newer turtlesim
+says white for ``color_sensor`` where nothing is drawn; here both say the background.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph, Node, ServiceRefusedError
+from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.interfaces import message_type, service_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.turtlesim.canvas import BACKGROUND, Canvas, write_png
+from gazelle.nodes.turtlesim.member import Member, all_finite
+from gazelle.nodes.turtlesim.turtle import PERIOD_S, SIZE_PX, WORLD_M, Turtle, single
+
+__all__ = ["Simulator", "run"]
+
+_CHANNELS = ("background_r", "background_g", "background_b")
+_USAGE = "usage: turtlesim_node [--png FILE]"
+# A turtle that stands still is shown again so often, for those who look later.
+_AGAIN_S = 1.0
+# Pictures go out at half the rate of steps.
+_STEPS_PER_PICTURE = 2
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Simulate turtles until told to stop."""
+    word = _png_of(arguments.rest)
+    node = start_node(arguments, graph)
+    png = word or str(private(node, arguments, "png", ""))
+    simulator = Simulator(node, arguments, png)
+    next_s = time.monotonic() + PERIOD_S
+    while not stop.wait(max(0.0, next_s - time.monotonic())):
+        simulator.step()
+        # Steps that are missed are not made up for, as with the original's timer.
+        next_s = max(next_s, time.monotonic() - PERIOD_S) + PERIOD_S
+    node.shutdown()
+    if png:
+        write_png(simulator.picture(), Path(png))
+    return 0
+
+
+class Simulator:
+    """All turtles and their picture."""
+
+    def __init__(self, node: Node, arguments: NodeArguments, png: str = "") -> None:
+        """Offer the services and make the first turtle."""
+        self._node = node
+        self._png = Path(png or "turtlesim.png")
+        self._is_ros2 = arguments.generation == 2
+        self._lock = threading.RLock()
+        self._members: dict[str, Member] = {}
+        self._count = 0
+        self._kinds = 0
+        self._parameters = self._declare(arguments) if self._is_ros2 else None
+        if not self._is_ros2:
+            _set_missing(node)
+        self._canvas = Canvas(self._background())
+        self._image: Any = message_type("sensor_msgs/msg/Image")
+        self._out = node.create_publisher("~_canvas", self._image, reliable=False, queue_size=1)
+        self._is_changed = True
+        self._steps = 0
+        self._shown_s = 0.0
+        self._offer()
+        node.log("info", f"Starting turtlesim with node name {node.name}")
+        self._spawn("", single(WORLD_M / 2), single(WORLD_M / 2), 0.0)
+
+    def step(self) -> None:
+        """Move every turtle by one period and tell others."""
+        telling = []
+        with self._lock:
+            for _name, member in sorted(self._members.items()):
+                is_changed, tell = member.step(self._canvas)
+                self._is_changed |= is_changed
+                telling.append((member, tell))
+        for member, tell in telling:
+            with self._lock:
+                # It may have been removed meanwhile.
+                if self._members.get(member.name) is member:
+                    tell()
+        self._steps += 1
+        if self._steps % _STEPS_PER_PICTURE == 0 and self._out.matched:
+            self._show()
+
+    def picture(self) -> Any:
+        """Return the picture as an array, rows from the top, red, green and blue."""
+        with self._lock:
+            turtles = [(one.kind, one.turtle) for _name, one in sorted(self._members.items())]
+            return self._canvas.picture(turtles)
+
+    def _show(self) -> None:
+        now_s = time.monotonic()
+        if not self._is_changed and now_s - self._shown_s < _AGAIN_S:
+            return
+        self._is_changed, self._shown_s = False, now_s
+        message = self._image(
+            height=SIZE_PX, width=SIZE_PX, encoding="rgb8", step=3 * SIZE_PX, is_bigendian=0
+        )
+        message.header.frame_id = "canvas"
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(
+            self._node.clock.now_ns(), 1_000_000_000
+        )
+        message.data = self.picture().tobytes()
+        self._out.publish(message)
+
+    def _offer(self) -> None:
+        rows = (
+            ("clear", "std_srvs/Empty", self._on_clear),
+            ("reset", "std_srvs/Empty", self._on_reset),
+            ("spawn", "turtlesim/Spawn", self._on_spawn),
+            ("kill", "turtlesim/Kill", self._on_kill),
+            ("~save_image", "std_srvs/Trigger", self._on_save),
+        )
+        for name, kind, handler in rows:
+            service = service_type(kind)
+
+            def answer(request: Any, service: Any = service, handler: Any = handler) -> Any:
+                return service.Response(**handler(request))
+
+            self._node.create_service(name, service, answer)
+
+    def _on_clear(self, _request: Any) -> dict[str, Any]:
+        self._node.log("info", "Clearing turtlesim.")
+        self._clear()
+        return {}
+
+    def _on_reset(self, _request: Any) -> dict[str, Any]:
+        self._node.log("info", "Resetting turtlesim.")
+        with self._lock:
+            for member in self._members.values():
+                member.close()
+            self._members.clear()
+            self._count = 0
+            self._spawn("", single(WORLD_M / 2), single(WORLD_M / 2), 0.0)
+            self._clear()
+        return {}
+
+    def _on_spawn(self, request: Any) -> dict[str, Any]:
+        if not all_finite(request.x, request.y, request.theta):
+            text = f"x={request.x}, y={request.y}, theta={request.theta}"
+            raise ServiceRefusedError(f"a turtle needs numbers for its place, not {text}")
+        name = self._spawn(request.name, request.x, request.y, request.theta)
+        if not name:
+            turtle = "turtle" if self._is_ros2 else "turtled"
+            text = f"A {turtle} named [{request.name}] already exists"
+            self._node.log("error", text)
+            # ROS 2's answers with an empty name, ROS 1's refuses.
+            if not self._is_ros2:
+                raise ServiceRefusedError(text)
+        return {"name": name}
+
+    def _on_kill(self, request: Any) -> dict[str, Any]:
+        with self._lock:
+            member = self._members.pop(request.name, None)
+            if member is not None:
+                member.close()
+                self._is_changed = True
+                return {}
+        text = f"Tried to kill turtle [{request.name}], which does not exist"
+        self._node.log("error", text)
+        if not self._is_ros2:
+            there = ", ".join(sorted(self._members)) or "no turtle"
+            raise ServiceRefusedError(f"{text}; there is {there}")
+        return {}
+
+    def _on_save(self, _request: Any) -> dict[str, Any]:
+        try:
+            write_png(self.picture(), self._png)
+        except LaunchError as error:
+            return {"success": False, "message": str(error)}
+        return {"success": True, "message": str(self._png.resolve())}
+
+    def _spawn(self, wanted: str, x_m: float, y_m: float, theta_rad: float) -> str:
+        """Make a turtle and return its name, empty when another one has it.
+
+        Raises:
+            IllegalNameError: there can be no topics below the name.
+        """
+        with self._lock:
+            name = wanted or self._free_name()
+            if name in self._members:
+                return ""
+            self._node.resolve_name(name)
+            self._members[name] = Member(
+                self._node,
+                name,
+                Turtle.at(x_m, y_m, theta_rad),
+                self._kinds,
+                lock=self._lock,
+                is_ros2=self._is_ros2,
+                is_holonomic=self._is_holonomic,
+            )
+            self._kinds += 1
+            self._is_changed = True
+        place = f"at x=[{x_m:f}], y=[{y_m:f}], theta=[{theta_rad:f}]"
+        self._node.log("info", f"Spawning turtle [{name}] {place}")
+        return name
+
+    def _free_name(self) -> str:
+        while True:
+            self._count += 1
+            if (name := f"turtle{self._count}") not in self._members:
+                return name
+
+    def _clear(self) -> None:
+        with self._lock:
+            self._canvas.clear(self._background())
+            self._is_changed = True
+
+    def _declare(self, arguments: NodeArguments) -> NodeParameters:
+        words = zip(_CHANNELS, ("Red", "Green", "Blue"), strict=True)
+        channels = {
+            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=255)
+            for name, word in words
+        }
+        holonomic = Descriptor("If true, then turtles will be holonomic")
+        values: dict[str, Any] = dict(zip(_CHANNELS, BACKGROUND, strict=True))
+        values |= {"holonomic": False, "use_sim_time": False}
+        values |= {name: arguments.params[name] for name in values if name in arguments.params}
+        self._node.clock.use(bool(values["use_sim_time"]) or None)
+        return NodeParameters(
+            self._node,
+            self._node.name,
+            values,
+            self._on_set,
+            descriptors={**channels, "holonomic": holonomic},
+            now_ns=self._node.clock.now_ns,
+        )
+
+    def _on_set(self, changes: Mapping[str, Any]) -> str:
+        if "use_sim_time" in changes:
+            self._node.clock.use(bool(changes["use_sim_time"]) or None)
+        if any(name in changes for name in _CHANNELS):
+            assert self._parameters is not None
+            values = {**self._parameters.values, **changes}
+            with self._lock:
+                self._canvas.paint_background(_color(values))
+                self._is_changed = True
+        return ""
+
+    def _is_holonomic(self) -> bool:
+        return self._parameters is None or bool(self._parameters.values["holonomic"])
+
+    def _background(self) -> tuple[int, int, int]:
+        if self._parameters is not None:
+            return _color(self._parameters.values)
+        defaults = zip(_CHANNELS, BACKGROUND, strict=True)
+        return _color({name: self._channel(name, default) for name, default in defaults})
+
+    def _channel(self, name: str, default: int) -> Any:
+        """Return the node's own value, or the older global one when that one was never set."""
+        store = self._node.parameters
+        own = store.get(f"~{name}") if store.has(f"~{name}") else default
+        return store.get(name) if own == default and store.has(name) else own
+
+
+def _set_missing(node: Node) -> None:
+    for name, value in zip(_CHANNELS, BACKGROUND, strict=True):
+        if not node.parameters.has(f"~{name}"):
+            node.parameters.set(f"~{name}", value)
+
+
+def _color(values: Mapping[str, Any]) -> tuple[int, int, int]:
+    """Return the three channels; what is no number from 0 to 255 counts as the default."""
+    found = [
+        value if isinstance(value, int) and 0 <= value <= 255 else default
+        for value, default in zip((values[name] for name in _CHANNELS), BACKGROUND, strict=True)
+    ]
+    return found[0], found[1], found[2]
+
+
+def _png_of(words: Sequence[str]) -> str:
+    """Return the file for the picture, empty when none is asked for.
+
+    Raises:
+        LaunchError: the arguments are not understood.
+    """
+    match list(words):
+        case []:
+            return ""
+        case ["--png", file]:
+            return file
+        case [word] if word.startswith("--png="):
+            return word.removeprefix("--png=")
+    raise LaunchError(f"turtlesim_node does not know '{' '.join(words)}'\n{_USAGE}")

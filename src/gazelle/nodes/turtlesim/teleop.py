@@ -1,0 +1,117 @@
+"""``turtle_teleop_key``: arrow keys drive ``turtle1``; in ROS 2 letters turn it to headings.
+
+Parameters: ``scale_linear`` and ``scale_angular``, 2.0 each; those of the namespace in ROS 1, the
+node's own in ROS 2.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph, Node
+from gazelle.graph.actions import ActionClient, ClientGoal
+from gazelle.graph.node_parameters import NodeParameters
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.teleop.terminal import Keys, say
+
+__all__ = ["run"]
+
+_PROMPT = """\
+Reading from keyboard
+---------------------------
+Use arrow keys to move the turtle. 'q' to quit."""
+_ROS2_PROMPT = """\
+Reading from keyboard
+---------------------------
+Use arrow keys to move the turtle.
+Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rotation.
+'Q' to quit."""
+# The last byte of what an arrow key sends (ESC [ A): linear and angular velocity.
+_ARROWS = {"A": (1.0, 0.0), "B": (-1.0, 0.0), "C": (0.0, -1.0), "D": (0.0, 1.0)}
+# The eight letters around F, seen from it.
+_HEADINGS_RAD = {
+    "g": 0.0,
+    "t": 0.7854,
+    "r": 1.5708,
+    "e": 2.3562,
+    "d": 3.1416,
+    "c": -2.3562,
+    "v": -1.5708,
+    "b": -0.7854,
+}
+_POLL_S = 0.1
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Drive until ``q``, Ctrl-C, or told to stop."""
+    with Keys("turtle_teleop_key", takes_ctrl_c=False) as keys:
+        node = start_node(arguments, graph)
+        is_ros2 = arguments.generation == 2
+        scales = _ros2_scales(node, arguments) if is_ros2 else _scales(node)
+        drive = _driver(node, scales)
+        turner = _Turner(node) if is_ros2 else None
+        say(_ROS2_PROMPT if is_ros2 else _PROMPT)
+        while not stop.is_set():
+            key = keys.read(_POLL_S)
+            if key is None or key == "q":
+                break
+            if key in _ARROWS:
+                drive(*_ARROWS[key])
+            elif turner is not None:
+                turner.press(key)
+        node.shutdown()
+    return 0
+
+
+def _driver(node: Node, scales: Callable[[], tuple[float, float]]) -> Callable[..., None]:
+    twist: Any = message_type("geometry_msgs/msg/Twist")
+    publisher = node.create_publisher("turtle1/cmd_vel", twist, queue_size=1)
+
+    def drive(linear: float, angular: float) -> None:
+        scale_linear, scale_angular = scales()
+        message = twist()
+        message.linear.x = scale_linear * linear
+        message.angular.z = scale_angular * angular
+        publisher.publish(message)
+
+    return drive
+
+
+def _scales(node: Node) -> Callable[[], tuple[float, float]]:
+    store = node.parameters
+    found = [
+        float(store.get(name)) if store.has(name) else 2.0
+        for name in ("scale_linear", "scale_angular")
+    ]
+    return lambda: (found[0], found[1])
+
+
+def _ros2_scales(node: Node, arguments: NodeArguments) -> Callable[[], tuple[float, float]]:
+    names = ("scale_linear", "scale_angular")
+    values = {name: float(private(node, arguments, name, 2.0)) for name in names}
+    parameters = NodeParameters(node, node.name, values, now_ns=node.clock.now_ns)
+    return lambda: (parameters.values["scale_linear"], parameters.values["scale_angular"])
+
+
+class _Turner:
+    """Sends goals of ``turtle1/rotate_absolute``."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        name, kind = "turtle1/rotate_absolute", "turtlesim/RotateAbsolute"
+        self._client = ActionClient(node, name, kind, generation=2)
+        self._goal: ClientGoal | None = None
+
+    def press(self, key: str) -> None:
+        if key == "f" and self._goal is not None:
+            self._goal.cancel()
+        elif key in _HEADINGS_RAD:
+            try:
+                self._goal = self._client.send_goal({"theta": _HEADINGS_RAD[key]})
+            except GazelleError as error:
+                self._node.log("warn", str(error))
