@@ -13,6 +13,7 @@ from gazelle.compat.rclpy import (
     endpoints,
     exceptions,
     executors,
+    lifecycle,
     logging,
     node,
     parameter,
@@ -24,6 +25,7 @@ from gazelle.compat.rclpy import (
 )
 from gazelle.compat.rclpy.action import client as _action_client
 from gazelle.compat.rclpy.action import server as _action_server
+from gazelle.compat.rclpy.lifecycle import node as _lifecycle_node
 
 for _name, _module in {
     "action": action,
@@ -38,6 +40,8 @@ for _name, _module in {
     "duration": duration,
     "exceptions": exceptions,
     "executors": executors,
+    "lifecycle": lifecycle,
+    "lifecycle.node": _lifecycle_node,
     "logging": logging,
     "node": node,
     "parameter": parameter,
