@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
 import pytest
 
 from gazelle.cli.doctor import main
-from gazelle.cli.doctor.terminal import verdict
+from gazelle.cli.doctor.terminal import Tables, print_report, verdict
 from gazelle.cli.main import main as gazelle
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
-from gazelle.doctor import Report
+from gazelle.doctor import Report, Section
 
 FIXTURES = Path(__file__).parents[2] / "doctor" / "fixtures"
 CLEAN = FIXTURES / "pain_03_uris" / "clean"
@@ -138,3 +139,47 @@ def test_verdict_counts_one_and_many() -> None:
     rows = (error, error, warning, *([info] * 5))
     report = Report("bot", "package", tuple(finding(row, n) for n, row in enumerate(rows)))
     assert verdict(report, 0.84) == "package bot: 2 errors, 1 warning, 5 notices in 0.8 s"
+
+
+def _printed(report: Report, tables: Tables = Tables.FITTING) -> list[str]:
+    out = io.StringIO()
+    print_report(report, tables=tables, stream=out)
+    return out.getvalue().splitlines()
+
+
+def test_notices_of_all_files_are_grouped_in_a_line_each_before_the_mistakes() -> None:
+    notice = [
+        Diagnostic("sdf.not-simulated", Severity.INFO, f"<{tag}> is idle", SourceSpan(tag, 3), fix)
+        for tag, fix in (("a", "nothing to do"), ("b", "nothing to do"), ("c", "nothing to do"))
+    ]
+    mend = Diagnostic("urdf.no-links", Severity.ERROR, "no <link>", SourceSpan("r.urdf", 1), "add")
+    inertia = Diagnostic("inertia.box", Severity.INFO, "too large", None, "paste\n<inertial/>")
+    lines = _printed(Report("bot", "package", (mend, *notice, inertia)))
+    assert lines[:7] == [
+        "── notices",
+        "too large [inertia.box]",
+        "  fix: paste …",
+        "a:3: <a> is idle",
+        "  the same 2 more times: <b> (b:3), <c> (c:3) [sdf.not-simulated]",
+        "",
+        "── r.urdf",
+    ]
+
+
+def test_package_has_its_own_tables_and_a_launch_has_its_own() -> None:
+    sections = tuple(
+        Section(name, f"table of {name}", ("column",), (("cell",),), subject)
+        for name, subject in (("generations", ""), ("nodes", "a.launch"), ("tags", "a.launch"))
+    )
+
+    def titles(kind: str, tables: Tables = Tables.FITTING) -> list[str]:
+        lines = _printed(Report("bot", kind, (), sections), tables)
+        return [line.split()[2] for line in lines if line.startswith("table of ")]
+
+    assert titles("package") == ["generations"]
+    assert "tables of nodes, frames and plug-ins: examine one file, or add --tables" in _printed(
+        Report("bot", "package", (), sections)
+    )
+    assert titles("launch") == ["generations", "nodes"]
+    assert titles("package", Tables.ALL) == ["generations", "nodes", "tags"]
+    assert titles("launch", Tables.NONE) == []

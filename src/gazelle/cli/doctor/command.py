@@ -57,9 +57,11 @@ def _show(report: Report, options: argparse.Namespace, seconds: float) -> None:
 
         print(json_text(report, least))
     else:
-        from gazelle.cli.doctor.terminal import print_report
+        from gazelle.cli.doctor.terminal import Tables, print_report
 
-        print_report(report, least=least, seconds=seconds, tables=not options.quiet)
+        tables = Tables.ALL if options.tables else Tables.FITTING
+        tables = Tables.NONE if options.quiet else tables
+        print_report(report, least=least, seconds=seconds, tables=tables)
 
 
 def _is_argument(word: str) -> bool:
@@ -85,6 +87,7 @@ def _parser() -> argparse.ArgumentParser:
         default=str(Severity.INFO),
         help="leave out findings below this severity",
     )
+    add("--tables", action="store_true", help="all tables, for a package those of each launch too")
     add("-q", "--quiet", action="store_true", help="warnings and errors only, no tables")
     return parser
 

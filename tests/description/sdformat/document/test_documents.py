@@ -54,6 +54,33 @@ def test_files_that_include_each_other_are_told(tmp_path: Path) -> None:
     assert document.errors[0].message == f"Unable to read file[{file}]"
 
 
+_MODEL = '<sdf version="1.6">{}<model name="m"><link name="l"/></model></sdf>'
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "value"),
+    [
+        ('<!-- c -->\n<?xml version="1.0" ?>\n' + _MODEL.format(""), 2, 'xml version="1.0" '),
+        (_MODEL.format('<?xml version="1.0"?>'), 1, 'xml version="1.0"'),
+        ('<?xml version="1.0"?>\n' + _MODEL.format("<?foo bar?>"), 2, "foo bar"),
+    ],
+)
+def test_late_declaration_ends_sdformat_12_and_not_9(text: str, line: int, value: str) -> None:
+    """As ign sdf 12.3 and gz sdf 9.10 do."""
+    document = read_document(text, release=Release.V12, file="f", find=lambda _uri: None)
+    assert document.root is None
+    printed = "".join(document.console.lines)
+    assert f"ErrorID=11 (0xb) Line number={line}: XMLDeclaration value={value}" in printed
+    old = read_document(text, release=Release.V9, file="f", find=lambda _uri: None)
+    assert old.root is not None
+
+
+def test_declarations_may_be_named_in_comments() -> None:
+    text = '<?xml version="1.0"?><?a b?><!-- <?xml?> -->' + _MODEL.format("<!-- <?b?> -->")
+    document = read_document(text, release=Release.V12, file="f", find=lambda _uri: None)
+    assert document.root is not None
+
+
 def test_errors_have_numbers() -> None:
     text = "<sdf version='1.9'><model name='m'/></sdf>"
     document = read_document(text, release=Release.V12, file="<text>", find=lambda _uri: None)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.description.sdformat.document.console import Code, Console, SdfError, error_line
+from gazelle.description.sdformat.document.declarations import declaration_problem
 from gazelle.description.sdformat.document.including import read_include
 from gazelle.description.sdformat.document.model_folder import model_file, version_numbers
 from gazelle.description.sdformat.document.printing import to_text
@@ -124,8 +125,9 @@ def _read(
 ) -> Document:
     found = Diagnostics()
     tag = parse_xml(data, file, found)
-    if tag is None:
-        reason = next(iter(found)).message
+    reason = "" if tag is None or console.release is Release.V9 else declaration_problem(data)
+    if tag is None or reason:
+        reason = reason or next(iter(found)).message
         console.error("parse-xml", f"Error parsing XML in file [{file}]: {reason}")
         return Document(None, "", (), console)
     reading = Reading(console, _Includer(find, chain))
