@@ -25,9 +25,19 @@ class _Command(NamedTuple):
 # Each module has ``main(argv) -> int``.
 _COMMANDS = {
     "action": _Command("gazelle.cli.ros2.action", "Various action related sub-commands"),
+    "component": _Command("gazelle.cli.ros2.component", "Various component related sub-commands"),
     "control": _Command("gazelle.cli.ros2.control", "Various control related sub-commands"),
+    "daemon": _Command("gazelle.cli.ros2.daemon", "Various daemon related sub-commands"),
+    "doctor": _Command("gazelle.cli.ros2.doctor", "Check ROS setup and other potential issues"),
+    "interface": _Command("gazelle.cli.ros2.interface", "Show information about ROS interfaces"),
+    "lifecycle": _Command("gazelle.cli.ros2.lifecycle", "Various lifecycle related sub-commands"),
+    "multicast": _Command("gazelle.cli.ros2.multicast", "Various multicast related sub-commands"),
+    "node": _Command("gazelle.cli.ros2.node", "Various node related sub-commands"),
     "param": _Command("gazelle.cli.ros2.param", "Various param related sub-commands"),
+    "run": _Command("gazelle.cli.ros2.run", "Run a package specific executable"),
+    "service": _Command("gazelle.cli.ros2.service", "Various service related sub-commands"),
     "topic": _Command("gazelle.cli.ros2.topic", "Various topic related sub-commands"),
+    "wtf": _Command("gazelle.cli.ros2.doctor", "Use `wtf` as alias to `doctor`"),
 }
 # Commands of ROS 2 that are not here, and what does their work.
 _ELSEWHERE = {

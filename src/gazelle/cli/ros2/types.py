@@ -52,7 +52,8 @@ def ros2_service_class(name: str) -> ServiceType:
     try:
         found: ServiceType = _found(service_type, name)
     except NotFoundError as error:
-        raise ToolError(f"The passed service type is invalid\n  {error}") from None
+        reason = str(error).replace("_Request'", "'", 1)
+        raise ToolError(f"The passed service type is invalid\n  {reason}") from None
     return found
 
 

@@ -1,0 +1,90 @@
+"""``ros2 run PACKAGE EXECUTABLE …``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from types import FrameType
+
+from gazelle.cli.ros2.verbs import fail, guarded
+from gazelle.diagnostics import Diagnostics, render
+from gazelle.launch.environment import node_environment
+from gazelle.launch.executables import find_executable
+from gazelle.nodes.registry import builtin_types
+from gazelle.workspace import Workspace
+
+__all__ = ["main"]
+
+_PASSED_ON = (signal.SIGTERM, signal.SIGHUP)
+
+
+def main(argv: list[str]) -> int:
+    """Run an executable of a package in the foreground."""
+    return guarded(lambda: _run(_parser().parse_args(argv)))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ros2 run", description="Run a package specific executable"
+    )
+    parser.add_argument(
+        "--prefix",
+        help="Prefix command, which should go before the executable. Command must be wrapped in "
+        "quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
+    )
+    parser.add_argument("package_name", help="Name of the ROS package")
+    parser.add_argument("executable_name", help="Name of the executable")
+    parser.add_argument(
+        "argv", nargs=argparse.REMAINDER, help="Pass arbitrary arguments to the executable"
+    )
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    workspace, diagnostics = Workspace.discover(), Diagnostics()
+    package, name = options.package_name, options.executable_name
+    found = find_executable(package, name, workspace=workspace, diagnostics=diagnostics)
+    render(diagnostics)
+    if found is None:
+        if package not in workspace.packages and not builtin_types(package):
+            return fail(f"Package '{package}' not found")
+        return fail("No executable found")
+    prefix = shlex.split(options.prefix) if options.prefix else []
+    environment = node_environment(os.environ, workspace)
+    return _run_words([*prefix, *found.command, *options.argv], environment)
+
+
+def _run_words(words: Sequence[str], environment: dict[str, str]) -> int:
+    sys.stdout.flush()
+    try:
+        process = subprocess.Popen(words, env=environment)
+    except OSError as error:
+        return fail(f"cannot run '{words[0]}': {error.strerror}")
+    _pass_signals_on(process)
+    while process.returncode is None:
+        try:
+            process.wait()
+        except KeyboardInterrupt:
+            # The terminal sends it to the node too, which ends in its own time.
+            continue
+    code = process.returncode
+    if code < 0:
+        print(f"[ros2run]: {signal.strsignal(-code)}")
+    elif code:
+        print(f"[ros2run]: Process exited with failure {code}")
+    return code
+
+
+def _pass_signals_on(process: subprocess.Popen[bytes]) -> None:
+    """Let the node end when this process is told to; ros2run leaves it behind."""
+
+    def send(number: int, _frame: FrameType | None) -> None:
+        process.send_signal(number)
+
+    for one in _PASSED_ON:
+        signal.signal(one, send)
