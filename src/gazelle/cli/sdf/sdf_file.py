@@ -10,6 +10,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.sdf import read_sdf
 from gazelle.description.sdformat.document import Document, read_document_file
 from gazelle.description.sdformat.release import Release
+from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, render
@@ -56,7 +57,7 @@ def report_findings(word: str) -> None:
             Workspace.discover(), diagnostics, str(path), base.parent, include_chain=(base,)
         )
         if tag.name == "robot":
-            read_urdf(tag, context=context)
+            read_urdf(placed(tag, exact=True), context=context)
         else:
             read_sdf(tag, context=context)
     sys.stdout.flush()

@@ -56,6 +56,19 @@ def test_refused_values_come_with_a_reason(kind: str, text: str, reason: str) ->
     assert _printed(kind, text, Release.V12) == (None, reason)
 
 
+@pytest.mark.parametrize(
+    ("text", "pose", "size"),
+    [
+        ("1", "1 0 0 0 -0 0", "1 0 0"),
+        ("1 2 x 4 5 6", "1 2 0 0 -0 0", "1 2 0"),
+        ("1 2 3 4", "1 2 3 -2.28319 -0 0", "1 2 3"),
+    ],
+)
+def test_old_release_keeps_the_numbers_before_a_fault(text: str, pose: str, size: str) -> None:
+    assert _printed("pose", text, Release.V9) == (pose, "")
+    assert _printed("vector3", text, Release.V9) == (size, "")
+
+
 def test_new_release_keeps_to_limits() -> None:
     found, reason = _printed("double", "7", Release.V12, most=6.5)
     assert found is None

@@ -267,13 +267,10 @@ def _formatted(parameter: Parameter, text: str, console: Console) -> str | None:
     if kind == "color":
         return _formatted_color(text)
     if kind == "pose":
-        # A pose that ends early keeps its position, and is not turned.
-        position = _stream(text, 3, kind) or (0.0,) * 3
-        numbers = _stream(text, 6, kind) or (*position, 0.0, 0.0, 0.0)
-        words = " ".join(map(repr, numbers))
+        words = " ".join(map(repr, _stream(text, 6, kind, lenient=True) or ()))
         return printed_pose(pose_of(words), signed_zero=True)
     if kind in _VECTORS:
-        values = _stream(text, _VECTORS[kind], kind, lenient=True) or (0.0,) * _VECTORS[kind]
+        values = _stream(text, _VECTORS[kind], kind, lenient=True) or ()
         whole = kind in ("vector2i", "time")
         return " ".join(str(int(v)) if whole else _short(_rounded(v)) for v in values)
     if kind in ("double", "float", "int", "unsigned int"):
@@ -346,7 +343,7 @@ def _stream(text: str, count: int, kind: str, *, lenient: bool = False) -> tuple
         return tuple(values)
     if not lenient:
         return None
-    return tuple(values + [0.0] * (count - len(values))) if kind == "time" else None
+    return tuple(values + [0.0] * (count - len(values)))
 
 
 def _rounded(value: float) -> float:
