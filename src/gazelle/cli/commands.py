@@ -39,6 +39,7 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
+    "bridge": Command("gazelle.cli.bridge", "join real ROS: ros1"),
     "doctor": Command(
         "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"
     ),
@@ -51,5 +52,6 @@ COMMANDS: dict[str, Command] = {
     "ign": Command("gazelle.cli.sdf.ign", "ign sdf of Fortress: print, check, draw SDF files"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
+    "colcon": Command("gazelle.cli.colcon", "build, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

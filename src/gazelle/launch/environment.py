@@ -14,6 +14,7 @@ __all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment
 
 ROS_COMMANDS = (
     "check_urdf",
+    "colcon",
     "gazebo",
     "gz",
     "gzclient",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -13,6 +13,7 @@ from gazelle.limits import read_limited
 
 __all__ = [
     "MANIFEST_BYTES",
+    "Dependency",
     "Export",
     "Manifest",
     "ManifestError",
@@ -39,6 +40,18 @@ _DEPENDS = frozenset(
         "test_depend",
     }
 )
+
+
+class Dependency(NamedTuple):
+    """One dependency as written.
+
+    Attributes:
+        kind: its tag, such as ``exec_depend``.
+        name: of the package or system library needed.
+    """
+
+    kind: str
+    name: str
 
 
 class Export(NamedTuple):
@@ -84,6 +97,9 @@ class Manifest:
         format: 1, 2 or 3 (REP-127, REP-140, REP-149); 0 for rosbuild's ``manifest.xml``.
         build_type: ``catkin``, ``ament_cmake``, ``ament_python``, ``rosbuild``, ``cmake``.
         depends: names of all dependencies, sorted, each once.
+        dependencies: the same with their kinds, in document order.
+        maintainers: as ``name <address>``.
+        licenses: as written.
         exports: elements of ``<export>``.
     """
 
@@ -94,6 +110,9 @@ class Manifest:
     build_type: str = ""
     depends: tuple[str, ...] = ()
     exports: tuple[Export, ...] = ()
+    dependencies: tuple[Dependency, ...] = ()
+    maintainers: tuple[str, ...] = ()
+    licenses: tuple[str, ...] = ()
 
 
 def quick_name(data: bytes) -> str | None:
@@ -189,7 +208,19 @@ def _manifest(collector: _Collector, *, is_rosbuild: bool) -> Manifest:
         build_type="rosbuild" if is_rosbuild else _build_type(exports, tools),
         depends=tuple(sorted(depends)),
         exports=exports,
+        dependencies=tuple(
+            Dependency(name, text) for name, _, text in collector.fields if name in _DEPENDS
+        ),
+        maintainers=tuple(_people(collector)),
+        licenses=tuple(text for name, _, text in collector.fields if name == "license"),
     )
+
+
+def _people(collector: _Collector) -> Iterator[str]:
+    for name, attributes, text in collector.fields:
+        if name == "maintainer":
+            address = attributes.get("email", "")
+            yield f"{text} <{address}>" if address else text
 
 
 def _format(attributes: Mapping[str, str]) -> int:

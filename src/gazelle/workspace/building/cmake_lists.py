@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -71,27 +71,34 @@ class CMakeLists:
         return tuple(step for step in self.steps if step.name in names)
 
 
-def read_cmake_lists(folder: Path, name: str) -> CMakeLists | None:
+def read_cmake_lists(
+    folder: Path, name: str, definitions: Mapping[str, str] | None = None
+) -> CMakeLists | None:
     """Read a package's ``CMakeLists.txt``; None when it has none.
 
     Args:
         folder: of the package.
         name: of the package, for catkin's variables.
+        definitions: variables given on the command line (``-D``); a ``set(… CACHE …)`` of the
+            file leaves them as they are.
     """
     file = folder / "CMakeLists.txt"
     if not file.is_file():
         return None
-    walker = _Walker(folder, CMakeLists(file), name)
+    walker = _Walker(folder, CMakeLists(file), name, definitions or {})
     walker.read(file, "")
     return walker.lists
 
 
 class _Walker:
-    def __init__(self, folder: Path, lists: CMakeLists, name: str) -> None:
+    def __init__(
+        self, folder: Path, lists: CMakeLists, name: str, definitions: Mapping[str, str]
+    ) -> None:
         self.lists = lists
         self._root = folder
         self._name = name
-        self._variables = _known_variables(folder, name)
+        self._given = frozenset(definitions)
+        self._variables = {**_known_variables(folder, name), **definitions}
         self._own: dict[str, list[Command]] = {}
         self._depth = 0
         self._ifs = 0
@@ -186,6 +193,8 @@ class _Walker:
             self._variables[key] = step.words[0]
 
     def _set(self, step: Step) -> None:
+        if step.words[0] in self._given and "CACHE" in step.words:
+            return
         values = step.after(step.words[0], ("CACHE", "PARENT_SCOPE"))
         self._variables[step.words[0]] = ";".join(values)
 

@@ -39,6 +39,7 @@ class InstallRule:
         matching: patterns of names, one of which a file must match; all when empty.
         excluded: patterns of names that are left out.
         is_optional: a missing source is no mistake.
+        is_conditional: the rule stands in an ``if``, which is not decided here.
         span: where the rule stands.
     """
 
@@ -52,6 +53,7 @@ class InstallRule:
     matching: tuple[re.Pattern[str], ...] = ()
     excluded: tuple[re.Pattern[str], ...] = ()
     is_optional: bool = False
+    is_conditional: bool = False
 
     @property
     def is_known(self) -> bool:
@@ -136,6 +138,7 @@ def _rules_of(step: Step, root: str) -> Iterator[InstallRule]:
             renamed=renamed,
             is_program=kind == "PROGRAMS",
             is_optional="OPTIONAL" in step.words,
+            is_conditional=step.is_conditional,
         )
 
 
@@ -154,6 +157,7 @@ def _folders(
             excluded=excluded,
             is_program="USE_SOURCE_PERMISSIONS" in step.words,
             is_optional="OPTIONAL" in step.words,
+            is_conditional=step.is_conditional,
         )
 
 

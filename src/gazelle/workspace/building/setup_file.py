@@ -39,6 +39,12 @@ class SetupFile:
         folders: ``package_dir``.
         span: of the call.
         scripts_folder: where ``setup.cfg`` puts executables, empty when it says nothing.
+        version: of the distribution, empty when it says nothing.
+        py_modules: single modules.
+        scripts: script files.
+        package_data: patterns of data files inside modules, by module.
+        entry_points: lines by group, such as ``console_scripts``.
+        requires: ``install_requires``.
     """
 
     file: Path
@@ -52,6 +58,12 @@ class SetupFile:
     folders: dict[str, str] = field(default_factory=dict)
     span: SourceSpan | None = None
     scripts_folder: str = ""
+    version: str = ""
+    py_modules: tuple[str, ...] = ()
+    scripts: tuple[str, ...] = ()
+    package_data: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    entry_points: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    requires: tuple[str, ...] = ()
 
     @property
     def is_for_ament(self) -> bool:
@@ -73,9 +85,11 @@ def read_setup(folder: Path) -> SetupFile | None:
     evaluator = Evaluator(file, folder, functions={"find_packages": _packages_of(folder)})
     evaluator.run(tree)
     for call in evaluator.calls:
-        if call.name in {"setup", "generate_distutils_setup"}:
-            found.is_called = True
-        if call.name == "setup":
+        if call.name not in {"setup", "generate_distutils_setup"}:
+            continue
+        found.is_called = True
+        # catkin's idiom: setup(**generate_distutils_setup(packages=[…])).
+        if call.name != "setup" or call.keywords or found.span is None:
             _fill(found, call)
             _find_globs(found, call.node, evaluator, folder)
     return found
@@ -88,6 +102,13 @@ def _fill(found: SetupFile, call: Call) -> None:
     modules = call.get("packages", default=[])
     if isinstance(modules, list | tuple) and is_known(modules):
         found.modules = tuple(str(item) for item in modules)
+    version = call.get("version")
+    found.version = version if isinstance(version, str) else ""
+    found.py_modules = _texts(call.get("py_modules"))
+    found.scripts = _texts(call.get("scripts"))
+    found.requires = _texts(call.get("install_requires"))
+    found.package_data = _lists_of(call.get("package_data"))
+    found.entry_points = _lists_of(call.get("entry_points"))
     folders = call.get("package_dir", default={})
     found.folders = folders if isinstance(folders, dict) and is_known(folders) else {}
     rows = call.get("data_files", default=[])
@@ -96,6 +117,18 @@ def _fill(found: SetupFile, call: Call) -> None:
         return
     for row in rows:
         _add_row(found, row)
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    if isinstance(value, str):
+        return tuple(line.strip() for line in value.splitlines() if line.strip())
+    items = value if isinstance(value, list | tuple) else ()
+    return tuple(str(item) for item in items if isinstance(item, str | PurePath))
+
+
+def _lists_of(value: Any) -> dict[str, tuple[str, ...]]:
+    items = value.items() if isinstance(value, dict) else ()
+    return {key: _texts(item) for key, item in items if isinstance(key, str)}
 
 
 def _add_row(found: SetupFile, row: Any) -> None:

@@ -1,0 +1,77 @@
+"""``colcon list`` and ``colcon info``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+
+from gazelle.cli.colcon.options import add_package_options, chosen_packages, parser_for
+from gazelle.diagnostics import did_you_mean
+from gazelle.workspace.building.packages import BuildError, SourcePackage
+
+__all__ = ["run"]
+
+
+def run(words: list[str], _log_base: Path) -> int:
+    """Run the verb that the first word names."""
+    return _list(words[1:]) if words[0] == "list" else _info(words[1:])
+
+
+def _list(words: list[str]) -> int:
+    parser = parser_for("list", "List packages, optionally in topological ordering.")
+    add_package_options(parser)
+    parser.add_argument("--topological-order", "-t", action="store_true")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--names-only", "-n", action="store_true")
+    only.add_argument("--paths-only", "-p", action="store_true")
+    options = parser.parse_args(words)
+    _, chosen = chosen_packages(options)
+    shown = list(chosen)
+    if not options.topological_order:
+        shown.sort(key=lambda item: item.name)
+    lines = [_line(item, options) for item in shown]
+    print("\n".join(lines if options.topological_order else sorted(lines)))
+    return 0
+
+
+def _line(package: SourcePackage, options: argparse.Namespace) -> str:
+    if options.names_only:
+        return package.name
+    path = os.path.relpath(package.path)
+    if options.paths_only:
+        return path
+    return f"{package.name}\t{path}\t(ros.{package.build_type})"
+
+
+def _info(words: list[str]) -> int:
+    parser = parser_for("info", "Detailed information about packages.")
+    parser.add_argument("package_names", nargs="*", metavar="PKG_NAME")
+    add_package_options(parser)
+    options = parser.parse_args(words)
+    everything, chosen = chosen_packages(options)
+    known = {item.name: item for item in everything}
+    missing = [name for name in options.package_names if name not in known]
+    if missing:
+        hints = (did_you_mean(name, known) for name in missing)
+        listed = ", ".join(f"'{name}'" for name in missing)
+        raise BuildError(f"no package {listed} in this workspace {' '.join(hints)}".rstrip())
+    wanted = [known[name] for name in options.package_names] or chosen
+    for package in sorted(wanted, key=lambda item: item.name):
+        print("\n".join(_details(package)))
+    return 0
+
+
+def _details(package: SourcePackage) -> list[str]:
+    lines = [
+        f"path: {os.path.relpath(package.path)}",
+        f"  type: ros.{package.build_type}",
+        f"  name: {package.name}",
+        "  dependencies:",
+    ]
+    for role in ("build", "run", "test"):
+        lines.append(f"    {role}: {' '.join(sorted(package.depends(role)))}")
+    lines.append("  metadata:")
+    lines.append(f"    maintainers: {list(package.manifest.maintainers)}")
+    lines.append(f"    version: {package.manifest.version}")
+    return lines

@@ -1,0 +1,253 @@
+"""What ``CMakeLists.txt`` installs, for ament, catkin and plain CMake."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath
+
+from gazelle.diagnostics import Severity, SourceSpan
+from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
+from gazelle.workspace.building.install_rules import cmake_rules
+from gazelle.workspace.building.packages import SourcePackage
+from gazelle.workspace.building.places import is_file, is_folder
+from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
+from gazelle.workspace.building.python_plan import add_python_distribution, add_python_folder
+from gazelle.workspace.building.setup_file import read_setup
+
+__all__ = ["compiled_targets", "plan_cmake", "read_lists"]
+
+_FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
+_EXECUTABLES = frozenset(
+    {"add_executable", "ament_auto_add_executable", "cs_add_executable", "cuda_add_executable"}
+)
+_LIBRARIES = frozenset(
+    {
+        "add_library",
+        "ament_auto_add_library",
+        "cs_add_library",
+        "cuda_add_library",
+        "pybind11_add_module",
+    }
+)
+_NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
+_INTERFACE_WORDS = frozenset(
+    {"ADD_LINTER_TESTS", "DEPENDENCIES", "LIBRARY_NAME", "SKIP_GROUP_MEMBERSHIP_CHECK",
+     "SKIP_INSTALL"}
+)  # fmt: skip
+_KINDS = (".msg", ".srv", ".action", ".idl")
+_CATKIN_INTERFACES = {
+    "add_message_files": "msg",
+    "add_service_files": "srv",
+    "add_action_files": "action",
+}
+_INDEX = "share/ament_index/resource_index"
+
+
+def read_lists(
+    package: SourcePackage, plan: Plan, definitions: Mapping[str, str]
+) -> CMakeLists | None:
+    """Read a package's ``CMakeLists.txt``; None, and an error in the plan, when that fails."""
+    lists = read_cmake_lists(package.path, package.name, definitions)
+    if lists is None:
+        text = f"package '{package.name}' is {package.build_type} and has no CMakeLists.txt"
+        span = SourceSpan(str(package.path / "package.xml"))
+        plan.diagnostics.report("package.no-build-file", text, span, severity=Severity.ERROR)
+        return None
+    if lists.problem is not None:
+        problem, place = lists.problem
+        plan.diagnostics.report("package.cmake-syntax", f"CMake stops here: {problem.text}", place)
+        return None
+    return lists
+
+
+def plan_cmake(
+    package: SourcePackage, layout: Layout, definitions: Mapping[str, str], plan: Plan
+) -> None:
+    """Plan a package with a ``CMakeLists.txt``; what would have to be compiled is reported."""
+    lists = read_lists(package, plan, definitions)
+    if lists is None:
+        return
+    share = f"share/{package.name}"
+    rules = cmake_rules(lists, share)
+    add_rules(plan, package.path, rules.rules, _FAILURE)
+    for span in rules.unread:
+        text = "what this installs is known only to CMake; it is left out"
+        plan.diagnostics.report("package.install-unread", text, span)
+    compiled_targets(package, lists, plan)
+    _add_interfaces(package, lists, plan)
+    if package.build_type == "catkin":
+        _add_catkin(package, lists, layout, plan)
+    else:
+        _add_ament(package, lists, layout, plan)
+    plan.add(Item(f"{share}/package.xml", package.path / "package.xml"))
+
+
+def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
+    """Report executables and libraries that need a compiler, each with its line."""
+    for step in lists.called(*_EXECUTABLES, *_LIBRARIES):
+        if len(step.words) < 2 or _NOT_COMPILED & set(step.words):
+            continue
+        kind = "executable" if step.name in _EXECUTABLES else "library"
+        sources = [word for word in step.words[1:] if PurePosixPath(word).suffix]
+        code = f" ({', '.join(sources[:3])})" if sources else ""
+        text = f"{kind} '{step.words[0]}'{code} of package '{package.name}' is compiled code; it "
+        text += "is not built"
+        plan.diagnostics.report("build.compiled-target", text, step.span)
+
+
+def _add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
+    """Install message, service and action files, from where Gazelle reads them itself."""
+    names: list[str] = []
+    for step in lists.called("rosidl_generate_interfaces"):
+        for word in step.words[1:]:
+            if word in _INTERFACE_WORDS:
+                break
+            names += [word] if PurePosixPath(word).suffix in _KINDS else []
+        _add_interface_files(package, names, step, plan)
+    for step in lists.called(*_CATKIN_INTERFACES):
+        folder = "".join(step.after("DIRECTORY", ("FILES",))[:1]) or _CATKIN_INTERFACES[step.name]
+        files = step.after("FILES", ("DIRECTORY", "BASE_DIR", "NOINSTALL"))
+        listed = [f"{folder}/{name}" for name in files]
+        if not files and is_folder(package.path / folder):
+            ending = f"*.{_CATKIN_INTERFACES[step.name]}"
+            found = sorted((package.path / folder).glob(ending))
+            listed = [f"{folder}/{file.name}" for file in found]
+        _add_interface_files(package, listed, step, plan)
+    if names:
+        lines = sorted({f"{PurePosixPath(n).parent.name}/{PurePosixPath(n).name}" for n in names})
+        plan.write(f"{_INDEX}/rosidl_interfaces/{package.name}", "\n".join(lines) + "\n")
+
+
+def _add_interface_files(package: SourcePackage, names: list[str], step: Step, plan: Plan) -> None:
+    for name in names:
+        file = package.path / step.folder / name
+        if "${" in name:
+            continue
+        if not is_file(file):
+            text = f"{step.name}() lists '{name}', and there is no such file; CMake stops there"
+            plan.diagnostics.report("package.message-missing", text, step.span)
+            continue
+        kind = PurePosixPath(name).suffix[1:]
+        plan.add(Item(f"share/{package.name}/{kind}/{file.name}", file), step.span)
+
+
+# -- ament ------------------------------------------------------------------------------------
+
+
+def _add_ament(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:
+    for step in lists.called("ament_python_install_package", "ament_python_install_module"):
+        _add_ament_python(package, step, layout, plan)
+    for step in lists.called("ament_environment_hooks", "ament_package", "ament_auto_package"):
+        if step.name == "ament_environment_hooks":
+            for word in step.words:
+                add_environment_file(package, step, word, f"share/{package.name}/environment", plan)
+    for step in lists.called("ament_index_register_resource"):
+        _add_resource(package, step, plan)
+    for step in lists.called("pluginlib_export_plugin_description_file"):
+        if len(step.words) > 1:
+            name = f"share/{package.name}/{PurePosixPath(step.words[1]).name}"
+            file = package.path / step.folder / step.words[1]
+            if is_file(file):
+                plan.add(Item(name, file), step.span)
+            marker = f"{_INDEX}/{step.words[0]}__pluginlib__plugin/{package.name}"
+            plan.write(marker, f"{name}\n")
+    _add_ament_markers(package, lists, plan)
+
+
+def _add_ament_markers(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
+    if package.build_type == "ament_cmake" and not lists.called(
+        "ament_package", "ament_auto_package"
+    ):
+        text = "ament_package() is not called: a real build leaves the package out of the index of "
+        text += "packages (PackageNotFoundError); it is entered all the same"
+        span = lists.project_span or SourceSpan(str(lists.file))
+        fix = "write ament_package() as the last line"
+        code = "package.index-marker"
+        plan.diagnostics.report(code, text, span, fix=fix, severity=Severity.WARNING)
+    if package.build_type == "cmake":
+        return
+    needs = sorted(package.depends("run"))
+    plan.write(f"{_INDEX}/packages/{package.name}")
+    plan.write(f"{_INDEX}/package_run_dependencies/{package.name}", ";".join(needs))
+
+
+def _add_ament_python(package: SourcePackage, step: Step, layout: Layout, plan: Plan) -> None:
+    if not step.words:
+        return
+    name = "".join(step.after("PACKAGE_DIR", ("VERSION", "SETUP_CFG", "DESTINATION"))[:1])
+    source = package.path / step.folder / (name or step.words[0])
+    if step.name == "ament_python_install_module" and is_file(source):
+        plan.add(Item(f"{layout.python}/{source.name}", source), step.span)
+    elif is_folder(source):
+        target = f"{layout.python}/{PurePosixPath(step.words[0]).name}"
+        add_python_folder(plan, source, target, layout)
+    else:
+        text = f"{step.name}() wants '{source}', and it does not exist; CMake stops there"
+        plan.diagnostics.report("package.module", text, step.span)
+
+
+def _add_resource(package: SourcePackage, step: Step, plan: Plan) -> None:
+    if not step.words:
+        return
+    words = ("CONTENT", "CONTENT_FILE", "PACKAGE_NAME", "SKIP_INSTALL")
+    name = "".join(step.after("PACKAGE_NAME", words)[:1]) or package.name
+    text = "".join(step.after("CONTENT", words)[:1])
+    file = "".join(step.after("CONTENT_FILE", words)[:1])
+    if file and is_file(package.path / file):
+        plan.add(Item(f"{_INDEX}/{step.words[0]}/{name}", package.path / file), step.span)
+    else:
+        plan.write(f"{_INDEX}/{step.words[0]}/{name}", text)
+
+
+def add_environment_file(
+    package: SourcePackage, step: Step, word: str, folder: str, plan: Plan
+) -> None:
+    """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
+    file = package.path / step.folder / word
+    if not is_file(file):
+        text = f"{step.name}() names '{word}', and there is no such file"
+        plan.diagnostics.report("package.install-missing", text, step.span)
+        return
+    name = file.name.removesuffix(".in")
+    if name.endswith((".bash", ".zsh", ".bat", ".ps1")):
+        target = f"{folder}/{name}"
+        plan.write(target, _configured(file, package))
+        return
+    plan.write(f"{folder}/{name}", _configured(file, package))
+    plan.scripts.append(f"{folder}/{name}")
+
+
+def _configured(file: Path, package: SourcePackage) -> str:
+    text = file.read_text(encoding="utf-8", errors="replace")
+    if file.suffix == ".in":
+        text = text.replace("@PROJECT_NAME@", package.name)
+        text = text.replace("${PROJECT_NAME}", package.name)
+    return text
+
+
+# -- catkin -----------------------------------------------------------------------------------
+
+
+def _add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:
+    for step in lists.called("catkin_python_setup"):
+        setup = read_setup(package.path)
+        if setup is None or (setup.error is None and not setup.is_called):
+            text = "catkin_python_setup() needs a setup.py with setup()"
+            plan.diagnostics.report("package.no-build-file", text, step.span)
+        elif setup.error is None:
+            add_python_distribution(package, setup, layout, plan)
+    for step in lists.called("catkin_add_env_hooks"):
+        add_catkin_hooks(package, step, "etc/catkin/profile.d", plan)
+
+
+def add_catkin_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
+    """Plan the shell files of a ``catkin_add_env_hooks`` call."""
+    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
+    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
+    for shell in step.after("SHELLS", words):
+        if shell not in {"sh", "bash", "zsh"} or not step.words:
+            continue
+        for ending in (f".{shell}", f".{shell}.in", f".{shell}.em", f".{shell}.develspace.em"):
+            name = f"{where}/{step.words[0]}{ending}"
+            if is_file(package.path / step.folder / name) and not ending.endswith(".em"):
+                add_environment_file(package, step, name, folder, plan)

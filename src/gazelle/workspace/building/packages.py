@@ -1,0 +1,144 @@
+"""The packages of a workspace, in the order in which they have to be built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.errors import GazelleError
+from gazelle.workspace.crawler import FoundPackage, crawl_source
+from gazelle.workspace.manifest import Manifest, ManifestError, read_manifest
+
+__all__ = ["BuildError", "SourcePackage", "find_packages", "in_order", "needed_by"]
+
+_BUILD = frozenset({"build_depend", "buildtool_depend", "depend"})
+_RUN = frozenset(
+    {"buildtool_export_depend", "build_export_depend", "depend", "exec_depend", "run_depend"}
+)
+_TEST = frozenset({"test_depend"})
+
+
+class BuildError(GazelleError):
+    """A workspace cannot be built at all; says why and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class SourcePackage:
+    """A package with its sources.
+
+    Attributes:
+        name: of the package.
+        path: its folder, absolute.
+        manifest: its ``package.xml``.
+        build_type: ``ament_cmake``, ``ament_python``, ``catkin``, ``cmake`` or another word.
+    """
+
+    name: str
+    path: Path
+    manifest: Manifest
+
+    @property
+    def build_type(self) -> str:
+        """The build type as the manifest has it."""
+        return self.manifest.build_type
+
+    def depends(self, role: str = "") -> frozenset[str]:
+        """Return the names it needs for one role, for all of them when `role` is empty.
+
+        Args:
+            role: ``build``, ``run`` or ``test``; which tags count for which is colcon's rule.
+        """
+        kinds = {"build": _BUILD, "run": _RUN, "test": _TEST}.get(role, _BUILD | _RUN | _TEST)
+        return frozenset(item.name for item in self.manifest.dependencies if item.kind in kinds)
+
+
+def find_packages(folders: Iterable[Path], diagnostics: Diagnostics) -> tuple[SourcePackage, ...]:
+    """Return the packages below these folders, sorted by name.
+
+    Args:
+        folders: where to look; hidden folders, build products and those with ``COLCON_IGNORE``,
+            ``AMENT_IGNORE`` or ``CATKIN_IGNORE`` are left out.
+        diagnostics: receives ``workspace.bad-manifest``; such a package is left out.
+
+    Raises:
+        BuildError: two packages have the same name, or there is no such folder.
+    """
+    found: dict[Path, FoundPackage] = {}
+    for folder in folders:
+        if not folder.is_dir():
+            raise BuildError(f"the specified base path '{folder}' is not a folder")
+        for item in crawl_source(folder.absolute()):
+            found.setdefault(item.path.resolve(), item)
+    read = [_read(item, diagnostics) for item in found.values()]
+    packages = [item for item in read if item is not None]
+    _refuse_twins(packages)
+    return tuple(sorted(packages, key=lambda item: item.name))
+
+
+def in_order(packages: Sequence[SourcePackage]) -> tuple[SourcePackage, ...]:
+    """Return packages so that each follows what it needs, else by name.
+
+    Raises:
+        BuildError: packages need each other in a circle; the circle is named.
+    """
+    waiting = {item.name: item for item in packages}
+    needs = {name: set(item.depends() & waiting.keys()) - {name} for name, item in waiting.items()}
+    ordered: list[SourcePackage] = []
+    while waiting:
+        free = sorted(name for name in waiting if not needs[name] & waiting.keys())
+        if not free:
+            circle = " -> ".join(_circle(needs, set(waiting)))
+            raise BuildError(
+                f"Unable to order packages topologically: {circle}: each of these needs the next "
+                "one; remove one of the dependencies from its package.xml"
+            )
+        ordered.append(waiting.pop(free[0]))
+    return tuple(ordered)
+
+
+def needed_by(names: Iterable[str], packages: Sequence[SourcePackage]) -> frozenset[str]:
+    """Return these names and all packages of the workspace that they need, directly or not."""
+    by_name = {item.name: item for item in packages}
+    found: set[str] = set()
+    waiting = [name for name in names if name in by_name]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += [item for item in by_name[name].depends() if item in by_name]
+    return frozenset(found)
+
+
+def _read(found: FoundPackage, diagnostics: Diagnostics) -> SourcePackage | None:
+    if found.manifest is None or found.manifest.name != "package.xml":
+        return None
+    try:
+        manifest = read_manifest(found.manifest)
+    except ManifestError as error:
+        text = f"cannot read the manifest of '{found.path.name}': {error}; it is not built"
+        span = SourceSpan(str(found.manifest), error.line, error.column)
+        diagnostics.report("workspace.bad-manifest", text, span)
+        return None
+    return SourcePackage(manifest.name or found.name, found.path, manifest)
+
+
+def _refuse_twins(packages: Iterable[SourcePackage]) -> None:
+    places: dict[str, list[str]] = {}
+    for item in packages:
+        places.setdefault(item.name, []).append(str(item.path))
+    lines = []
+    for name, paths in sorted(places.items()):
+        if len(paths) > 1:
+            lines += [f"- {name}:", *(f"  - {path}" for path in sorted(paths))]
+    if lines:
+        listed = "\n".join(["Duplicate package names not supported:", *lines])
+        raise BuildError(f"{listed}\nput a file COLCON_IGNORE into the folder of all but one")
+
+
+def _circle(needs: dict[str, set[str]], waiting: set[str]) -> list[str]:
+    way = [min(waiting)]
+    while way.count(way[-1]) == 1:
+        way.append(min(needs[way[-1]] & waiting))
+    return way[way.index(way[-1]) :]

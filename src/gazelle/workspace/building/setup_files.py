@@ -1,0 +1,199 @@
+"""The files of an install space that a shell sources, with colcon's names and layout."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+from gazelle.workspace.building.packages import SourcePackage
+from gazelle.workspace.building.plan import EnvironmentHook, Layout, Plan
+from gazelle.workspace.building.shell_text import (
+    FUNCTIONS,
+    HEADER,
+    forget,
+    own_prefix,
+    prepend,
+    source_file,
+)
+
+__all__ = ["add_package_scripts", "underlays", "write_prefix_scripts"]
+
+_PREFIX = "COLCON_CURRENT_PREFIX"
+_INDEX = "share/colcon-core/packages"
+_SHELLS = ("sh", "bash", "zsh")
+_SAVED = "_gazelle_install"
+
+
+def add_package_scripts(
+    package: SourcePackage, layout: Layout, plan: Plan, known: frozenset[str]
+) -> None:
+    """Plan ``share/<package>/package.*``, its hooks and colcon's index entry.
+
+    Args:
+        package: whose they are.
+        layout: where its modules go.
+        plan: everything else it installs; read for what the hooks have to name.
+        known: names of the workspace's packages; run dependencies among them are written down.
+    """
+    share = f"share/{package.name}"
+    hooks = [*_hooks_for(package, layout, plan), *plan.hooks]
+    names = []
+    for hook in hooks:
+        base = f"{share}/hook/{hook.name}"
+        plan.write(f"{base}.dsv", f"prepend-non-duplicate;{hook.variable};{hook.value}\n")
+        plan.write(f"{base}.sh", HEADER + prepend(hook.variable, _PREFIX, hook.value))
+        names += [f"{base}.dsv", f"{base}.sh"]
+    names += plan.scripts
+    plan.write(f"{share}/package.dsv", "".join(f"source;{name}\n" for name in names))
+    plan.write(f"{share}/package.sh", _package_sh(layout, names, plan))
+    for shell in ("bash", "zsh"):
+        plan.write(f"{share}/package.{shell}", _package_shell(shell, share))
+    if package.build_type != "ament_python":
+        for shell in _SHELLS:
+            text = _package_shell(shell, share, str(layout.prefix / share))
+            plan.write(f"{share}/local_setup.{shell}", text)
+    needs = sorted(package.depends("run") & known - {package.name})
+    plan.write(f"{_INDEX}/{package.name}", ":".join(needs))
+
+
+def write_prefix_scripts(
+    install_base: Path, *, merged: bool, environ: Mapping[str, str]
+) -> tuple[str, ...]:
+    """Write ``setup.*`` and ``local_setup.*`` of an install space for all packages in it.
+
+    Args:
+        install_base: the install space.
+        merged: all packages share one prefix.
+        environ: environment variables; workspaces that are sourced in it are sourced first.
+
+    Returns:
+        The names of the packages, in the order they are sourced.
+    """
+    names = _installed(install_base, merged=merged)
+    local = [HEADER, "# Extends the environment with the packages of this folder.\n"]
+    for name in names:
+        where = "" if merged else f"/{name}"
+        local.append(f'{_PREFIX}="${_SAVED}{where}"\n')
+        local.append(source_file(f"${_PREFIX}/share/{name}/package.sh"))
+    body = "".join([*local, f'_gazelle_prepend COLCON_PREFIX_PATH "${_SAVED}"\n'])
+    chain = "".join(source_file(f"{_quoted(path)}/local_setup.sh") for path in environ_chain(
+        install_base, environ))  # fmt: skip
+    for shell in _SHELLS:
+        own = own_prefix(_PREFIX, shell, str(install_base))
+        head = f'{own}{_SAVED}="${_PREFIX}"\n'
+        end = forget([_PREFIX, _SAVED])
+        (install_base / f"local_setup.{shell}").write_text(
+            HEADER + head + FUNCTIONS + body + end, encoding="utf-8"
+        )
+        below = f'{own}_gazelle_setup="${_PREFIX}"\nunset {_PREFIX}\n'
+        after = f'{_PREFIX}="$_gazelle_setup"\n. "${_PREFIX}/local_setup.{shell}"\n'
+        (install_base / f"setup.{shell}").write_text(
+            HEADER + below + chain + after + forget(["_gazelle_setup"]), encoding="utf-8"
+        )
+    return names
+
+
+def environ_chain(install_base: Path, environ: Mapping[str, str]) -> tuple[Path, ...]:
+    """Return sourced workspaces that a new one is built on, lowest first."""
+    return underlays(environ, ("COLCON_PREFIX_PATH", "AMENT_PREFIX_PATH"), install_base)
+
+
+def underlays(environ: Mapping[str, str], variables: Sequence[str], own: Path) -> tuple[Path, ...]:
+    """Return prefixes with a ``local_setup.sh`` that variables name, lowest first.
+
+    Args:
+        environ: environment variables.
+        variables: names of variables with paths.
+        own: the prefix that is being built; it and what lies in it are left out.
+    """
+    found: dict[Path, None] = {}
+    for variable in variables:
+        for part in filter(None, environ.get(variable, "").split(os.pathsep)):
+            path = Path(part)
+            inside = any(path == one or one in path.parents for one in (own, *found))
+            if not inside and (path / "local_setup.sh").is_file():
+                found.setdefault(path)
+    return tuple(reversed(found))
+
+
+def _hooks_for(package: SourcePackage, layout: Layout, plan: Plan) -> list[EnvironmentHook]:
+    hooks = []
+    if plan.has_below(layout.python):
+        hooks.append(EnvironmentHook("pythonpath", "PYTHONPATH", layout.python))
+    if plan.has_below("bin"):
+        hooks.append(EnvironmentHook("path", "PATH", "bin"))
+    if package.build_type != "ament_python":
+        hooks.append(EnvironmentHook("cmake_prefix_path", "CMAKE_PREFIX_PATH", ""))
+    if package.build_type == "catkin":
+        hooks.append(EnvironmentHook("ros_package_path", "ROS_PACKAGE_PATH", "share"))
+    else:
+        hooks.append(EnvironmentHook("ament_prefix_path", "AMENT_PREFIX_PATH", ""))
+    return hooks
+
+
+def _package_sh(layout: Layout, names: Sequence[str], plan: Plan) -> str:
+    lines = [HEADER, "# Extends the environment for this package.\n", FUNCTIONS]
+    lines.append(own_prefix(_PREFIX, "sh", str(layout.prefix)))
+    lines.append(f'AMENT_CURRENT_PREFIX="${_PREFIX}"\nCATKIN_ENV_HOOK_WORKSPACE="${_PREFIX}"\n')
+    for name in names:
+        if name.endswith(".sh"):
+            lines.append(source_file(f"${_PREFIX}/{name}"))
+        elif f"{name.removesuffix('.dsv')}.sh" not in names:
+            lines += _dsv_lines(plan.items[name].text)
+    lines.append(forget(["AMENT_CURRENT_PREFIX", "CATKIN_ENV_HOOK_WORKSPACE", _PREFIX]))
+    return "".join(lines)
+
+
+def _dsv_lines(text: str) -> list[str]:
+    """Return shell lines for the rows of a ``.dsv`` file: ``type;VARIABLE;value``."""
+    lines = []
+    for row in text.splitlines():
+        kind, _, rest = row.partition(";")
+        variable, _, value = rest.partition(";")
+        if not variable.isidentifier():
+            continue
+        path = value if value.startswith("/") else f"${_PREFIX}/{value}".rstrip("/")
+        if kind in {"prepend-non-duplicate", "prepend-non-duplicate-if-exists"}:
+            lines.append(f'_gazelle_prepend {variable} "{path}"\n')
+        elif kind == "set":
+            lines.append(f'export {variable}="{value}"\n')
+        elif kind == "set-if-unset":
+            lines.append(f'export {variable}="${{{variable}:-{value}}}"\n')
+    return lines
+
+
+def _package_shell(shell: str, share: str, built: str = "") -> str:
+    """Return a file that finds its prefix, two folders up, and sources ``package.sh``."""
+    own = own_prefix("_gazelle_share", shell, built)
+    up = "/".join(".." for _ in PurePosixPath(share).parts)
+    find = f'{_PREFIX}="$(cd "$_gazelle_share/{up}" > /dev/null && pwd)"\n'
+    source = '. "$_gazelle_share/package.sh"\n'
+    return HEADER + own + find + source + forget(["_gazelle_share"])
+
+
+def _installed(install_base: Path, *, merged: bool) -> tuple[str, ...]:
+    """Return the packages of an install space, each after those it needs at run time."""
+    pattern = f"{_INDEX}/*" if merged else f"*/{_INDEX}/*"
+    needs = {
+        file.name: set(filter(None, file.read_text(encoding="utf-8").split(":")))
+        for file in sorted(install_base.glob(pattern))
+        if merged or file.name == file.relative_to(install_base).parts[0]
+    }
+    ordered: list[str] = []
+    waiting = sorted(needs)
+    while waiting:
+        free = [name for name in waiting if not needs[name] & set(waiting) - {name}]
+        # Packages that need each other are sourced by name.
+        for name in free or waiting:
+            ordered.append(name)
+        waiting = [name for name in waiting if name not in ordered]
+    return tuple(ordered)
+
+
+def _quoted(path: Path) -> str:
+    """Return a path as it stands between double quotes in a shell."""
+    text = str(path)
+    for sign in ("\\", '"', "$", "`"):
+        text = text.replace(sign, "\\" + sign)
+    return text
