@@ -12,7 +12,7 @@ from gazelle.limits import Budget, LimitError, compile_limited, read_text_limite
 
 __all__ = ["ExpansionLimitError", "Spending"]
 
-_MOST_SECONDS = 20
+_MOST_SECONDS = 10
 _MOST_CALLS = 50_000
 _MOST_TEXTS = 1_000_000
 _MOST_CHARACTERS = 64 << 20
