@@ -83,9 +83,11 @@ class Simulator:
         self._is_changed = True
         self._steps = 0
         self._shown_s = 0.0
-        self._offer()
-        node.log("info", f"Starting turtlesim with node name {node.name}")
-        self._spawn("", single(WORLD_M / 2), single(WORLD_M / 2), 0.0)
+        # Whoever calls a service at once finds the first turtle there.
+        with self._lock:
+            self._offer()
+            node.log("info", f"Starting turtlesim with node name {node.name}")
+            self._spawn("", single(WORLD_M / 2), single(WORLD_M / 2), 0.0)
 
     def step(self) -> None:
         """Move every turtle by one period and tell others."""
