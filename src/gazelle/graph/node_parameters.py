@@ -49,6 +49,12 @@ class Descriptor:
     lowest: float | None = None
     highest: float | None = None
 
+    def allows(self, value: Any) -> bool:
+        """Tell whether a value is within the range."""
+        if self.lowest is None or self.highest is None:
+            return True
+        return isinstance(value, int | float) and self.lowest <= value <= self.highest
+
 
 _PLAIN = Descriptor()
 
@@ -102,7 +108,7 @@ class NodeParameters:
             ("get_parameters", "GetParameters", self._get),
             ("set_parameters", "SetParameters", self._set),
             ("set_parameters_atomically", "SetParametersAtomically", self._set_together),
-            ("list_parameters", "ListParameters", self._list),
+            ("list_parameters", "ListParameters", self.list_into),
             ("describe_parameters", "DescribeParameters", self._describe),
             ("get_parameter_types", "GetParameterTypes", self._types),
         ):
@@ -166,10 +172,9 @@ class NodeParameters:
         if wanted is not now and not known.dynamic_typing and now is not ParameterType.NOT_SET:
             text = f"Wrong parameter type, parameter {{{name}}} is of type {{{now.word}}}, setting"
             return f"{text} it to {{{wanted.word}}} is not allowed.", value
-        if known.lowest is not None and known.highest is not None:
+        if not known.allows(value):
             low, high = known.lowest, known.highest
-            if not isinstance(value, int | float) or not low <= value <= high:
-                return f"Parameter {{{name}}} doesn't comply with range [{low:g}, {high:g}].", value
+            return f"Parameter {{{name}}} doesn't comply with range [{low:g}, {high:g}].", value
         return "", value
 
     def _serve(
@@ -203,7 +208,8 @@ class NodeParameters:
         changes = {item.name: value_from_message(item.value) for item in request.parameters}
         response.result = _result(self.set(changes))
 
-    def _list(self, request: Any, response: Any) -> None:
+    def list_into(self, request: Any, response: Any) -> None:
+        """Put names into a ``ListParameters`` response as its request asks."""
         names = [name for name in sorted(self.values) if _listed(name, request)]
         response.result.names = names
         prefixes = {name.rpartition(".")[0] for name in names if "." in name}

@@ -14,8 +14,10 @@ from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, RawMessage
+from gazelle.interfaces import from_cdr
 
 if TYPE_CHECKING:
+    from gazelle.compat.rclpy.event_handler import EventWatch
     from gazelle.compat.rclpy.node import Node
 
 __all__ = ["Client", "Publisher", "Service", "Subscription", "check_type"]
@@ -28,6 +30,7 @@ class Publisher:
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos
+        self.events: EventWatch | None = None
         self._node = node
         self._impl = node.graph_node.create_publisher(
             topic,
@@ -49,16 +52,28 @@ class Publisher:
         return self._node.get_logger().name
 
     def publish(self, msg: Any) -> None:
-        """Send a message.
+        """Send a message, or the bytes of one.
 
         Raises:
             TypeError: it is of another type.
         """
+        if isinstance(msg, bytes):
+            msg = from_cdr(self.msg_type, msg)
         if not isinstance(msg, self.msg_type):
             given = f"{type(msg).__module__}.{type(msg).__qualname__}"
             wanted = f"{self.msg_type.__module__}.{self.msg_type.__qualname__}"
             raise TypeError(f"Expected {wanted}, got {given} on topic {self.topic_name}")
+        if self.events is not None:
+            self.events.note()
         self._impl.publish(msg)
+
+    def assert_liveliness(self) -> None:
+        """Say that it lives, which this graph knows by itself."""
+
+    def wait_for_all_acked(self, timeout: Any = None) -> bool:
+        """Return True: what was sent is on its way in order, and needs no word back."""
+        del timeout
+        return not self._node.is_destroyed
 
     def get_subscription_count(self) -> int:
         """Return how many subscriptions there are."""
@@ -66,6 +81,8 @@ class Publisher:
 
     def destroy(self) -> None:
         """Stop offering the topic."""
+        if self.events is not None:
+            self.events.close()
         self._impl.unregister()
 
 
@@ -89,6 +106,7 @@ class Subscription:
         self.qos_profile = qos
         self.raw = raw
         self.callback_group = group
+        self.events: EventWatch | None = None
         self._node = node
         depth = None if qos.history is HistoryPolicy.KEEP_ALL else max(qos.depth, 1)
         self._messages: deque[tuple[Any, MessageInfo]] = deque(maxlen=depth)
@@ -121,12 +139,16 @@ class Subscription:
 
     def destroy(self) -> None:
         """Stop receiving."""
+        if self.events is not None:
+            self.events.close()
         self._impl.unregister()
         self._messages.clear()
 
     def _on_message(self, message: Any, info: MessageInfo) -> None:
         if isinstance(message, RawMessage):
             message = message.data
+        if self.events is not None:
+            self.events.note()
         self._messages.append((message, info))
         self._node.post(self)
 

@@ -7,11 +7,15 @@ from typing import Any
 __all__ = [
     "ExternalShutdownException",
     "InvalidHandle",
+    "InvalidNamespaceException",
+    "InvalidNodeNameException",
     "InvalidParameterException",
     "InvalidParameterTypeException",
     "InvalidParameterValueException",
+    "InvalidServiceNameException",
     "InvalidTopicNameException",
     "NameValidationException",
+    "NoTypeSupportImportedException",
     "NotInitializedException",
     "ParameterAlreadyDeclaredException",
     "ParameterException",
@@ -21,6 +25,7 @@ __all__ = [
     "ROSInterruptException",
     "ShutdownException",
     "TimeoutException",
+    "TimerCancelledError",
 ]
 
 
@@ -31,16 +36,63 @@ class NotInitializedException(Exception):  # noqa: N818 - rclpy's name
         super().__init__("rclpy.init() has not been called", *args)
 
 
-class InvalidHandle(Exception):  # noqa: N818 - rclpy's name
+class InvalidHandle(RuntimeError):  # noqa: N818 - rclpy's name
     """Something that was destroyed is used."""
 
 
+class NoTypeSupportImportedException(Exception):  # noqa: N818 - rclpy's name
+    """A type is none of ROS 2."""
+
+
+class TimerCancelledError(Exception):
+    """A timer was stopped while somebody waits for it."""
+
+
 class NameValidationException(Exception):  # noqa: N818 - rclpy's name
-    """A name is not legal."""
+    """A name is not legal; the text marks the character.
+
+    Attributes:
+        name_type: what it names, as ``topic name``.
+        name: the name.
+        error_msg: what is wrong.
+        invalid_index: place of the first wrong character.
+    """
+
+    def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:
+        mark = " " * (invalid_index + 1) + "^"
+        super().__init__(f"Invalid {name_type}: {error_msg}:\n  '{name}'\n  {mark}")
+        self.name_type = name_type
+        self.name = name
+        self.error_msg = error_msg
+        self.invalid_index = invalid_index
+
+
+class InvalidNamespaceException(NameValidationException):
+    """A namespace is not legal."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("namespace", name, error_msg, invalid_index)
+
+
+class InvalidNodeNameException(NameValidationException):
+    """A node's name is not legal."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("node name", name, error_msg, invalid_index)
 
 
 class InvalidTopicNameException(NameValidationException):
     """A topic's name is not legal."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("topic name", name, error_msg, invalid_index)
+
+
+class InvalidServiceNameException(NameValidationException):
+    """A service's name is not legal."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("service name", name, error_msg, invalid_index)
 
 
 class TimeoutException(Exception):  # noqa: N818 - rclpy's name

@@ -12,11 +12,18 @@ from gazelle.compat.rclpy.callback_groups import CallbackGroup, MutuallyExclusiv
 from gazelle.compat.rclpy.clock import Clock, ROSClock
 from gazelle.compat.rclpy.context import Context, get_default_context
 from gazelle.compat.rclpy.endpoints import Client, Publisher, Service, Subscription, check_type
+from gazelle.compat.rclpy.event_handler import (
+    EventWatch,
+    PublisherEventCallbacks,
+    SubscriptionEventCallbacks,
+)
 from gazelle.compat.rclpy.exceptions import NotInitializedException
+from gazelle.compat.rclpy.guard_condition import GuardCondition
 from gazelle.compat.rclpy.node_graph import GraphQueries
 from gazelle.compat.rclpy.node_parameters import ParameterHolder
 from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.compat.rclpy.qos import QoSProfile, as_profile, qos_profile_services_default
+from gazelle.compat.rclpy.qos_overriding_options import QoSOverridingOptions, overridden
 from gazelle.compat.rclpy.timer import Rate, Timer
 from gazelle.compat.rclpy.work import Once, Work
 from gazelle.graph import ServiceRefusedError
@@ -137,6 +144,11 @@ class Node(ParameterHolder, GraphQueries):
         """Timers of this node."""
         return (one for one in self._created if isinstance(one, Timer))
 
+    @property
+    def guards(self) -> Iterator[GuardCondition]:
+        """Guard conditions of this node."""
+        return (one for one in self._created if isinstance(one, GuardCondition))
+
     def get_name(self) -> str:
         """Return the node's own name."""
         return self._full.rpartition("/")[2]
@@ -162,15 +174,38 @@ class Node(ParameterHolder, GraphQueries):
         return self.resolve_topic_name(service, only_expand=only_expand)
 
     def create_publisher(
-        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, **_options: Any
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Offer a topic.
+
+        Args:
+            msg_type: class of the messages.
+            topic: any legal name.
+            qos_profile: a profile, or the queue's depth.
+            callback_group: that of `event_callbacks`.
+            event_callbacks: called when subscriptions come and go, and so on.
+            qos_overriding_options: policies that parameters may change.
+            publisher_class: what is returned.
 
         Raises:
             AttributeError: the type is none of ROS 2.
         """
         check_type(msg_type, "msg")
-        return self._keep(Publisher(self, msg_type, topic, as_profile(qos_profile)))
+        full = self.resolve_topic_name(topic)
+        qos = overridden(self, full, "publisher", as_profile(qos_profile), qos_overriding_options)
+        made = self._keep(publisher_class(self, msg_type, topic, qos))
+        if event_callbacks is not None:
+            group = callback_group or self._default_callback_group
+            made.events = EventWatch(self, full, qos, event_callbacks, group)
+        return made
 
     def create_subscription(
         self,
@@ -180,18 +215,34 @@ class Node(ParameterHolder, GraphQueries):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
-        **_options: Any,
     ) -> Subscription:
         """Receive a topic; callbacks run while the node spins.
+
+        Args:
+            msg_type: class of the messages.
+            topic: any legal name.
+            callback: takes the message, and its details if it wants them.
+            qos_profile: a profile, or the queue's depth.
+            callback_group: what may run at the same time.
+            event_callbacks: called when publishers come and go, and so on.
+            qos_overriding_options: policies that parameters may change.
+            raw: give the callback bytes.
 
         Raises:
             AttributeError: the type is none of ROS 2.
         """
         check_type(msg_type, "msg")
         group = callback_group or self._default_callback_group
-        qos = as_profile(qos_profile)
-        return self._keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
+        full = self.resolve_topic_name(topic)
+        given = as_profile(qos_profile)
+        qos = overridden(self, full, "subscription", given, qos_overriding_options)
+        made = self._keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
+        if event_callbacks is not None:
+            made.events = EventWatch(self, full, qos, event_callbacks, group)
+        return made
 
     def create_service(
         self,
@@ -245,6 +296,13 @@ class Node(ParameterHolder, GraphQueries):
             Timer(self, callback, period_ns, clock or self._clock, group, autostart=autostart)
         )
 
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
+        """Prepare a call that `trigger` asks for, from any thread."""
+        group = callback_group or self._default_callback_group
+        return self._keep(GuardCondition(self, callback, group))
+
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Return something that sleeps at a rate.
 
@@ -277,6 +335,10 @@ class Node(ParameterHolder, GraphQueries):
     def destroy_timer(self, timer: Timer) -> bool:
         """Stop a timer."""
         return self._destroy(timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Give a guard condition up."""
+        return self._destroy(guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Stop a rate."""

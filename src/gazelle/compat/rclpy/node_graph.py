@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from gazelle.compat.rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from gazelle.graph import Entity, Graph, NodeInfo
+from gazelle.graph import Entity, Graph, Kind, NodeInfo
 from gazelle.graph import Node as GraphNode
 from gazelle.graph.actions import actions_of
 from gazelle.graph.names import join, resolve, split
@@ -98,6 +99,27 @@ class GraphQueries:
             self._graph.subscriptions_info(self.resolve_topic_name(topic_name, only_expand=True))
         )
 
+    def count_clients(self, service_name: str) -> int:
+        """Return how many clients a service has."""
+        return self._count(Kind.CLIENT, service_name)
+
+    def count_services(self, service_name: str) -> int:
+        """Return how many servers a service has."""
+        return self._count(Kind.SERVICE, service_name)
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Return the nodes' own names, namespaces and enclaves, which are all ``/``."""
+        return [(*one, "/") for one in self.get_node_names_and_namespaces()]
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Wait until a node is there; False when `timeout` seconds pass first."""
+        wanted = resolve(fully_qualified_node_name)
+
+        def is_there(entities: Iterable[Entity]) -> bool:
+            return any(one.kind is Kind.NODE and one.node == wanted for one in entities)
+
+        return self._graph.discovery.wait_for(is_there, timeout)
+
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the publishers of a topic."""
         full = self.graph_node.resolve_name(topic_name)
@@ -117,6 +139,10 @@ class GraphQueries:
     @property
     def _graph(self) -> Graph:
         return self.graph_node.graph
+
+    def _count(self, kind: Kind, name: str) -> int:
+        full = self.resolve_topic_name(name, only_expand=True)
+        return sum(one.kind is kind and one.name == full for one in self._graph.entities())
 
     def _info(self, name: str, namespace: str) -> NodeInfo:
         return self._graph.node_info(join(namespace or "/", name))

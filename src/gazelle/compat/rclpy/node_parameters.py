@@ -17,7 +17,8 @@ from gazelle.compat.rclpy.exceptions import (
 from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
-from gazelle.interfaces import message_type
+from gazelle.graph.parameter_values import value_from_message, value_message
+from gazelle.interfaces import message_type, service_type
 
 __all__ = ["ParameterHolder"]
 
@@ -171,6 +172,40 @@ class ParameterHolder:
         reason = self._parameters.set({one.name: one.value for one in parameter_list})
         result = message_type("rcl_interfaces/msg/SetParametersResult")
         return result(successful=not reason, reason=reason)
+
+    def list_parameters(self, prefixes: list[str], depth: int) -> Any:
+        """Return ``rcl_interfaces/msg/ListParametersResult`` of names below prefixes."""
+        kind = service_type("rcl_interfaces/srv/ListParameters")
+        response = kind.Response()
+        self._parameters.list_into(kind.Request(prefixes=prefixes, depth=depth), response)
+        return response.result
+
+    def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
+        """Set what is said about a parameter; return its ``ParameterValue``.
+
+        Args:
+            name: a declared parameter.
+            descriptor: ``rcl_interfaces/msg/ParameterDescriptor``.
+            alternative_value: a ``ParameterValue`` for when the present one does not fit.
+
+        Raises:
+            ParameterNotDeclaredException: there is none of the name.
+            ParameterImmutableException: it is read-only.
+            InvalidParameterValueException: neither value fits.
+        """
+        self._check_declared(name)
+        if self._parameters.descriptor(name).read_only:
+            raise ParameterImmutableException(name)
+        known = _descriptor(descriptor)
+        value = self._parameters.values[name]
+        if not known.allows(value) and alternative_value is not None:
+            value = value_from_message(alternative_value)
+        if not known.allows(value):
+            limits = f"[{known.lowest:g}, {known.highest:g}]"
+            text = f"Parameter {{{name}}} doesn't comply with range {limits}."
+            raise InvalidParameterValueException(name, value, text)
+        self._parameters.declare(name, value, known)
+        return value_message(value)
 
     def describe_parameter(self, name: str) -> Any:
         """Return ``rcl_interfaces/msg/ParameterDescriptor`` of a parameter."""

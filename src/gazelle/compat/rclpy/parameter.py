@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, TypeAlias
 
+import yaml
+
+from gazelle.errors import GraphError
 from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
 
-__all__ = ["PARAMETER_SEPARATOR_STRING", "Parameter", "parameter_value_to_python"]
+__all__ = [
+    "PARAMETER_SEPARATOR_STRING",
+    "Parameter",
+    "get_parameter_value",
+    "parameter_dict_from_yaml_file",
+    "parameter_value_to_python",
+]
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -83,3 +93,57 @@ class Parameter:
 def parameter_value_to_python(parameter_value: Any) -> Any:
     """Return the Python value of a ``rcl_interfaces/msg/ParameterValue``."""
     return value_from_message(parameter_value)
+
+
+def get_parameter_value(string_value: str) -> Any:
+    """Return ``ParameterValue`` of a text as the command line takes it: YAML, or the text."""
+    try:
+        return value_message(yaml.safe_load(string_value))
+    except (yaml.YAMLError, GraphError):
+        return value_message(string_value)
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: list[str] | None = None,
+    namespace: str = "",
+) -> dict[str, Any]:
+    """Return the parameters of a file as messages, by name with dots.
+
+    Args:
+        parameter_file: ``node: ros__parameters: …``.
+        use_wildcard: take what is said about ``/**`` as well.
+        target_nodes: nodes to take; all when None.
+        namespace: put before each name.
+
+    Raises:
+        RuntimeError: nothing is said about the nodes.
+        UserFileError: the file has errors.
+    """
+    from gazelle.control.sources.yaml_file import read_parameter_file
+    from gazelle.diagnostics import Diagnostics
+
+    diagnostics = Diagnostics()
+    sections = read_parameter_file(Path(parameter_file), diagnostics)
+    diagnostics.raise_if_errors()
+    wanted = None if target_nodes is None else [f"/{name.lstrip('/')}" for name in target_nodes]
+    found: dict[str, Any] = {}
+    for section in sections:
+        is_wild = "*" in section.node
+        if use_wildcard if is_wild else wanted is None or section.node in wanted:
+            found |= {f"{namespace}{name}": value for name, value in _flat(section.values)}
+    if not found:
+        nodes = ", ".join(section.node for section in sections) or "no nodes"
+        raise RuntimeError(f"Param file does not contain any valid parameters (it has {nodes})")
+    return {name: Parameter(name, value=value).to_parameter_msg() for name, value in found.items()}
+
+
+def _flat(values: dict[str, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    rows: list[tuple[str, Any]] = []
+    for name, value in values.items():
+        if isinstance(value, dict):
+            rows += _flat(value, f"{prefix}{name}{PARAMETER_SEPARATOR_STRING}")
+        else:
+            rows.append((f"{prefix}{name}", value))
+    return rows

@@ -12,22 +12,28 @@ __all__ = [
     "HistoryPolicy",
     "InvalidQoSProfileException",
     "LivelinessPolicy",
+    "QoSCompatibility",
     "QoSDurabilityPolicy",
     "QoSHistoryPolicy",
     "QoSLivelinessPolicy",
+    "QoSPolicyKind",
     "QoSPresetProfiles",
     "QoSProfile",
     "QoSReliabilityPolicy",
     "ReliabilityPolicy",
     "as_profile",
+    "qos_check_compatible",
+    "qos_policy_name_from_kind",
     "qos_profile_action_status_default",
     "qos_profile_best_available",
     "qos_profile_default",
     "qos_profile_parameter_events",
     "qos_profile_parameters",
+    "qos_profile_rosout_default",
     "qos_profile_sensor_data",
     "qos_profile_services_default",
     "qos_profile_system_default",
+    "qos_profile_unknown",
 ]
 
 
@@ -35,7 +41,26 @@ class InvalidQoSProfileException(Exception):  # noqa: N818 - rclpy's name
     """A profile lacks what it needs."""
 
 
-class HistoryPolicy(enum.IntEnum):
+class _Policy(enum.IntEnum):
+    """A policy's kinds, with rclpy's words in small letters."""
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """Return the words."""
+        return [name.lower() for name in cls.__members__ if not name.startswith("RMW")]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> int:
+        """Return a kind's number by its word."""
+        return cls[name.upper()].value
+
+    @property
+    def short_key(self) -> str:
+        """Its word."""
+        return self.name.lower()
+
+
+class HistoryPolicy(_Policy):
     """How many messages are kept; the long names are those of older programs."""
 
     SYSTEM_DEFAULT = 0
@@ -46,7 +71,7 @@ class HistoryPolicy(enum.IntEnum):
     RMW_QOS_POLICY_HISTORY_KEEP_ALL = 2
 
 
-class ReliabilityPolicy(enum.IntEnum):
+class ReliabilityPolicy(_Policy):
     """Whether slow subscriptions are waited for."""
 
     SYSTEM_DEFAULT = 0
@@ -58,7 +83,7 @@ class ReliabilityPolicy(enum.IntEnum):
     RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT = 2
 
 
-class DurabilityPolicy(enum.IntEnum):
+class DurabilityPolicy(_Policy):
     """Whether late subscriptions get the last message."""
 
     SYSTEM_DEFAULT = 0
@@ -70,7 +95,7 @@ class DurabilityPolicy(enum.IntEnum):
     RMW_QOS_POLICY_DURABILITY_VOLATILE = 2
 
 
-class LivelinessPolicy(enum.IntEnum):
+class LivelinessPolicy(_Policy):
     """How a publisher says that it lives."""
 
     SYSTEM_DEFAULT = 0
@@ -78,6 +103,29 @@ class LivelinessPolicy(enum.IntEnum):
     MANUAL_BY_TOPIC = 3
     UNKNOWN = 4
     BEST_AVAILABLE = 5
+
+
+class QoSPolicyKind(enum.IntEnum):
+    """Which policy is meant."""
+
+    INVALID = 1
+    DURABILITY = 2
+    DEADLINE = 4
+    LIVELINESS = 8
+    RELIABILITY = 16
+    HISTORY = 32
+    LIFESPAN = 64
+    DEPTH = 128
+    LIVELINESS_LEASE_DURATION = 256
+    AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+
+
+class QoSCompatibility(enum.IntEnum):
+    """Whether a publisher and a subscription would find each other."""
+
+    OK = 0
+    WARNING = 1
+    ERROR = 2
 
 
 QoSHistoryPolicy = HistoryPolicy
@@ -165,6 +213,42 @@ def as_profile(qos: QoSProfile | int) -> QoSProfile:
     return QoSProfile(depth=qos)
 
 
+def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
+    """Return a policy's name."""
+    return QoSPolicyKind(policy_kind).name
+
+
+def qos_check_compatible(
+    publisher_qos: QoSProfile, subscription_qos: QoSProfile
+) -> tuple[QoSCompatibility, str]:
+    """Tell whether transports of ROS 2 would connect two ends, and why not.
+
+    Gazelle's own graph connects them in any case.
+    """
+    faults = []
+    if subscription_qos.is_reliable and not publisher_qos.is_reliable:
+        faults.append("ERROR: Best effort publisher and reliable subscription;")
+    if subscription_qos.is_latched and not publisher_qos.is_latched:
+        faults.append("ERROR: Volatile publisher and transient local subscription;")
+    wanted, offered = subscription_qos.deadline, publisher_qos.deadline
+    if wanted != Infinite and offered == Infinite:
+        faults.append("ERROR: Subscription has a deadline, but publisher does not;")
+    elif wanted < offered:
+        faults.append("ERROR: Subscription deadline is less than publisher deadline;")
+    return (QoSCompatibility.ERROR if faults else QoSCompatibility.OK), "".join(faults)
+
+
+qos_profile_unknown = QoSProfile(
+    history=HistoryPolicy.UNKNOWN,
+    reliability=ReliabilityPolicy.UNKNOWN,
+    durability=DurabilityPolicy.UNKNOWN,
+    liveliness=LivelinessPolicy.UNKNOWN,
+)
+qos_profile_rosout_default = QoSProfile(
+    depth=1000,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    lifespan=Duration(seconds=10),
+)
 qos_profile_default = QoSProfile(depth=10)
 qos_profile_system_default = QoSProfile(
     history=HistoryPolicy.SYSTEM_DEFAULT,
@@ -186,6 +270,7 @@ qos_profile_best_available = QoSProfile(
 class QoSPresetProfiles(enum.Enum):
     """The profiles above, by name."""
 
+    UNKNOWN = qos_profile_unknown
     DEFAULT = qos_profile_default
     SYSTEM_DEFAULT = qos_profile_system_default
     SENSOR_DATA = qos_profile_sensor_data
@@ -194,6 +279,12 @@ class QoSPresetProfiles(enum.Enum):
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
     BEST_AVAILABLE = qos_profile_best_available
+    ROSOUT_DEFAULT = qos_profile_rosout_default
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """Return the names in small letters."""
+        return [name.lower() for name in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:

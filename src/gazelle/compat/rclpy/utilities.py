@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from gazelle.compat.rclpy.node import Node
 
 __all__ = [
+    "get_available_rmw_implementations",
     "get_default_context",
     "get_rmw_implementation_identifier",
     "ok",
@@ -31,6 +32,11 @@ __all__ = [
 def get_rmw_implementation_identifier() -> str:
     """Return the name of the transport, which is that of ROS 2 over Zenoh."""
     return "rmw_zenoh_cpp"
+
+
+def get_available_rmw_implementations() -> set[str]:
+    """Return the names of all transports: the one there is."""
+    return {get_rmw_implementation_identifier()}
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
