@@ -12,11 +12,13 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from gazelle.cli import rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
+from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
 from gazelle.graph import Entity, Graph, Kind, Node
 
 _PACE_S = 0.005
+_COMMAND_NODES = ("/rostopic_", "/tf_echo_", "/_ros2cli/")
 _MAINS: dict[str, Callable[[list[str]], int]] = {
+    "ros2": ros2.main,
     "rosmsg": lambda words: rosmsg.main(["rosmsg", *words]),
     "rosnode": rosnode.main,
     "rosparam": rosparam.main,
@@ -91,8 +93,8 @@ def end_commands(graph: Graph) -> Callable[[], None]:
     """Ends the commands that go on: kills their nodes."""
 
     def end() -> None:
-        for name in graph.node_names():
-            if name.startswith(("/rostopic_", "/tf_echo_")):
+        for name in graph.node_names(include_hidden=True):
+            if name.startswith(_COMMAND_NODES):
                 graph.kill_node(name)
 
     return end

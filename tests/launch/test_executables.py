@@ -130,3 +130,20 @@ def test_node_for_another_machine_runs_here_and_that_is_said(package: Path) -> N
     (told,) = diagnostics
     assert told.code == "launch.remote-machine"
     assert "node 'one' asks for machine 'robot1'; it runs here" in told.message
+
+
+def test_console_script_needs_no_executable_file(tmp_path: Path) -> None:
+    folder = tmp_path / "demo"
+    (folder / "demo").mkdir(parents=True)
+    (folder / "package.xml").write_text(
+        "<package format='3'><name>demo</name><version>0.0.1</version><description/>"
+        "<maintainer email='a@b.c'>a</maintainer><license>MIT</license></package>",
+        encoding="utf-8",
+    )
+    (folder / "setup.py").write_text(
+        "setup(entry_points={'console_scripts': ['talk = demo.talker:main']})", encoding="utf-8"
+    )
+    (folder / "demo" / "talker.py").write_text("def main(): ...\n", encoding="utf-8")
+    found, diagnostics = _find("demo", "talk", folder)
+    assert found is not None and not list(diagnostics)
+    assert found.command[-1] == str(folder / "demo" / "talker.py")

@@ -13,6 +13,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 from gazelle.workspace import Package, Workspace
+from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["Executable", "find_executable", "script_command"]
 
@@ -96,7 +97,8 @@ def _in_workspace(
     if not files:
         return None
     path = files[0]
-    if not os.access(path, os.X_OK) and not found.is_builtin:
+    may_run = os.access(path, os.X_OK) or found.is_builtin
+    if not may_run and type_name not in console_scripts(found.path):
         message = f"'{path}' is not executable; it runs here, real ROS would not find it"
         diagnostics.report("launch.not-executable", message, span, fix=f"chmod +x {path}")
     return Executable(script_command(path), folder=path.parent)

@@ -6,7 +6,6 @@ The rules are those of rosidl_runtime_py's ``message_to_yaml`` and ``message_to_
 
 from __future__ import annotations
 
-import sys
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -41,26 +40,25 @@ class Shortening(NamedTuple):
 
 
 WHOLE = Shortening()
+_NO_WRAP = 2**31 - 1
 
 
 def message_yaml(message: Message, how: Shortening = WHOLE, *, flow_style: bool = False) -> str:
     """Return a message as YAML, its fields in order."""
-    import yaml
-
-    text: str = yaml.dump(
-        _plain(message, how),
-        allow_unicode=True,
-        width=sys.maxsize,
-        default_flow_style=flow_style,
-        sort_keys=False,
-    )
-    return text
+    plain = _plain(message, how)
+    text = _dumped(plain, flow_style=flow_style, fast=True)
+    # libyaml writes characters beyond the first plane, and U+0085, in another way.
+    is_other = "\\U" in text or "\\N" in text
+    return _dumped(plain, flow_style=flow_style, fast=False) if is_other else text
 
 
 def message_csv(message: Message, how: Shortening = WHOLE) -> str:
     """Return the values of all fields, nested ones too, with commas between them."""
-    return ",".join(
-        _csv(getattr(message, attribute_name(item.name)), item.type, how) for item in message.FIELDS
+    return _joined(
+        [
+            _csv(getattr(message, attribute_name(item.name)), item.type, how)
+            for item in message.FIELDS
+        ]
     )
 
 
@@ -86,6 +84,21 @@ def value_text(value: Any, kind: FieldType | None) -> str:
             f"array('{_CODES[kind.base]}', {items})" if items else f"array('{_CODES[kind.base]}')"
         )
     return _repr(value, kind)
+
+
+def _dumped(plain: dict[str, Any], *, flow_style: bool, fast: bool) -> str:
+    import yaml
+
+    dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper) if fast else yaml.SafeDumper
+    text: str = yaml.dump(
+        plain,
+        Dumper=dumper,
+        allow_unicode=True,
+        width=_NO_WRAP,
+        default_flow_style=flow_style,
+        sort_keys=False,
+    )
+    return text
 
 
 def _plain(message: Message, how: Shortening) -> dict[str, Any]:
@@ -122,7 +135,15 @@ def _csv(value: Any, kind: FieldType, how: Shortening) -> str:
         return _note(value, kind)
     shown = value if how.length is None else value[: how.length]
     items = [_csv_item(one, kind, how) for one in _items(shown, kind)]
-    return ",".join(items if len(shown) == len(value) else [*items, "..."])
+    return _joined(items if len(shown) == len(value) else [*items, "..."])
+
+
+def _joined(parts: list[str]) -> str:
+    """Join with commas; none stands behind nothing, so empty values in front get none."""
+    text = ""
+    for part in parts:
+        text = f"{text},{part}" if text else part
+    return text
 
 
 def _csv_item(value: Any, kind: FieldType, how: Shortening) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -57,7 +58,9 @@ def run_hz(options: argparse.Namespace) -> int:
             node.create_subscription(topic, kind, take, raw=wanted is None, inline=True)
             if len(options.topic_name) > 1:
                 print(f"Subscribed to [{word}]", flush=True)
-        _repeat(ended, lambda: rate_text(meters))
+        # Of the three, the original ends this one well at Ctrl-C.
+        with contextlib.suppress(KeyboardInterrupt):
+            _repeat(ended, lambda: rate_text(meters))
     return 0
 
 

@@ -139,7 +139,7 @@ def _wait_for_subscriptions(job: _Job, wanted: int, limit_s: float | None) -> bo
         ToolError: time is up.
     """
     looks, start_s = 0, time.monotonic()
-    while job.publisher.subscription_count < wanted:
+    while wanted and not _is_heard(job.publisher, wanted):
         if looks % _TELL_EVERY == 0:
             print(f"Waiting for at least {wanted} matching subscription(s)...", flush=True)
         looks += 1
@@ -151,6 +151,11 @@ def _wait_for_subscriptions(job: _Job, wanted: int, limit_s: float | None) -> bo
         if job.ended.wait(_LOOK_S):
             return False
     return True
+
+
+def _is_heard(publisher: Publisher, wanted: int) -> bool:
+    """Subscriptions of other types are counted too, and known before the transport knows them."""
+    return publisher.subscription_count >= wanted and publisher.matched
 
 
 def _warn_of_other_type(graph: Graph, topic: str, type_name: str) -> None:
