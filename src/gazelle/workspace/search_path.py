@@ -117,9 +117,12 @@ def _paths(environ: Mapping[str, str], variable: str) -> list[Path]:
 
 
 def _tree(label: str, root: Path) -> PackageSource:
-    """A source tree, or an install prefix when that is what the folder is."""
+    """A source tree, an install prefix, or the share folder of one."""
 
     def crawl() -> Iterator[FoundPackage]:
+        if root.name == "share":
+            # As in ROS_PACKAGE_PATH=/opt/ros/noetic/share: executables lie beside it, in lib.
+            yield from crawl_prefix(root.parent)
         if (root / "share").is_dir() and manifest_in(root) is None:
             yield from crawl_prefix(root)
         yield from crawl_source(root)

@@ -78,13 +78,16 @@ def test_the_executable_runs_with_the_modules_on_the_path(
     assert told.stdout == "0.1.0 ['bot.talk:main']\n"
 
 
+@pytest.mark.parametrize(
+    ("variable", "folder"), [("AMENT_PREFIX_PATH", "bot"), ("ROS_PACKAGE_PATH", "bot/share")]
+)
 def test_the_installed_package_is_found_with_its_executable(
-    make: Make, build: Build, tmp_path: Path
+    make: Make, build: Build, tmp_path: Path, variable: str, folder: str
 ) -> None:
     make("bot", "ament_python", _FILES)
     build()
     prefix = tmp_path / "install" / "bot"
-    environ = {"AMENT_PREFIX_PATH": str(prefix), "HOME": str(tmp_path)}
+    environ = {variable: str(tmp_path / "install" / folder), "HOME": str(tmp_path)}
     package = Workspace.discover(environ=environ, cwd=prefix).package("bot")
     assert package.path == prefix / "share/bot"
     assert package.executable_names == ("talk",)
