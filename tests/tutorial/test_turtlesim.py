@@ -1,0 +1,98 @@
+"""Rows T1 and T4's beginning: a turtle drawn and driven from the keyboard, both generations."""
+
+from __future__ import annotations
+
+import math
+import os
+import pty
+import termios
+from collections.abc import Callable, Iterator
+
+import pytest
+
+pytestmark = pytest.mark.tutorial
+
+
+@pytest.fixture
+def terminal() -> Iterator[tuple[int, int]]:
+    """A pseudo-terminal: the end where keys are typed, the end the program sees."""
+    keys, seen = pty.openpty()
+    yield keys, seen
+    os.close(keys)
+    os.close(seen)
+
+
+def test_arrow_keys_drive_the_turtle_and_the_picture_shows_it(
+    gazelle: Callable, terminal: tuple[int, int], tmp_path
+) -> None:
+    from PIL import Image
+
+    keys, seen = terminal
+    before = termios.tcgetattr(seen)
+    core = gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    simulator = gazelle("rosrun", "turtlesim", "turtlesim_node", "_png:=turtle.png")
+    simulator.wait_for_line(r"Spawning turtle \[turtle1\] at x=\[5\.544445\], y=\[5\.544445\]")
+    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
+    teleop.wait_for_line("Use arrow keys to move the turtle. 'q' to quit.")
+    core.messages({"/turtle1/pose": 1})
+    poses: list = []
+    core.node.create_subscription("/turtle1/pose", "turtlesim/msg/Pose", poses.append)
+    os.write(keys, b"\x1b[A")
+    core.eventually(lambda: poses and poses[-1].x > 7.0 and poses[-1].linear_velocity == 0.0)
+    # A key holds for one second at 2 m/s.
+    assert poses[-1].x == pytest.approx(5.544 + 2.0, abs=0.1)
+    os.write(keys, b"\x1b[D")
+    core.eventually(lambda: poses[-1].theta > 1.5 and poses[-1].angular_velocity == 0.0)
+    assert poses[-1].theta == pytest.approx(2.0, abs=0.1)
+    os.write(keys, b"q")
+    assert teleop.wait() == 0
+    assert termios.tcgetattr(seen) == before
+    assert simulator.stop() == 0
+    with Image.open(tmp_path / "turtle.png") as image:
+        assert image.getpixel((300, 250)) == (0xB3, 0xB8, 0xFF)
+        assert image.getpixel((300, 100)) == (69, 86, 255)
+
+
+def test_ctrl_c_ends_the_keyboard_without_a_trace(gazelle: Callable, terminal) -> None:
+    _keys, seen = terminal
+    before = termios.tcgetattr(seen)
+    core = gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
+    teleop.wait_for_line("'q' to quit")
+    assert teleop.stop() == 0
+    assert "Traceback" not in teleop.text
+    assert termios.tcgetattr(seen) == before
+
+
+def test_keyboard_without_a_terminal_says_what_to_do(gazelle: Callable) -> None:
+    core = gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=-3)
+    assert teleop.wait() == 1
+    assert "standard input is no terminal: start it in a terminal of its own" in teleop.text
+
+
+def test_mimic_of_the_tutorial_goes_the_same_way(gazelle: Callable, tmp_path) -> None:
+    # wiki.ros.org/ROS/Tutorials/UsingRqtconsoleRoslaunch, with names of our own.
+    (tmp_path / "two.launch").write_text(
+        '<launch><group ns="one"><node pkg="turtlesim" name="sim" type="turtlesim_node"/></group>'
+        '<group ns="two"><node pkg="turtlesim" name="sim" type="turtlesim_node"/></group>'
+        '<node pkg="turtlesim" name="mimic" type="mimic"><remap from="input" to="one/turtle1"/>'
+        '<remap from="output" to="two/turtle1"/></node></launch>'
+    )
+    launch = gazelle("roslaunch", "two.launch")
+    launch.wait_for_line("setting /run_id to")
+    launch.messages({"/two/turtle1/pose": 1})
+    poses: list = []
+    launch.node.create_subscription("/two/turtle1/pose", "turtlesim/msg/Pose", poses.append)
+    launch.publish(
+        "/one/turtle1/cmd_vel",
+        "geometry_msgs/msg/Twist",
+        linear={"x": 1.0},
+        angular={"z": math.pi / 2},
+    )
+    launch.eventually(lambda: poses and poses[-1].angular_velocity == pytest.approx(math.pi / 2))
+    assert poses[-1].linear_velocity == 1.0
+    assert launch.stop() == 0
