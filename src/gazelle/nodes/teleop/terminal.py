@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import select
 import sys
@@ -58,8 +59,9 @@ class Keys:
         _error: BaseException | None,
         _trace: TracebackType | None,
     ) -> None:
-        """Put the settings back."""
-        termios.tcsetattr(self._descriptor, termios.TCSADRAIN, self._before)
+        """Put the settings back, if the terminal is still there."""
+        with contextlib.suppress(termios.error):
+            termios.tcsetattr(self._descriptor, termios.TCSADRAIN, self._before)
 
     def read(self, timeout_s: float) -> str | None:
         """Return the next key, empty when none comes in time, None when the terminal is gone."""
