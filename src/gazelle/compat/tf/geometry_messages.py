@@ -1,17 +1,23 @@
-"""tf2_geometry_msgs: points, vectors, poses and wrenches into other frames."""
+"""tf2_geometry_msgs: points, vectors, poses and wrenches into other frames, of ROS 1 and ROS 2."""
 
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.tf.tf2_ros import TransformRegistration, pose_of
+import numpy as np
+
+from gazelle.compat.tf.conversions import pose_of
+from gazelle.compat.tf.interface import TransformRegistration
 from gazelle.geometry import Pose
-from gazelle.interfaces import ros1_message_type
+from gazelle.interfaces import message_type, ros1_message_type
 
 __all__ = [
     "do_transform_point",
     "do_transform_pose",
+    "do_transform_pose_stamped",
+    "do_transform_pose_with_covariance_stamped",
     "do_transform_vector3",
     "do_transform_wrench",
     "register",
@@ -34,14 +40,29 @@ def do_transform_vector3(vector3: Any, transform: Any) -> Any:
 
 
 def do_transform_pose(pose: Any, transform: Any) -> Any:
+    """Return a ``PoseStamped``, or a ``Pose`` as since Humble, in the transform's frame."""
+    if not hasattr(pose, "header"):
+        found = copy.deepcopy(pose)
+        _move(found, transform)
+        return found
+    return do_transform_pose_stamped(pose, transform)
+
+
+def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
     """Return a ``PoseStamped`` in the transform's frame."""
     found = _copied(pose, transform)
-    at, turn = pose.pose.position, pose.pose.orientation
-    inner = Pose((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
-    result = pose_of(transform.transform) @ inner
-    to, onto = found.pose.position, found.pose.orientation
-    to.x, to.y, to.z = result.position_m
-    onto.x, onto.y, onto.z, onto.w = result.quat_xyzw
+    _move(found.pose, transform)
+    return found
+
+
+def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
+    """Return a ``PoseWithCovarianceStamped`` in the transform's frame, covariance turned too."""
+    found = _copied(pose, transform)
+    _move(found.pose.pose, transform)
+    turn = np.zeros((6, 6))
+    turn[:3, :3] = turn[3:, 3:] = pose_of(transform.transform).matrix()[:3, :3]
+    covariance = np.array(pose.pose.covariance, float).reshape(6, 6)
+    found.pose.covariance = (turn @ covariance @ turn.T).ravel().tolist()
     return found
 
 
@@ -54,22 +75,35 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
     return found
 
 
+_FUNCTIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "PointStamped": do_transform_point,
+    "PoseStamped": do_transform_pose_stamped,
+    "PoseWithCovarianceStamped": do_transform_pose_with_covariance_stamped,
+    "Vector3Stamped": do_transform_vector3,
+    "WrenchStamped": do_transform_wrench,
+}
+
+
 def register() -> None:
     """Let buffers transform these messages."""
     registration = TransformRegistration()
-    for name, function in (
-        ("PointStamped", do_transform_point),
-        ("PoseStamped", do_transform_pose),
-        ("Vector3Stamped", do_transform_vector3),
-        ("WrenchStamped", do_transform_wrench),
-    ):
-        registration.add(ros1_message_type(f"geometry_msgs/{name}"), function)
+    for name, function in _FUNCTIONS.items():
+        for make in (ros1_message_type, message_type):
+            registration.add(make(f"geometry_msgs/{name}"), function)
 
 
 def _copied(message: Any, transform: Any) -> Any:
     found = copy.deepcopy(message)
     found.header = copy.deepcopy(transform.header)
     return found
+
+
+def _move(pose: Any, transform: Any) -> None:
+    at, turn = pose.position, pose.orientation
+    inner = Pose((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
+    result = pose_of(transform.transform) @ inner
+    at.x, at.y, at.z = result.position_m
+    turn.x, turn.y, turn.z, turn.w = result.quat_xyzw
 
 
 def _rotate(vector: Any, pose: Pose) -> None:

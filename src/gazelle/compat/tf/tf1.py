@@ -109,7 +109,9 @@ class Transformer:
         Raises:
             Exception: there is no way from one to the other.
         """
-        return self._buffer.get_latest_common_time(_bare(target_frame), _bare(source_frame))
+        frames = _bare(target_frame), _bare(source_frame)
+        latest: Time = self._buffer.get_latest_common_time(*frames)
+        return latest
 
     def setTransform(self, transform: Any, authority: str = "") -> None:
         """Add a ``TransformStamped``."""

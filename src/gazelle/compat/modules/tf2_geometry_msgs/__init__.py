@@ -3,6 +3,8 @@
 from gazelle.compat.tf.geometry_messages import (
     do_transform_point,
     do_transform_pose,
+    do_transform_pose_stamped,
+    do_transform_pose_with_covariance_stamped,
     do_transform_vector3,
     do_transform_wrench,
     register,
@@ -13,6 +15,8 @@ register()
 __all__ = [
     "do_transform_point",
     "do_transform_pose",
+    "do_transform_pose_stamped",
+    "do_transform_pose_with_covariance_stamped",
     "do_transform_vector3",
     "do_transform_wrench",
 ]
