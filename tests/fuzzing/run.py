@@ -66,7 +66,10 @@ def read_damaged(
         slowest_s, slowest = max((slowest_s, slowest), (took_s, number))
         if first[-1:] and first[-1].startswith("crash"):
             crashes[number] = first[-1]
-        elif took_s > most_s * (1 + len(data) / _BYTES_PER_LIMIT) and not _is_ended(first):
+        elif _is_ended(first):
+            # After how much computing and so where depends on how busy the machine is.
+            continue
+        elif took_s > most_s * (1 + len(data) / _BYTES_PER_LIMIT):
             crashes[number] = f"it took {took_s:.2f} s"
         elif number % _TWICE_EVERY == 0 and read_one(kind, data, folder, workspace) != first:
             crashes[number] = "the second reading differs"
