@@ -142,7 +142,8 @@ def _report_missing(
         )
         diagnostics.report("launch.compiled-node", message, span)
         return
-    existing = sorted({*builtin_types(package), *_scripts(found)})
+    own = {*_scripts(found), *console_scripts(found.path)}
+    existing = sorted({*builtin_types(package), *own})
     known = f"the package has: {', '.join(existing)}" if existing else "the package has no nodes"
     message = f"Cannot locate node of type [{type_name}] in package [{package}]; {known}"
     fix = did_you_mean(type_name, existing)

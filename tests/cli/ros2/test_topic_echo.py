@@ -73,7 +73,12 @@ def test_long_arrays_end_with_dots_unless_they_shall_not(say: Any, once: Any) ->
 def test_filter_chooses_messages(robot: Node, run: Any, when_heard: Any) -> None:
     publisher = robot.create_publisher("/n", "std_msgs/msg/Int32")
     kind = message_type("std_msgs/msg/Int32")
-    when_heard("/n", lambda: [publisher.publish(kind(data=one)) for one in range(5)])
+
+    def publish() -> None:
+        for one in range(5):
+            publisher.publish(kind(data=one))
+
+    when_heard("/n", publish)
     words = ("/n", "--filter", "m.data > 2", "--once")
     assert run("ros2", "topic", "echo", *words) == (0, "data: 3\n---\n", "")
     assert "is not a Python expression" in run("ros2", "topic", "echo", "/n", "--filter", "a b").err
