@@ -1,0 +1,1 @@
+"""Bridges between the graph and what is outside of it: real ROS, viewers."""

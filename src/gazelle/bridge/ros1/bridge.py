@@ -1,0 +1,275 @@
+"""The bridge: keeps both sides' views of each other current."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+from gazelle.bridge.ros1.addresses import Address, MasterAddress
+from gazelle.bridge.ros1.crossing import Crossing
+from gazelle.bridge.ros1.mirror import Mirror, Traits
+from gazelle.bridge.ros1.parameter_sync import ParameterSync
+from gazelle.bridge.ros1.peers import MasterPeer, find_master
+from gazelle.bridge.ros1.presence import Presence, Wishes
+from gazelle.bridge.ros1.registry import State
+from gazelle.bridge.ros1.service_types import ServiceTypes
+from gazelle.bridge.ros1.services import call_service
+from gazelle.bridge.ros1.types import MessageKind, ServiceKind
+from gazelle.bridge.ros1.views import BRIDGE_NAME, TypeBook, traits_of, wishes_of
+from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
+from gazelle.errors import GraphError
+from gazelle.graph import Kind, Publisher
+from gazelle.graph.errors import ServiceUnavailableError, coded
+from gazelle.graph.names import split
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph, Node
+
+__all__ = ["Bridge"]
+
+_POLL_S = 0.5
+_IDLE_S = 5.0
+_SETTLE_S = 0.01
+_ENDING_S = 5.0
+_NOTHING: frozenset[str] = frozenset()
+_OF_REAL_ROSOUT = frozenset({"/rosout_agg"})
+
+
+class Bridge:
+    """Joins a graph and ROS 1.
+
+    Attributes:
+        master: the master, real or our own.
+    """
+
+    def __init__(self, graph: Graph, place: MasterAddress, address: Address) -> None:
+        """Find the master at a place, or be it; then bring over what there is.
+
+        Args:
+            graph: the graph.
+            place: the master's.
+            address: what servers of the bridge bind to and are called.
+
+        Raises:
+            GraphError: another bridge runs on the graph, or no master can be had.
+        """
+        _refuse_second(graph)
+        self._graph = graph
+        self._dirty = threading.Event()
+        self._ended = threading.Event()
+        self._lost = False
+        self._presences: dict[str, Presence] = {}
+        self._mirrors: dict[str, Mirror] = {}
+        self._lock = threading.RLock()
+        self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
+        self._workers = ThreadPoolExecutor(2, thread_name_prefix="ros1 bridge")
+        try:
+            self.master: MasterPeer = find_master(
+                graph.parameters, place, address, self._dirty.set, self._notice
+            )
+        except GraphError:
+            self._node.shutdown()
+            raise
+        self._skipped = _NOTHING if self.master.is_embedded else _OF_REAL_ROSOUT
+        self._book = TypeBook(self._notice)
+        self._services = ServiceTypes(self.master.ask, self._dirty.set, self._notice)
+        uri = self.master.uri
+        self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
+        self._own = Presence(self._crossing, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
+        self._sync = self._joined_parameters()
+        graph.discovery.listen(lambda entity, is_there: self._dirty.set())
+        self._dirty.set()
+        self._thread = threading.Thread(target=self._run, name="ros1 bridge", daemon=True)
+        self._thread.start()
+
+    @property
+    def nodes(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Names of the graph's nodes in ROS 1, and of ROS 1's nodes on the graph."""
+        with self._lock:
+            return tuple(sorted(self._presences)), tuple(sorted(self._mirrors))
+
+    def close(self) -> None:
+        """Take everything that is of the other side off both; calling it twice does nothing."""
+        if self._ended.is_set():
+            return
+        self._ended.set()
+        self._dirty.set()
+        self._thread.join(_ENDING_S)
+        self._services.close()
+        if self._sync is not None:
+            self._sync.close()
+        for presence in (*self._presences.values(), self._own):
+            self._end_presence(presence)
+        for mirror in self._mirrors.values():
+            mirror.close()
+        self._crossing.close()
+        self.master.close()
+        self._workers.shutdown(wait=False, cancel_futures=True)
+        self._node.shutdown()
+
+    def _run(self) -> None:
+        pause_s = _IDLE_S if self.master.is_embedded else _POLL_S
+        while not self._ended.is_set():
+            self._dirty.wait(pause_s)
+            # Changes come in swarms: a node announces all it has at once.
+            self._ended.wait(_SETTLE_S)
+            self._dirty.clear()
+            if self._ended.is_set():
+                return
+            try:
+                self._settle()
+            except RemoteError as error:
+                self._lose(error)
+            else:
+                self._find_again()
+
+    def _settle(self) -> None:
+        state = self.master.state()
+        entities = [one for one in self._graph.discovery.known() if one.zid != self._graph.zid]
+        taken = frozenset(node for node in _nodes(state) if node not in self._presences)
+        wishes = wishes_of(entities, taken - {BRIDGE_NAME}, self._skipped, self._book)
+        self._settle_presences(wishes)
+        own = frozenset({*self._presences, BRIDGE_NAME})
+        services = self._services.of(one for one in state.services if one[0] not in own)
+        traits = traits_of(state, own, self._skipped, services, self._book)
+        self._settle_mirrors(traits, {one.node for one in entities if one.kind is Kind.NODE})
+        self._settle_topics(wishes)
+
+    def _settle_presences(self, wishes: dict[str, Wishes]) -> None:
+        wishes = dict(wishes)
+        self._settle_presence(self._own, wishes.pop(BRIDGE_NAME, Wishes(BRIDGE_NAME, {}, {}, {})))
+        for name in set(self._presences) - set(wishes):
+            presence = self._presences[name]
+            self._crossing.forget_offers(presence.wishes.node, presence.wishes.publishers)
+            self._end_presence(presence)
+            with self._lock:
+                del self._presences[name]
+        for name, one in wishes.items():
+            presence = self._presences.get(name) or self._add_presence(name, one.node)
+            self._settle_presence(presence, one)
+
+    def _add_presence(self, name: str, node: str) -> Presence:
+        presence = Presence(self._crossing, self.master.ask, name, node)
+        self._crossing.own_uris.add(presence.uri)
+        with self._lock:
+            self._presences[name] = presence
+        return presence
+
+    def _settle_presence(self, presence: Presence, wishes: Wishes) -> None:
+        gone = set(presence.wishes.publishers) - set(wishes.publishers)
+        self._crossing.forget_offers(presence.wishes.node, gone)
+        presence.settle(wishes)
+
+    def _end_presence(self, presence: Presence) -> None:
+        # A master that went first has forgotten all of it.
+        with contextlib.suppress(RemoteError):
+            presence.close()
+        self._crossing.own_uris.discard(presence.uri)
+
+    def _settle_mirrors(self, traits: dict[str, Traits], ours: set[str]) -> None:
+        with self._lock:
+            gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
+        for mirror in gone:
+            mirror.close()
+        for name, one in traits.items():
+            self._mirror(name, ours).settle(one)
+
+    def _mirror(self, name: str, ours: set[str]) -> Mirror:
+        with self._lock:
+            known = self._mirrors.get(name)
+            if known is not None:
+                return known
+            shares = name in ours
+            node = self._node if shares else self._mirror_node(name)
+            made = Mirror(self._graph, name, node, self._call, shares=shares)
+            self._mirrors[name] = made
+            return made
+
+    def _mirror_node(self, name: str) -> Node:
+        namespace, base = split(name)
+        node = self._graph.create_node(base, namespace=namespace, rosout=False)
+        node.on_shutdown(lambda reason: self._end_in_ros1(name, node, reason))
+        return node
+
+    def _settle_topics(self, wishes: dict[str, Wishes]) -> None:
+        wanted = {topic for one in wishes.values() for topic in one.subscribers}
+        for topic in self._crossing.keep_topics(wanted):
+            for mirror in tuple(self._mirrors.values()):
+                mirror.forget_latched(topic)
+
+    def _voice_of(
+        self, node: str, topic: str, kind: MessageKind, latched: bool
+    ) -> Publisher | None:
+        with self._lock:
+            if self._ended.is_set() or node in self._presences or not node.startswith("/"):
+                return None
+            known = self._graph.discovery.known()
+            ours = {one.node for one in known if one.zid != self._graph.zid}
+            return self._mirror(node, ours).voice(topic, kind, latched)
+
+    def _call(self, service: str, kind: ServiceKind, request: Any) -> Any:
+        try:
+            uri = self.master.ask("lookupService", BRIDGE_NAME, service)
+        except RemoteError as error:
+            raise ServiceUnavailableError(f"service [{service}] unavailable: {error}") from error
+        return call_service(uri, service, kind, BRIDGE_NAME, request)
+
+    def _end_in_ros1(self, name: str, node: Node, reason: str) -> None:
+        """End a node of ROS 1 when somebody on the graph asks for it, not when we let it go."""
+        with self._lock:
+            mirror = self._mirrors.get(name)
+        if mirror is not None and mirror.speaks_through(node) and not self._ended.is_set():
+            self._workers.submit(self._shut_down, name, reason)
+
+    def _shut_down(self, name: str, reason: str) -> None:
+        try:
+            call(self.master.ask("lookupNode", BRIDGE_NAME, name), "shutdown", BRIDGE_NAME, reason)
+        except RemoteError as error:
+            self._notice(f"{name} was asked to end and did not answer: {error}")
+
+    def _joined_parameters(self) -> ParameterSync | None:
+        if self.master.is_embedded:
+            return None
+        sync = ParameterSync(self._graph.parameters, self.master.ask, BRIDGE_NAME, self._notice)
+        self._crossing.on_parameter = sync.changed
+        try:
+            sync.start(self._own.uri)
+        except (RemoteError, RemoteRefusedError):
+            self._lost = True
+        return sync
+
+    def _lose(self, error: RemoteError) -> None:
+        if self._lost:
+            return
+        self._lost = True
+        self._notice(f"the master does not answer, the bridge waits for it: {error}")
+        for presence in (*self._presences.values(), self._own):
+            presence.start_over()
+        with self._lock:
+            mirrors, self._mirrors = self._mirrors, {}
+        for mirror in mirrors.values():
+            mirror.close()
+        self._crossing.keep_topics(())
+
+    def _find_again(self) -> None:
+        if self._lost and self._sync is not None:
+            self._sync.start(self._own.uri)
+            self._lost = False
+            self._notice(f"the master at {self.master.uri} answers again")
+
+    def _notice(self, text: str) -> None:
+        if not self._node.closed:
+            self._node.log("warn", text)
+
+
+def _refuse_second(graph: Graph) -> None:
+    if BRIDGE_NAME in graph.node_names():
+        text = "a bridge to ROS 1 already runs on this graph; a second one would double messages"
+        raise GraphError(coded("bridge.second", text))
+
+
+def _nodes(state: State) -> set[str]:
+    sides = (state.publishers, state.subscribers, state.services)
+    return {node for side in sides for node, _ in side}

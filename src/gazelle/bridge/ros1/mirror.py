@@ -1,0 +1,163 @@
+"""A node of ROS 1 as the graph sees it: its name, topics and services."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gazelle.bridge.ros1.types import MessageKind, ServiceKind
+from gazelle.graph.keys import ANY_TYPE, NO_HASH, Entity, Kind, token
+from gazelle.graph.wire import hash_of
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph, Node, Publisher, ServiceServer
+
+__all__ = ["Mirror", "Traits"]
+
+
+class Traits(NamedTuple):
+    """What a node of ROS 1 offers and wants.
+
+    Attributes:
+        publishers: types by topic.
+        subscribers: topic → type on the graph, `ANY_TYPE` when any is taken.
+        services: types by name.
+    """
+
+    publishers: dict[str, MessageKind]
+    subscribers: dict[str, str]
+    services: dict[str, ServiceKind]
+
+
+class _Voice(NamedTuple):
+    kind: MessageKind
+    latched: bool
+    publisher: Publisher
+
+
+class Mirror:
+    """Stands for one node.
+
+    Attributes:
+        name: the node's name in ROS 1.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        name: str,
+        node: Node,
+        answer: Callable[[str, ServiceKind, Any], Any],
+        *,
+        shares: bool,
+    ) -> None:
+        """Announce nothing yet.
+
+        Args:
+            graph: where.
+            name: the node's name in ROS 1.
+            node: whose name is shown.
+            answer: (service, type, request) → response, asked of ROS 1.
+            shares: `node` belongs to others too and stays when this ends.
+        """
+        self.name = name
+        self._graph = graph
+        self._node = node
+        self._answer = answer
+        self._shares = shares
+        self._lock = threading.RLock()
+        self._closed = False
+        self._voices: dict[str, _Voice] = {}
+        self._tokens: dict[tuple[str, str], Any] = {}
+        self._services: dict[str, tuple[ServiceKind, ServiceServer]] = {}
+
+    def settle(self, traits: Traits) -> None:
+        """Announce these topics and services and no others."""
+        with self._lock:
+            if self._closed or self._node.closed:
+                return
+            for topic in set(self._voices) - set(traits.publishers):
+                self._voices.pop(topic).publisher.unregister()
+            for topic, kind in traits.publishers.items():
+                self.voice(topic, kind, None)
+            self._settle_subscribers(dict(traits.subscribers))
+            self._settle_services(traits.services)
+
+    def voice(self, topic: str, kind: MessageKind, latched: bool | None) -> Publisher | None:
+        """Return what publishes on a topic for the node; None after `close`.
+
+        Args:
+            topic: global name.
+            kind: its type.
+            latched: whether late subscriptions get the last message, None to leave it.
+        """
+        with self._lock:
+            if self._closed or self._node.closed:
+                return None
+            known = self._voices.get(topic)
+            keep = known is not None and latched is None
+            wanted = known.latched if known is not None and keep else bool(latched)
+            if known is not None and known.kind == kind and known.latched == wanted:
+                return known.publisher
+            if known is not None:
+                known.publisher.unregister()
+            made = self._node.create_publisher(topic, kind.message_class, latch=wanted)
+            self._voices[topic] = _Voice(kind, wanted, made)
+            return made
+
+    def speaks_through(self, node: Node) -> bool:
+        """Return whether a node of the graph is this one's, and not let go."""
+        return self._node is node and not self._closed
+
+    def forget_latched(self, topic: str) -> None:
+        """Drop what the topic has latched: nobody renews it while nobody listens."""
+        with self._lock:
+            known = self._voices.get(topic)
+            if known is not None and known.latched:
+                self.voice(topic, known.kind, False)
+
+    def close(self) -> None:
+        """Take the node off the graph."""
+        with self._lock:
+            if self._closed:
+                return
+            self.settle(Traits({}, {}, {}))
+            self._closed = True
+        if not self._shares:
+            self._node.shutdown()
+
+    def _settle_subscribers(self, wanted: dict[str, str]) -> None:
+        for key in set(self._tokens) - set(wanted.items()):
+            self._tokens.pop(key).undeclare()
+        for topic, type_name in wanted.items():
+            if (topic, type_name) in self._tokens:
+                continue
+            # Announced only: messages are taken while there is a connection to send them on.
+            entity = Entity(
+                self._graph.zid,
+                self._node.entity.node_id,
+                self._graph.next_id(),
+                Kind.SUBSCRIPTION,
+                self._node.name,
+                topic,
+                type_name,
+                NO_HASH if type_name == ANY_TYPE else hash_of(type_name),
+            )
+            text = token(self._graph.domain, entity)
+            liveliness = self._graph.session.liveliness()
+            self._tokens[topic, type_name] = liveliness.declare_token(text)
+
+    def _settle_services(self, wanted: Mapping[str, ServiceKind]) -> None:
+        for name in list(self._services):
+            if wanted.get(name) != self._services[name][0]:
+                self._services.pop(name)[1].unregister()
+        for name, kind in wanted.items():
+            if name not in self._services:
+                server = self._node.create_service(
+                    name, kind.service_class, self._answerer(name, kind)
+                )
+                self._services[name] = (kind, server)
+
+    def _answerer(self, name: str, kind: ServiceKind) -> Callable[[Any], Any]:
+        return lambda request: self._answer(name, kind, request)

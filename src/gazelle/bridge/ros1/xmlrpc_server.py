@@ -1,0 +1,117 @@
+"""Serving XMLRPC over a connection that was accepted elsewhere."""
+
+from __future__ import annotations
+
+import http.server
+import socket
+import traceback
+import xmlrpc.client
+from collections.abc import Callable, Mapping
+from inspect import signature
+from typing import Any
+
+from gazelle.bridge.ros1.xmlrpc_call import MOST_BODY_BYTES, decoded
+
+__all__ = ["Methods", "Notice", "serve_calls"]
+
+Methods = Mapping[str, Callable[..., Any]]
+Notice = Callable[[str], None]
+
+_IDLE_S = 60.0
+_ERROR = -1
+_MULTICALL = "system.multicall"
+
+
+def serve_calls(
+    stream: socket.socket, methods: Methods, hosts: frozenset[str], notice: Notice
+) -> None:
+    """Answer the calls that come over a connection until it ends.
+
+    Args:
+        stream: the connection, closed by the caller.
+        methods: by name; each returns ROS 1's (code, text, value).
+        hosts: names this server may be called by; a page of a browser knows others.
+        notice: told of failures in a method.
+    """
+    stream.settimeout(_IDLE_S)
+
+    class Calls(_Calls):
+        pass
+
+    Calls.methods, Calls.hosts, Calls.notice = methods, hosts, staticmethod(notice)
+    Calls(stream, ("", 0), None)  # type: ignore[arg-type]  # no server is behind it
+
+
+class _Calls(http.server.BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+    methods: Methods
+    hosts: frozenset[str]
+    notice: Notice
+    wbufsize = -1
+    disable_nagle_algorithm = True
+
+    def do_POST(self) -> None:
+        size = self.headers.get("Content-Length", "")
+        host = self.headers.get("Host", "").rpartition(":")[0].lower()
+        if host not in self.hosts or "Origin" in self.headers:
+            self._refuse(403, f"'{host}' is not a name of this server")
+        elif not size.isdigit():
+            self._refuse(411, "Content-Length is needed")
+        elif int(size) > MOST_BODY_BYTES:
+            self._refuse(413, f"more than {MOST_BODY_BYTES} bytes")
+        else:
+            self._answer(self.rfile.read(int(size)))
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Keep quiet; a master is asked many times a second."""
+
+    def _refuse(self, status: int, text: str) -> None:
+        self.close_connection = True
+        self.send_error(status, text)
+
+    def _answer(self, body: bytes) -> None:
+        try:
+            arguments, method = decoded(body)
+        except (ValueError, xmlrpc.client.Error) as error:
+            self._refuse(400, str(error).replace("\n", " ")[:200])
+            return
+        data = _written(self._result(method or "", arguments))
+        self.send_response(200)
+        self.send_header("Content-Type", "text/xml")
+        self.send_header("Content-Length", str(len(data)))
+        self.end_headers()
+        self.wfile.write(data)
+
+    def _result(self, method: str, arguments: tuple[Any, ...]) -> Any:
+        if method == _MULTICALL:
+            return self._results(arguments)
+        found = self.methods.get(method)
+        if found is None:
+            return xmlrpc.client.Fault(1, f'method "{method}" is not supported')
+        try:
+            signature(found).bind(*arguments)
+        except TypeError as error:
+            return [_ERROR, f"wrong arguments of {method}: {error}", 0]
+        try:
+            return found(*arguments)
+        except Exception as error:  # noqa: BLE001 - the caller is told, and the other calls go on
+            type(self).notice(f"{method} failed: {error}\n{traceback.format_exc().rstrip()}")
+            return [_ERROR, str(error), 0]
+
+    def _results(self, arguments: tuple[Any, ...]) -> Any:
+        calls = arguments[0] if len(arguments) == 1 and isinstance(arguments[0], list) else []
+        results: list[Any] = []
+        for one in calls:
+            well = isinstance(one, dict) and isinstance(one.get("params"), list)
+            name = str(one.get("methodName", "")) if well else ""
+            result = self._result(name, tuple(one["params"])) if name != _MULTICALL and well else 0
+            is_fault = isinstance(result, xmlrpc.client.Fault) or result == 0
+            text = result.faultString if isinstance(result, xmlrpc.client.Fault) else "bad call"
+            fault = {"faultCode": 1, "faultString": text}
+            results.append(fault if is_fault else [result])
+        return results
+
+
+def _written(result: Any) -> bytes:
+    value = result if isinstance(result, xmlrpc.client.Fault) else (result,)
+    return xmlrpc.client.dumps(value, methodresponse=True, allow_none=True).encode()

@@ -1,0 +1,74 @@
+"""``gazelle bridge ros1``: real ROS 1 and the graph see each other."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import threading
+from typing import Any
+
+from gazelle.bridge.ros1 import Address, Bridge, master_address, own_address
+from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.graph import Graph
+
+__all__ = ["main"]
+
+
+def main(argv: list[str]) -> int:
+    """Run until Ctrl-C."""
+    options = _parser().parse_args(argv)
+    place = master_address(os.environ, options.port)
+    address = own_address(os.environ)
+    learn_workspace_types()
+    stop = threading.Event()
+    _stop_on_signals(stop)
+    environ = dict(os.environ)
+    if options.port is not None:
+        environ["ROS_MASTER_URI"] = place.uri
+    with Graph.open(environ=environ) as graph:
+        bridge = Bridge(graph, place, address)
+        try:
+            _say(bridge, address)
+            stop.wait()
+        finally:
+            bridge.close()
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="gazelle bridge ros1",
+        description="Joins the graph and ROS 1. Joins the master at ROS_MASTER_URI if one runs "
+        "there, else it is the master. Topics flow only while the other side subscribes.",
+    )
+    parser.add_argument(
+        "-p",
+        "--port",
+        type=int,
+        help="port of the master on this machine, in place of ROS_MASTER_URI",
+    )
+    return parser
+
+
+def _say(bridge: Bridge, address: Address) -> None:
+    what = "is the master" if bridge.master.is_embedded else "has joined the master"
+    print(f"the bridge {what} at {bridge.master.uri}", flush=True)
+    print(
+        f"  in shells of ROS 1: export ROS_MASTER_URI={bridge.master.uri.rstrip('/')}", flush=True
+    )
+    if not address.is_loopback:
+        print(
+            f"gazelle bridge ros1: other machines can reach it as {address.host}, and ROS 1 asks "
+            "nobody for a password; unset ROS_HOSTNAME and ROS_IP for this machine only",
+            file=sys.stderr,
+        )
+
+
+def _stop_on_signals(stop: threading.Event) -> None:
+    def on_signal(_number: int, _frame: Any) -> None:
+        stop.set()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)

@@ -1,0 +1,34 @@
+"""Codes of the bridges to real ROS."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+ENTRIES = (
+    Entry(
+        "bridge.master-port-taken",
+        "error",
+        "The port of the ROS 1 master belongs to another program",
+        "The bridge is the master where none runs, and nodes look for it at ROS_MASTER_URI.",
+        "end that program, or choose another port in ROS_MASTER_URI in all shells",
+        "Unable to start XML-RPC server, port 11311 is already in use",
+    ),
+    Entry(
+        "bridge.no-master",
+        "error",
+        "No ROS 1 master answers on the machine that ROS_MASTER_URI names",
+        "The bridge is the master only on its own machine.",
+        "start roscore there, or point ROS_MASTER_URI at this machine",
+        "Unable to register with master node: master may not be running yet. Will keep trying.",
+    ),
+    Entry(
+        "bridge.second",
+        "error",
+        "Another bridge to ROS 1 runs on the graph",
+        "Two of them would carry each message over twice, and back again.",
+        "end the other one (gazelle rosnode kill /ros1_bridge), or use it",
+        "",
+    ),
+)

@@ -1,0 +1,218 @@
+"""The bridge as a whole: masters, names, ends."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from tests.bridge.ros1.peer import Peer, ask, string_bytes
+
+from gazelle.bridge.ros1 import Address, Bridge, MasterAddress
+from gazelle.bridge.ros1.peers import EmbeddedMaster
+from gazelle.errors import GraphError
+from gazelle.graph import Graph
+
+Eventually = Callable[[Callable[[], Any]], Any]
+HERE = "127.0.0.1"
+ADDRESS = Address(HERE, HERE, frozenset({HERE}))
+STRING = "std_msgs/String"
+STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
+
+
+@pytest.fixture
+def master(free_port: int) -> Iterator[EmbeddedMaster]:
+    """A master that is not the bridge's, with parameters of its own."""
+    with Graph.open(port=free_port + 20_000, environ={}) as elsewhere:
+        found = EmbeddedMaster(
+            elsewhere.parameters, MasterAddress(HERE, 0), ADDRESS, lambda: None, print
+        )
+        yield found
+        found.close()
+
+
+@pytest.fixture
+def joined(make_bridge: Callable[..., Bridge], master: EmbeddedMaster) -> Bridge:
+    """A bridge that has joined that master."""
+    port = int(master.uri.rstrip("/").rpartition(":")[2])
+    return make_bridge(MasterAddress(HERE, port))
+
+
+def test_second_bridge_is_refused(bridge: Bridge, make_bridge: Callable[..., Bridge]) -> None:
+    with pytest.raises(GraphError, match=r"already runs on this graph.*\[bridge\.second\]"):
+        make_bridge()
+
+
+def test_port_of_another_program_is_told(make_bridge: Callable[..., Bridge]) -> None:
+    with socket.create_server((HERE, 0)) as other:
+        port = other.getsockname()[1]
+        with pytest.raises(GraphError, match=rf"port {port} is taken.*bridge\.master-port-taken"):
+            make_bridge(MasterAddress(HERE, port))
+
+
+def test_master_on_another_machine_must_run(make_bridge: Callable[..., Bridge]) -> None:
+    with pytest.raises(GraphError, match=r"no ROS 1 master answers.*\[bridge\.no-master\]"):
+        make_bridge(MasterAddress("nowhere.invalid", 11311))
+
+
+def test_nodes_of_both_sides_show_on_the_other(
+    graph: Graph, bridge: Bridge, peer: Peer, eventually: Eventually
+) -> None:
+    graph.create_node("talker", namespace="/robot")
+    peer.publish_on("/hello", STRING, STRING_MD5)
+    eventually(lambda: bridge.nodes == (("/robot/talker",), ("/peer",)))
+    uri = peer.call("lookupNode", "/robot/talker")
+    assert ask(uri, "getPid", "/peer")[0] == 1
+    assert ask(uri, "getPublications", "/peer")[2] == [["/rosout", "rosgraph_msgs/Log"]]
+    assert ask(uri, "getSubscriptions", "/peer")[2] == []
+    assert ask(uri, "getMasterUri", "/peer")[2] == bridge.master.uri
+    assert graph.node_info("/peer").publications[0].name == "/hello"
+
+
+def test_connections_are_listed(graph: Graph, peer: Peer, eventually: Eventually) -> None:
+    node = graph.create_node("talker", rosout=False)
+    node.create_publisher("/chatter", "std_msgs/msg/String")
+    node.create_subscription("/hello", "std_msgs/msg/String", lambda message: None)
+    peer.publish_on("/hello", STRING, STRING_MD5, string_bytes("x"))
+    eventually(lambda: "/talker" in str(peer.call("getSystemState")[0]))
+    uri = peer.call("lookupNode", "/talker")
+    peer.subscribe(uri, "/chatter")
+    wanted = [
+        [1, "/peer", "o", "TCPROS", "/chatter", True],
+        [2, "/peer", "i", "TCPROS", "/hello", True],
+    ]
+    eventually(lambda: ask(uri, "getBusInfo", "/peer")[2] == wanted)
+    assert ask(uri, "getBusStats", "/peer")[2] == [[["/chatter", 0, [[1, 0, 0, 1]]]], [], []]
+
+
+def test_node_that_ends_leaves_the_master(graph: Graph, peer: Peer, eventually: Eventually) -> None:
+    node = graph.create_node("talker")
+    peer.call("registerSubscriber", "/rosout", "rosgraph_msgs/Log", peer.uri)
+    eventually(lambda: peer.call("getSystemState")[0])
+    node.shutdown()
+    eventually(lambda: peer.call("getSystemState")[0] == [])
+    eventually(lambda: peer.updates[-1] == ("publisherUpdate", ("/master", "/rosout", [])))
+
+
+def test_shutdown_from_ros1_ends_the_node(graph: Graph, peer: Peer, eventually: Eventually) -> None:
+    node = graph.create_node("talker")
+    eventually(lambda: peer.call("getSystemState")[0])
+    assert ask(peer.call("lookupNode", "/talker"), "shutdown", "/rosnode", "user request")[0] == 1
+    eventually(lambda: node.closed)
+
+
+def test_ending_a_node_of_ros1_reaches_it(graph: Graph, peer: Peer, eventually: Eventually) -> None:
+    peer.publish_on("/hello", STRING, STRING_MD5)
+    eventually(lambda: "/peer" in graph.node_names())
+    assert graph.kill_node("/peer", "enough")
+    eventually(lambda: ("shutdown", ("/ros1_bridge", "enough")) in peer.updates)
+
+
+def test_newer_node_of_the_same_name_ends_the_older(
+    graph: Graph, make_peer: Callable[..., Peer], eventually: Eventually
+) -> None:
+    node = graph.create_node("talker")
+    peer = make_peer("/talker")
+    eventually(lambda: peer.call("getSystemState")[0])
+    peer.publish_on("/hello", STRING, STRING_MD5)
+    eventually(lambda: node.closed)
+    eventually(lambda: graph.publishers_info("/hello"))
+    assert peer.call("lookupNode", "/talker") == peer.uri
+
+
+def test_master_that_runs_is_joined_and_left(
+    graph: Graph, master: EmbeddedMaster, joined: Bridge, eventually: Eventually
+) -> None:
+    assert joined.master.uri == master.uri
+    assert not joined.master.is_embedded
+    graph.create_node("talker").create_publisher("/chatter", "std_msgs/msg/String")
+    eventually(lambda: ("/talker", "/chatter") in master.state().publishers)
+    joined.close()
+    assert not any(master.state()[:3])
+
+
+def test_name_that_ros1_uses_gets_an_ending(
+    graph: Graph, master: EmbeddedMaster, make_bridge: Callable[..., Bridge],
+    eventually: Eventually,
+) -> None:  # fmt: skip
+    graph.create_node("rosout", rosout=False).create_publisher("/a", "std_msgs/msg/String")
+    peer = Peer(master.uri, "/rosout")
+    peer.call("registerPublisher", "/hello", STRING, peer.uri)
+    make_bridge(MasterAddress(HERE, int(master.uri.rstrip("/").rpartition(":")[2])))
+    eventually(lambda: ("/rosout_gazelle", "/a") in master.state().publishers)
+    eventually(lambda: graph.publishers_info("/hello"))
+    assert graph.publishers_info("/hello")[0].node == "/ros1_bridge"
+    assert not peer.updates
+    peer.close()
+
+
+def test_parameters_of_both_sides_become_one(
+    graph: Graph, master: EmbeddedMaster, make_bridge: Callable[..., Bridge],
+    eventually: Eventually,
+) -> None:  # fmt: skip
+    graph.parameters.set("/ours", {"a": 1})
+    graph.parameters.set("/both", "ours")
+    for name, value in (("/theirs", [1.5, True]), ("/both", "theirs")):
+        master.ask("setParam", "/peer", name, value)
+    make_bridge(MasterAddress(HERE, int(master.uri.rstrip("/").rpartition(":")[2])))
+    assert graph.parameters.get("/theirs") == [1.5, True]
+    assert graph.parameters.get("/both") == "theirs"
+    assert master.ask("getParam", "/peer", "/ours/a") == 1
+    graph.parameters.set("/ours/a", 2)
+    eventually(lambda: master.ask("getParam", "/peer", "/ours/a") == 2)
+    master.ask("setParam", "/peer", "/theirs", "new")
+    eventually(lambda: graph.parameters.get("/theirs") == "new")
+    master.ask("deleteParam", "/peer", "/theirs")
+    eventually(lambda: not graph.parameters.has("/theirs"))
+    graph.parameters.delete("/ours/a")
+    eventually(lambda: not master.ask("hasParam", "/peer", "/ours/a"))
+
+
+def test_master_that_comes_back_learns_everything_again(
+    graph: Graph, master: EmbeddedMaster, joined: Bridge, eventually: Eventually,
+    capfd: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    graph.create_node("talker").create_publisher("/chatter", "std_msgs/msg/String")
+    eventually(lambda: ("/talker", "/chatter") in master.state().publishers)
+    master.close()
+    seen: list[str] = []
+
+    def told() -> bool:
+        seen.append(capfd.readouterr().err)
+        return "the master does not answer" in "".join(seen)
+
+    eventually(told)
+    port = int(master.uri.rstrip("/").rpartition(":")[2])
+    again = EmbeddedMaster(
+        graph.parameters, MasterAddress(HERE, port), ADDRESS, lambda: None, print
+    )
+    try:
+        eventually(lambda: ("/talker", "/chatter") in again.state().publishers)
+    finally:
+        joined.close()
+        again.close()
+
+
+def test_topic_that_ros1_does_not_define_is_told_once(
+    graph: Graph, bridge: Bridge, peer: Peer, capfd: pytest.CaptureFixture[str],
+    eventually: Eventually,
+) -> None:  # fmt: skip
+    node = graph.create_node("talker", rosout=False)
+    node.create_publisher("/one", "geometry_msgs/msg/VelocityStamped")
+    node.create_publisher("/two", "geometry_msgs/msg/VelocityStamped")
+    eventually(lambda: len(peer.call("getSystemState")[0]) == 2)
+    text = capfd.readouterr().err
+    assert text.count("VelocityStamped, which ROS 1 does not define") == 1
+
+
+def test_topic_of_an_unknown_type_is_told(
+    graph: Graph, bridge: Bridge, peer: Peer, capfd: pytest.CaptureFixture[str],
+    eventually: Eventually,
+) -> None:  # fmt: skip
+    peer.publish_on("/odd", "odd_msgs/Odd", "0" * 32)
+    peer.publish_on("/hello", STRING, STRING_MD5)
+    eventually(lambda: graph.publishers_info("/hello"))
+    text = capfd.readouterr().err
+    assert "topic /odd of /peer does not cross the bridge" in text
+    assert "odd_msgs/Odd" in text
