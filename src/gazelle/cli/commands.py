@@ -52,6 +52,7 @@ COMMANDS: dict[str, Command] = {
     "ign": Command("gazelle.cli.sdf.ign", "ign sdf of Fortress: print, check, draw SDF files"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
+    "catkin_create_pkg": Command("gazelle.cli.catkin_create_pkg", "write a package for ROS 1"),
     "colcon": Command("gazelle.cli.colcon", "build, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

@@ -13,6 +13,7 @@ from gazelle.workspace import Workspace
 __all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment", "ros_home"]
 
 ROS_COMMANDS = (
+    "catkin_create_pkg",
     "check_urdf",
     "colcon",
     "gazebo",
