@@ -165,6 +165,8 @@ def _joints_heard(
             names |= _joints_in(text) if text is not None else set()
         elif node.role is Role.SIMULATOR:
             names |= starts[node.full_name].joint_states.get(topic, frozenset())
+        elif item.joints:
+            names |= item.joints
         else:
             return None
     return frozenset(names)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gazelle.doctor.dry_start import DryStart
+from gazelle.doctor.launch.builtin_topics import BuiltinTopics, builtin_topics
 from gazelle.doctor.launch.known_nodes import KnownNode, known_node
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.launch.script_reading import read_script
@@ -26,6 +27,7 @@ class NodeTopics:
         written: names before remapping that its code uses, global.
         is_complete: the node surely uses no others.
         known: what is known of joint states and tf of a node whose topics are not.
+        joints: whose states a built-in node sends, where it always sends the same.
     """
 
     node: LaunchedNode
@@ -34,6 +36,7 @@ class NodeTopics:
     written: frozenset[str]
     is_complete: bool = True
     known: KnownNode | None = None
+    joints: frozenset[str] = frozenset()
 
 
 def topics_of(launched: Launched, starts: Mapping[str, DryStart]) -> tuple[NodeTopics, ...]:
@@ -68,6 +71,9 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             return _of_relay(node)
         case Role.MODEL_SPAWNER | Role.CONTROLLER_SPAWNER:
             return _named(node, {}, {})
+    builtin = builtin_topics(node, launched)
+    if builtin is not None:
+        return _of_builtin(node, builtin)
     known = known_node(node, launched)
     return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=known)
 
@@ -86,6 +92,18 @@ def _named(
         {node.resolve(name): kind for name, kind in listens.items()},
         written,
         is_complete,
+    )
+
+
+def _of_builtin(node: LaunchedNode, found: BuiltinTopics) -> NodeTopics:
+    named = _named(node, found.publishes, found.listens, found.is_complete)
+    place, own = node.program.namespace, node.full_name
+    others = {resolve(name, place, node=own) for name in found.other_names}
+    return replace(
+        named,
+        written=named.written | others,
+        known=KnownNode(found.transforms),
+        joints=frozenset(found.joints),
     )
 
 
