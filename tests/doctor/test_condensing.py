@@ -29,7 +29,7 @@ def test_packages_of_ros_are_one_warning_and_a_wrong_name_stays_an_error(
     written: Write, examined: Examine
 ) -> None:
     node = '<node pkg="{}" type="t" name="n{}"/>'
-    names = ("amcl", "map_server", "shop", "moev_base")
+    names = ("amcl", "hokuyo_maker", "shop", "moev_base")
     nodes = "".join(node.format(name, index) for index, name in enumerate(names))
     manifest = '<package format="2"><name>bot</name><version>1.0.0</version>'
     manifest += "<exec_depend>shop</exec_depend></package>"
@@ -43,7 +43,7 @@ def test_packages_of_ros_are_one_warning_and_a_wrong_name_stays_an_error(
     found = [item for item in examined(folder, "bot").findings if "launch" in str(item.span)]
     elsewhere = next(item for item in found if item.code == "doctor.packages-elsewhere")
     assert elsewhere.severity is Severity.WARNING
-    assert "amcl (one.launch, two.launch), map_server (one.launch), shop" in elsewhere.message
+    assert "amcl (one.launch, two.launch), hokuyo_maker (one.launch), shop" in elsewhere.message
     (wrong,) = (item for item in found if item.code == "launch.package-missing")
     assert (wrong.severity, "'moev_base' not found" in wrong.message) == (Severity.ERROR, True)
 
@@ -88,6 +88,14 @@ def test_library_of_many_sensors_is_told_once() -> None:
     found = condensed(_found("plugin.compiled", *(text.format(*item) for item in names)))
     assert [item.message.partition("'")[2][:8] for item in found] == ["libcliff", "libbump."]
     assert found[0].message.endswith("the same library in one more place")
+
+
+def test_class_of_many_controllers_is_told_once() -> None:
+    text = "'/spawner' cannot load controller '{}': Could not load class 'dog/Joint': it is not"
+    (found,) = condensed(
+        _found("doctor.controller-fails", *(text.format(name) for name in ("hip", "knee", "toe")))
+    )
+    assert found.message.endswith("the same class in 2 more places")
 
 
 def test_places_looked_in_are_cut_to_three() -> None:

@@ -60,6 +60,16 @@ def test_impossible_inertia_becomes_a_spheres_and_is_reported(tensor):
     assert moments == pytest.approx([moments[0]] * 3) and moments[0] > 0
 
 
+@pytest.mark.parametrize("moment", [1e-14, 1e-16, 1e-30])
+def test_inertia_below_what_mujoco_tells_from_nothing_is_raised(moment):
+    """Thrusters and lenses have such ones, and Gazebo takes them."""
+    tensor = (moment, 0, 0, moment, 0, moment)
+    link = Link("l", inertial=Inertial(1e-7, inertia_kg_m2=tensor))
+    engine, diagnostics = engine_of(Model("m", links=(link,)))
+    assert engine.model.body_inertia[engine.body_id("m::l")] == pytest.approx([1e-13] * 3)
+    assert len(diagnostics) == 0
+
+
 def test_rotated_inertia_keeps_its_moments():
     turned = Pose.from_xyz_rpy((0.1, 0, 0), (0.3, -0.4, 1.0))
     link = Link("l", inertial=Inertial(2.0, turned, (0.1, 0, 0, 0.2, 0, 0.25)))

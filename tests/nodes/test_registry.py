@@ -20,6 +20,7 @@ def test_every_node_has_a_function_and_help(node) -> None:
         ("gazebo", "spawn_model", "spawn_model"),
         ("gazebo_ros", "gazebo", "gzserver"),
         ("rviz", "rviz", "gzclient"),
+        ("joint_state_publisher_gui", "joint_state_publisher_gui", "joint_state_publisher"),
     ],
 )
 def test_old_names_are_aliases(package: str, type_name: str, target: str) -> None:

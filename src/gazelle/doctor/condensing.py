@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePath
 
-from gazelle.diagnostics import Diagnostic, Diagnostics
-from gazelle.doctor.packages.known_packages import is_ros_package
+from gazelle.diagnostics import Diagnostic, Diagnostics, nearest_names
+from gazelle.doctor.packages.dependency_checks import is_slip
+from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
 
 __all__ = ["condensed"]
 
@@ -17,6 +18,7 @@ _ELSEWHERE = re.compile(r"packages that are not in this workspace: ([^;\n]+);")
 _MODEL = re.compile(r"'model://[^'\n]*' not found: there is no model '([^'\n]+)'")
 _MATERIAL = re.compile(r"material '([^'/\n]+)/[^'\n]*' is not known")
 _NODE = re.compile(r"node of type \[([^]]+)\] in package \[([^]]+)\]")
+_CLASS = re.compile(r"Could not load class '([^'\n]+)'")
 _LIBRARY = re.compile(r"plug-in '([^'\n]*)'")
 _MODEL_CODES = frozenset({"material.script-missing", "sdf.missing-file", "sdf.missing-model"})
 _PLUGIN_CODES = ("plugin.compiled", "plugin.unknown")
@@ -28,7 +30,7 @@ _NAMES_SHOWN = 12
 Name = Callable[[Diagnostic], str]
 
 
-def condensed(findings: Sequence[Diagnostic], declared: Iterable[str] = ()) -> list[Diagnostic]:
+def condensed(findings: Sequence[Diagnostic], packages: Iterable[str] = ()) -> list[Diagnostic]:
     """Return findings with those about one fact made one, at the place of the first.
 
     What stands in the user's files keeps its places. Put together is what is true of the whole
@@ -37,17 +39,18 @@ def condensed(findings: Sequence[Diagnostic], declared: Iterable[str] = ()) -> l
 
     Args:
         findings: in the order found.
-        declared: packages that manifests of the workspace name: they exist, if not here.
+        packages: names that exist: packages of the workspace and those its manifests name.
     """
-    known = frozenset(declared)
+    known = frozenset(packages) | known_packages()
     kept = [item for item in findings if item.code not in _IN_TABLES]
     kept = _packages(kept, known)
     kept = _of_one_code(kept, "launch_ros2.packages-elsewhere", _elsewhere)
     kept = _of_one_code(kept, "launch_ros2.static", _static)
     kept = _of_one_code(kept, "launch.compiled-node", _compiled_nodes)
+    kept = _by_name(kept, "doctor.controller-fails", _CLASS, "the same class")
     kept = _models(kept)
     for code in _PLUGIN_CODES:
-        kept = _by_library(kept, code)
+        kept = _by_name(kept, code, _LIBRARY, "the same library")
     return [_with_few_places(item) for item in kept]
 
 
@@ -72,25 +75,28 @@ def _replaced(
     ]
 
 
-def _packages(findings: list[Diagnostic], declared: frozenset[str]) -> list[Diagnostic]:
-    """Tell packages of ROS that are not here from names that are wrong."""
+def _packages(findings: list[Diagnostic], known: frozenset[str]) -> list[Diagnostic]:
+    """Tell packages that are not here from names that are wrong."""
     group = [
         item
         for item in findings
-        if item.code == "launch.package-missing" and _is_elsewhere(_package(item), declared)
+        if item.code == "launch.package-missing" and _is_elsewhere(_package(item), known)
     ]
     if not group:
         return findings
     uses = _listed(_counted(group, _package))
-    text = f"packages of ROS that are not here and that Gazelle does not bring along: {uses}; "
+    text = f"packages that are not here and that Gazelle does not bring along: {uses}; "
     text += "what launch files take from them is not started here"
     made = Diagnostics()
     made.report("doctor.packages-elsewhere", text, group[0].span)
     return _replaced(findings, group, next(iter(made)))
 
 
-def _is_elsewhere(name: str, declared: frozenset[str]) -> bool:
-    return bool(name) and (name in declared or is_ros_package(name))
+def _is_elsewhere(name: str, known: frozenset[str]) -> bool:
+    if not name or name in known or is_ros_package(name):
+        return bool(name)
+    near = nearest_names(name, known, count=1)
+    return not (near and is_slip(name, near[0]))
 
 
 def _package(item: Diagnostic) -> str:
@@ -166,16 +172,18 @@ def _folded(name: str) -> str:
     return name.replace("_", "").casefold()
 
 
-def _by_library(findings: list[Diagnostic], code: str) -> list[Diagnostic]:
-    """Say once of each library what becomes of the plug-ins in it."""
+def _by_name(
+    findings: list[Diagnostic], code: str, pattern: re.Pattern[str], what: str
+) -> list[Diagnostic]:
+    """Say once of each library or class what becomes of everything that is of it."""
     groups: dict[str, list[Diagnostic]] = {}
     for item in findings:
-        found = _LIBRARY.search(item.message)
+        found = pattern.search(item.message)
         if item.code == code and found:
             groups.setdefault(found[1], []).append(item)
     for group in groups.values():
         if len(group) > 1:
-            text = f"{group[0].message}\n  the same library {_times(len(group) - 1)}"
+            text = f"{group[0].message}\n  {what} {_times(len(group) - 1)}"
             findings = _replaced(findings, group, replace(group[0], message=text))
     return findings
 

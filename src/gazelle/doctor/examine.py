@@ -65,9 +65,10 @@ def examine(
 
 
 def _findings(examination: Examination) -> list[Diagnostic]:
-    packages = examination.workspace.packages.values()
-    declared = {name for item in packages if not item.is_builtin for name in item.depends}
-    return condensed(_once(without_superseded(tuple(examination.diagnostics))), declared)
+    packages = examination.workspace.packages
+    own = [item for item in packages.values() if not item.is_builtin]
+    known = {*packages, *(name for item in own for name in item.depends)}
+    return condensed(_once(without_superseded(tuple(examination.diagnostics))), known)
 
 
 def _once(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:

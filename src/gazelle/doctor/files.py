@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.loader import load_models
+from gazelle.description.model import Model
 from gazelle.description.xml import read_xml
-from gazelle.diagnostics import Diagnostics
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.descriptions import examine_models
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.examination import Examination
@@ -23,6 +25,7 @@ from gazelle.workspace.search_path import BUILTIN
 __all__ = ["examine_file", "kind_word"]
 
 _EMPTY = BUILTIN / "worlds" / "empty.world"
+_IN_EMPTY = frozenset({"ground_plane", "sun"})
 
 
 def kind_word(kind: Kind) -> str:
@@ -102,18 +105,60 @@ def _examine_robot(
         diagnostics=found,
         mappings=examination.options.arguments if mappings is None else mappings,
     )
-    examination.diagnostics.extend(found)
-    if models and not found.errors:
-        world = examination.options.world
-        # A package of the workspace may have an empty.world of its own, which says other things.
-        place = str(_EMPTY) if world == "empty" else world
-        server = Program("gazebo", words=(place,))
-        if examination.options.probe:
-            from gazelle.doctor.probes import stood_on_ground
+    if _is_left(file, found, examination):
+        return
+    if not models or found.errors:
+        examination.diagnostics.extend(found)
+        return
+    world = examination.options.world
+    # A package of the workspace may have an empty.world of its own, which says other things.
+    place = str(_EMPTY) if world == "empty" else world
+    plan = StartPlan(Program("gazebo", words=(place,)), models=tuple(map(_beside_world, models)))
+    alone = replace(examination, diagnostics=found)
+    _bring_up(plan, file.name, alone)
+    for item in found:
+        examination.diagnostics.add(_of_real_robot(item))
 
-            # Nobody has placed it, and half in the ground it would be thrown.
-            models = tuple(stood_on_ground(model) for model in models)
-        _bring_up(StartPlan(server, models=models), file.name, examination)
+
+def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
+    """Take note of a file of a package that is no robot on its own; True when it is one."""
+    diagnostics = examination.diagnostics
+    if found.by_code("load.nothing") and _is_light(file):
+        return True
+    if not examination.is_wide:
+        return False
+    unset = found.by_code("xacro.argument-missing")
+    if unset:
+        text = f"'{file.name}' needs arguments and is not examined: {unset[0].message}"
+        fix = f"examine it with them: gazelle doctor {file} NAME:=…"
+        diagnostics.report("doctor.needs-arguments", text, unset[0].span, fix=fix)
+        return True
+    if found.by_code("sdf.no-model"):
+        for item in found:
+            text = f"{item.message}; right where others use its meshes only, or a program makes it"
+            diagnostics.add(replace(item, severity=Severity.INFO, message=text))
+        return True
+    return False
+
+
+def _is_light(file: Path) -> bool:
+    """Tell whether a model's folder holds a lamp, as ``model://sun`` does."""
+    place = file.with_name("model.sdf") if file.name == "model.config" else file
+    root = read_xml(place, Diagnostics()) if place.is_file() else None
+    return root is not None and root.find("light") is not None
+
+
+def _beside_world(model: Model) -> Model:
+    """Give a model that is in every empty world, such as the ground, a name of its own."""
+    return replace(model, name=f"{model.name}_alone") if model.name in _IN_EMPTY else model
+
+
+def _of_real_robot(item: Diagnostic) -> Diagnostic:
+    """Soften what is wrong for a simulation only: nobody has said that there is one."""
+    if item.code != "control.hardware-plugin" or item.fix.startswith("did you mean"):
+        return item
+    text = f"{item.message}; right for the real robot"
+    return replace(item, severity=Severity.WARNING, message=text)
 
 
 def _bring_up(plan: StartPlan, subject: str, examination: Examination) -> None:

@@ -20,6 +20,8 @@ MASSLESS_LEAF_INERTIA_KG_M2 = 1e-6
 
 _SMALLEST_RATIO = 1e-6
 _MARGIN = 1e-9
+# MuJoCo takes principal moments below 1e-14 for none.
+_LEAST_KG_M2 = 1e-13
 
 
 class BodyInertia(NamedTuple):
@@ -49,7 +51,7 @@ def body_inertia(link: Link, name: str, diagnostics: Diagnostics) -> BodyInertia
     tensor = rotation @ _matrix(inertial) @ rotation.T
     moments = np.linalg.eigvalsh(tensor)
     if not _is_legal(moments):
-        mean = max(float(np.abs(moments).mean()), 1e-9 * inertial.mass_kg)
+        mean = max(float(np.abs(moments).mean()), 1e-9 * inertial.mass_kg, _LEAST_KG_M2)
         diagnostics.report(
             "engine.illegal-inertia",
             f"link '{name}' has an inertia no body can have (principal moments"
@@ -61,7 +63,8 @@ def body_inertia(link: Link, name: str, diagnostics: Diagnostics) -> BodyInertia
     else:
         # A thin disc's moments add up exactly, and MuJoCo refuses what rounding makes of that.
         excess = float(moments[2] * (1 + _MARGIN) - moments[0] - moments[1])
-        tensor = tensor + np.eye(3) * max(excess, 0.0)
+        lack = _LEAST_KG_M2 - float(moments[0])
+        tensor = tensor + np.eye(3) * max(excess, lack, 0.0)
     return BodyInertia(inertial.mass_kg, inertial.T_link_com.position_m, tensor)
 
 

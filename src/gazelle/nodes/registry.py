@@ -101,7 +101,8 @@ _NODES = (
         "joint_state_publisher",
         "gazelle.nodes.joint_state_publisher:run",
         light=True,
-        help="publishes joint states of a robot description",
+        help="publishes joint states of a robot description, without sliders",
+        aliases=(("joint_state_publisher_gui", "joint_state_publisher_gui"),),
     ),
     BuiltinNode(
         "robot_state_publisher",

@@ -102,3 +102,13 @@ def test_placeholder_is_no_unit(judge) -> None:
     tiny = '<collision><geometry><sphere radius="0.02"/></geometry></collision>'
     found = judge(robot(link(inertial(0.03, (0.001, 0.001, 0.001)), shape=tiny)))
     assert found.codes == ["inertia.box"]
+
+
+@pytest.mark.parametrize(("kind", "codes"), [("fixed", []), ("continuous", ["inertia.units"])])
+def test_gram_on_another_body_is_no_unit(judge, kind: str, codes: list[str]) -> None:
+    """Sensors' links carry one to be kept by Gazebo, beside shapes of a millimetre."""
+    small = '<collision><geometry><box size="0.001 0.001 0.001"/></geometry></collision>'
+    imu = link(inertial(0.001, (1e-9, 1e-9, 1e-9)), small, "imu")
+    joint = f'<joint name="j" type="{kind}"><parent link="a"/><child link="imu"/></joint>'
+    found = judge(robot(link(inertial(0.1)), imu, joint)).codes
+    assert [code for code in found if code == "inertia.units"] == codes

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
 from tests.description.checks.pain import FIXTURES, examined, finding, place
 
 
@@ -32,3 +35,17 @@ def test_collision_of_another_size_is_reported() -> None:
     found = examined(FIXTURES / "pain_20_optical/broken/collision_ten_times.urdf")
     (item,) = found.by_code("robot.size-mismatch")
     assert "is 10 times larger than what is seen: 3 × 0.5 × 0.5 against" in item.message
+
+
+@pytest.mark.parametrize(("edge", "is_told"), [("0.002", False), ("0.01", True)])
+def test_box_of_a_millimetre_is_there_because_gazebo_wants_one(
+    tmp_path: Path, edge: str, is_told: bool
+) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="a"><visual><geometry><box size="0.3 0.3 0.3"/></geometry>'
+        f'</visual><collision><geometry><box size="{edge} {edge} {edge}"/></geometry></collision>'
+        "</link></robot>",
+        encoding="utf-8",
+    )
+    assert bool(examined(path).by_code("robot.size-mismatch")) is is_told

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
 from tests.description.checks.pain import FIXTURES, examined, finding, place
 
 from gazelle.diagnostics import Severity
@@ -32,3 +35,22 @@ def test_depth_and_speed_of_correction_are_reported() -> None:
     assert depth.fix == "write minDepth 0.001"
     assert "maxVel of 0 m/s" in speed.message
     assert place(speed) == "<collision>"
+
+
+ARM = """<robot name="arm"><link name="base"><inertial><mass value="40"/><inertia ixx="1" ixy="0"
+ ixz="0" iyy="1" iyz="0" izz="1"/></inertial><collision><geometry><box size="1 1 0.5"/></geometry>
+</collision></link><link name="finger"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0"
+ ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial><collision><geometry><box size="0.1 0.1 0.1"/>
+</geometry></collision></link><joint name="j" type="continuous"><parent link="base"/>
+<child link="finger"/><origin xyz="0 0 {}"/></joint>
+<gazebo reference="finger"><kp>1e4</kp></gazebo></robot>"""
+
+
+@pytest.mark.parametrize(("height", "codes"), [(1.0, []), (-0.5, ["robot.soft-contact"])])
+def test_only_what_the_robot_stands_on_bears_its_weight(
+    tmp_path: Path, height: float, codes: list[str]
+) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM.format(height), encoding="utf-8")
+    found = [item.code for item in examined(path)]
+    assert [code for code in found if code == "robot.soft-contact"] == codes

@@ -321,3 +321,22 @@ def test_spawned_controllers_of_generated_parameters_are_not_judged(check: Check
     nodes += "Node(package='controller_manager', executable='spawner', arguments=['left_arm'])"
     found, _ = check("a.launch.py", text + PYTHON.format(nodes))
     assert not found.by_code("launch_ros2.controller-missing")
+
+
+@pytest.mark.parametrize(("made", "codes"), [({}, ["launch_ros2.file-missing"]), (
+    {"launch/sim.launch.py.in": "# @VERSION@"}, [],
+)])  # fmt: skip
+def test_file_that_cmake_configures_is_there(
+    check: Check, made: dict[str, str], codes: list[str]
+) -> None:
+    """ros_gz_sim makes its gz_sim.launch.py so."""
+    text = PYTHON.format(
+        "IncludeLaunchDescription(get_package_share_directory('bot') + '/launch/sim.launch.py')"
+    ).replace(
+        "from launch import LaunchDescription",
+        "from launch import LaunchDescription\n"
+        "from launch.actions import IncludeLaunchDescription\n"
+        "from ament_index_python.packages import get_package_share_directory",
+    )
+    found, _ = check("one.launch.py", text, made)
+    assert [item.code for item in found if item.severity is Severity.ERROR] == codes

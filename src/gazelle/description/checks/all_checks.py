@@ -72,7 +72,7 @@ def _check(model: Model, diagnostics: Diagnostics, root: Tag | None, step_s: flo
     check_cameras(model, diagnostics)
     check_wheels(model, diagnostics)
     check_wheel_shapes(model, diagnostics)
-    check_surfaces(model, diagnostics, step_s=step_s)
+    check_surfaces(model, outlines, diagnostics, step_s=step_s)
     check_stance(model, outlines, diagnostics)
     check_overlaps(model, outlines, diagnostics)
 

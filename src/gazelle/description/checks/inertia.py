@@ -30,6 +30,8 @@ __all__ = [
 
 WATER_KG_M3 = 1000.0
 
+_DUMMY_KG = 1e-3
+
 SUPERSEDED_CODES = frozenset(
     {
         "sdf.bad-inertia",
@@ -163,7 +165,8 @@ def _impossible(record: LinkRecord, new: MassProperties | None) -> Iterator[Iner
     written = record.written
     if written is None:
         return
-    for problem in inertia_problems(written.inertia_kg_m2):
+    # A tensor that is not positive breaks the inequality as well: one block mends both.
+    for problem in inertia_problems(written.inertia_kg_m2)[:1]:
         code = "inertia.triangle" if "triangle" in problem else "inertia.not-positive"
         message = f"no body has the inertia of link '{record.name}': {problem}"
         yield _finding(code, message, record, written.inertia_span, new)
@@ -175,6 +178,8 @@ def _misfits(
     written, points = record.written, record.points_m
     if written is None or points is None:
         return
+    if record.is_fixed and written.mass_kg <= _DUMMY_KG:
+        return  # a gram on another body, there to please Gazebo: nothing feels its tensor
     guess = guess_units(record)
     if guess is not None:
         yield _unit_finding(record, guess)

@@ -20,6 +20,7 @@ _TINY_M = 0.002
 _APART_M = 0.02
 # Smaller shapes are placeholders of frames.
 _MARKER_M = 0.03
+_DUMMY_M = 0.0025
 _UNITS = {1000.0: "millimetres", 100.0: "centimetres", 39.37: "inches"}
 
 Box = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -80,6 +81,9 @@ def _check_mesh_unit(
 
 def _compare(link: Link, collision: Box, visual: Box, diagnostics: Diagnostics) -> None:
     sizes = _extent(collision), _extent(visual)
+    shapes = link.collisions if sizes[0] < sizes[1] else link.visuals
+    if min(sizes) < _DUMMY_M and not any(isinstance(one.shape, MeshShape) for one in shapes):
+        return  # a box of a millimetre is there because Gazebo wants one
     place = link.collisions[0].span or link.span
     if max(sizes) > _LARGEST_RATIO * min(sizes) and max(sizes) > 0.05:
         which = "larger" if sizes[0] > sizes[1] else "smaller"

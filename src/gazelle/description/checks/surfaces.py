@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.description.checks.outlines import Outlines
 from gazelle.description.model import Collision, Link, Model
 from gazelle.diagnostics import Diagnostics
 
@@ -14,21 +15,37 @@ _DEEPEST_M = 0.001
 _LEAST_ERP = 0.01
 _LARGEST_MIN_DEPTH_M = 0.01
 _POINTS = 4
+# Higher shapes bear no weight, whatever the joints do that carry wheels and feet.
+_STANDING_M = 0.05
 
 
-def check_surfaces(model: Model, diagnostics: Diagnostics, *, step_s: float = 1e-3) -> None:
+def check_surfaces(
+    model: Model, outlines: Outlines, diagnostics: Diagnostics, *, step_s: float = 1e-3
+) -> None:
     """Report kp, kd, minDepth and maxVel with effects that nobody wants.
 
     Args:
         model: the robot or thing.
+        outlines: of its shapes; the weight rests on those near the lowest point.
         diagnostics: receives the findings.
         step_s: of the physics; ODE makes ERP = h·kp / (h·kp + kd) and CFM of kp and kd.
     """
     mass = sum(link.inertial.mass_kg for link in model.links if link.inertial is not None)
+    bearing = _bearing(model, outlines)
     for link in model.links:
         for collision in link.collisions:
-            _check_stiffness(link, collision, mass, step_s, diagnostics)
+            load = mass if link.name in bearing else 0.0
+            _check_stiffness(link, collision, load, step_s, diagnostics)
             _check_correction(link, collision, diagnostics)
+
+
+def _bearing(model: Model, outlines: Outlines) -> frozenset[str]:
+    """Return the links a model can stand on: not the fingers of an arm on a pedestal."""
+    if any(joint.parent == "world" for joint in model.joints):
+        return frozenset()
+    lows = [(item.link.name, float(item.low_m[2])) for item in outlines.collisions]
+    ground = min((low for _, low in lows), default=0.0)
+    return frozenset(name for name, low in lows if low <= ground + _STANDING_M)
 
 
 def _check_stiffness(

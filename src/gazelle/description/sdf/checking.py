@@ -14,6 +14,8 @@ __all__ = ["check_elements"]
 
 _ANY_ATTRIBUTE_PREFIXES = ("xmlns", "xsi:")
 # Where people write plug-ins that are not loaded, why not, and what to do.
+# What sdformat writes for a plug-in that has no file; Gazebo passes over it.
+_NO_PLUGIN = "__default__"
 _PLUGIN_PLACES = {
     "link": (
         "no Gazebo loads plug-ins of links",
@@ -69,6 +71,8 @@ class _Checker:
         element = ELEMENTS[kind]
         if child.name in element.children:
             self.visit(child, element.children[child.name])
+        elif child.name == "plugin" and child.attributes.get("filename") == _NO_PLUGIN:
+            return
         elif child.name == "plugin" and kind in _PLUGIN_PLACES:
             self._note(_Key("plugin", kind, tag.name, child.attributes.get("filename", "")), child)
         elif child.name in element.without_effect:

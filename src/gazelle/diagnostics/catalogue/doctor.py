@@ -33,8 +33,9 @@ ENTRIES = (
     Entry(
         "doctor.packages-elsewhere",
         "warning",
-        "A launch uses packages of ROS that are not here",
-        "They exist, and are installed beside ROS; Gazelle replaces some and does not have these. "
+        "A launch uses packages that are not here",
+        "Nothing here is named alike: they exist, and are installed beside ROS. Gazelle replaces "
+        "some packages of ROS and does not have these. "
         "Nodes of them are not started, files of them not included.",
         "install ROS with them, or put their sources into the workspace; nothing is wrong with "
         "the launch file",

@@ -71,7 +71,7 @@ def _load(
     except ControllerError as error:
         text = f"'{_full_name(start)}' cannot load controller '{name}': {error}"
         known = [item.name for item in configured_controllers(manager.source)]
-        near = did_you_mean(name, known)
+        near = "" if name in known else did_you_mean(name, known)
         if name not in known:
             text += f"; {manager.namespace} has parameters of: {', '.join(known) or 'none'}"
         diagnostics.report("doctor.controller-fails", text, start.by.span, fix=near)

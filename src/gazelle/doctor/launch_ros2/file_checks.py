@@ -56,7 +56,8 @@ def check_paths(files: Sequence[Followed], workspace: Workspace, diagnostics: Di
         seen.add(use.name)
         inside = Path(use.name).relative_to(package.path).as_posix()
         if located(use.name) is None:
-            if not any(item.file.uses_path(use.name) for item in files):
+            is_made = is_file(Path(f"{use.name}.in"))  # by configure_file() of its CMakeLists.txt
+            if is_made or not any(item.file.uses_path(use.name) for item in files):
                 continue
             _report_missing(package, inside, use, diagnostics)
         elif is_file(Path(use.name)) and not _is_installed(package, inside):

@@ -115,7 +115,8 @@ def is_slip(name: str, other: str) -> bool:
     """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
     longest = max(len(name), len(other))
     begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])
-    wrong = 1 if longest < _LONG_NAME else 2
+    # Two letters that changed places are one slip.
+    wrong = 1 if longest < _LONG_NAME and sorted(name) != sorted(other) else 2
     return begin + end >= longest - wrong and abs(len(name) - len(other)) <= wrong
 
 

@@ -15,6 +15,8 @@ __all__ = ["all_tables", "known_names", "load_plugin", "plain_name"]
 
 Load = Callable[[PluginContext], None]
 
+# sdformat's word for a missing file name; Gazebo passes over such a plug-in.
+_NO_PLUGIN = "__default__"
 _RELEASE = re.compile(r"^(gz-sim|ignition-gazebo)\d+(?=-)")
 
 # Module, table, load function; imported when a robot names one of them.
@@ -117,6 +119,8 @@ def load_plugin(context: PluginContext) -> bool:
     Then a plug-in of the user's own in Python is looked for.
     """
     plugin = context.plugin
+    if plugin.filename == _NO_PLUGIN:
+        return True
     for name in (plugin.filename, plugin.name):
         found = _by_name().get(plain_name(name))
         if found is not None:

@@ -1,0 +1,77 @@
+"""Files of a package that are no robots on their own."""
+
+from __future__ import annotations
+
+import pytest
+from tests.doctor.conftest import Examine, Write, codes
+
+CONFIG = "<model><name>m</name><sdf version='1.6'>model.sdf</sdf></model>"
+SUN = "<sdf version='1.6'><light type='directional' name='sun'/></sdf>"
+GROUND = """<sdf version='1.6'><model name='ground_plane'><static>true</static><link name='link'>
+<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link>
+</model></sdf>"""
+REAL = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="a"><inertial>
+<mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+</inertial></link><joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
+<ros2_control name="Arduino" type="system"><hardware><plugin>{}</plugin></hardware>
+<joint name="j"><command_interface name="velocity"/></joint></ros2_control>
+<gazebo><plugin name="c" filename="libgazebo_ros2_control.so"/></gazebo></robot>"""
+
+
+@pytest.mark.parametrize("text", [SUN, GROUND])
+def test_models_of_every_empty_world_are_none_too_many(
+    written: Write, examined: Examine, text: str
+) -> None:
+    folder = written(**{"models__m__model.config": CONFIG, "models__m__model.sdf": text})
+    assert set(codes(examined(folder, "bot"))) <= {"package.manifest"}
+    assert codes(examined(folder, "models/m/model.sdf")) == []
+
+
+def test_model_that_a_program_makes_is_a_notice_in_a_package(
+    written: Write, examined: Examine
+) -> None:
+    folder = written(
+        **{"models__m__model.config": CONFIG, "models__m__model.sdf.jinja": "{{ name }}"}
+    )
+    report = examined(folder, "bot")
+    assert set(codes(report)) <= {"package.manifest"}
+    (found,) = (item for item in report.findings if item.code == "sdf.no-model")
+    assert "right where others use its meshes only, or a program makes it" in found.message
+    assert "sdf.no-model" in codes(examined(folder, "models/m/model.config"))
+
+
+def test_robot_that_needs_arguments_is_a_notice_in_a_package(
+    written: Write, examined: Examine
+) -> None:
+    text = '<robot name="$(arg name)" xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
+    folder = written(**{"urdf__bot.urdf.xacro": text})
+    (found,) = (item for item in examined(folder, "bot").findings if "$(arg" in item.message)
+    assert (found.code, str(found.severity)) == ("doctor.needs-arguments", "info")
+    assert "xacro.argument-missing" in codes(examined(folder, "urdf/bot.urdf.xacro"))
+
+
+@pytest.mark.parametrize(
+    ("plugin", "severity"),
+    [("diffdrive_arduino/Arduino", "warning"), ("gazebo_ros2_control/GazeboSytem", "error")],
+)
+def test_driver_of_the_real_robot_is_no_error(
+    written: Write, examined: Examine, plugin: str, severity: str
+) -> None:
+    folder = written(**{"robot.urdf": REAL.format(plugin)})
+    (found,) = (
+        item
+        for item in examined(folder, "robot.urdf").findings
+        if item.code == "control.hardware-plugin"
+    )
+    assert str(found.severity) == severity
+    assert found.message.endswith("right for the real robot") is (severity == "warning")
+
+
+def test_plugin_without_a_file_is_passed_over(written: Write, examined: Examine) -> None:
+    """sdformat writes this when a world is saved from Gazebo's window."""
+    plugin = "<plugin name='__default__' filename='__default__'/>"
+    text = GROUND.replace("</link>", f"<visual name='v'>{plugin}</visual></link>{plugin}")
+    folder = written(**{"m.sdf": text.replace("ground_plane", "m")})
+    found = [item.code for item in examined(folder, "m.sdf").findings]
+    assert [code for code in found if "plugin" in code] == []
