@@ -21,6 +21,8 @@ from gazelle.compat.generation import message_generation
 __all__ = ["install"]
 
 _PARTS = ("msg", "srv", "action")
+# What message packages hold besides messages.
+_BESIDES = {"sensor_msgs.point_cloud2": "gazelle.compat.clouds.ros1"}
 
 
 def install() -> None:
@@ -93,6 +95,8 @@ class _InterfaceFinder(MetaPathFinder):
         path: Sequence[str] | None,
         target: ModuleType | None = None,
     ) -> ModuleSpec | None:
+        if fullname in _BESIDES:
+            return spec_from_loader(fullname, _ReexportLoader(_BESIDES[fullname]))
         package, _, rest = fullname.partition(".")
         part, _, name = rest.partition(".")
         if (part and part not in _PARTS) or not self._defines(package):
@@ -135,6 +139,19 @@ class _AliasLoader(Loader):
             name = self._name + suffix
             if name in parent.__all__:
                 setattr(module, name, getattr(parent, name))
+
+
+class _ReexportLoader(Loader):
+    """A module that has the public names of another."""
+
+    def __init__(self, source: str) -> None:
+        self._source = source
+
+    def exec_module(self, module: ModuleType) -> None:
+        source = import_module(self._source)
+        module.__all__ = source.__all__  # type: ignore[attr-defined]
+        for name in source.__all__:
+            setattr(module, name, getattr(source, name))
 
 
 class _PartLoader(Loader):

@@ -1,0 +1,1 @@
+"""Point clouds in users' programs: sensor_msgs.point_cloud2, sensor_msgs_py, laser_geometry."""

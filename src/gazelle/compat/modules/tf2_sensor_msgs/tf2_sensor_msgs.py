@@ -1,0 +1,3 @@
+"""tf2_sensor_msgs.tf2_sensor_msgs."""
+
+from gazelle.compat.clouds.moving import *  # noqa: F403
