@@ -72,6 +72,24 @@ def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Sim
     sim.run(seconds=0.1)
 
 
+@pytest.mark.parametrize(
+    ("name", "fix"),
+    [
+        ("libgazebo_ros_time.so", "docs/plugins.md"),
+        ("libLinkPlot3DPlugin.so", "docs/plugins.md"),
+        ("libgazebo_ros_difdrive.so", "did you mean 'gazebo_ros_diff_drive'?"),
+        ("libbaxter_gazebo_ros_control.so", "did you mean 'gazebo_ros_control'?"),
+    ],
+)
+def test_only_names_that_are_alike_are_offered(
+    load: Callable[..., Simulation], name: str, fix: str
+) -> None:
+    plugin = f"<gazebo><plugin name='mine' filename='{name}'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = sim.diagnostics.by_code("plugin.unknown")
+    assert fix in found.fix
+
+
 def test_a_plug_in_of_the_world_is_said_to_be_the_worlds(load: Callable[..., Simulation]) -> None:
     unknown = "<plugin name='a' filename='libnobody.so'/>"
     drive = "<plugin name='b' filename='libgazebo_ros_p3d.so'><bodyName>lo</bodyName></plugin>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from difflib import SequenceMatcher
 from functools import cache
 from importlib import import_module
 
@@ -15,6 +16,8 @@ __all__ = ["all_tables", "known_names", "load_plugin", "plain_name"]
 
 Load = Callable[[PluginContext], None]
 
+_COMMON_BEGIN = "gazebo_ros_"
+_LEAST_LIKENESS = 0.8
 # sdformat's word for a missing file name; Gazebo passes over such a plug-in.
 _NO_PLUGIN = "__default__"
 _RELEASE = re.compile(r"^(gz-sim|ignition-gazebo)\d+(?=-)")
@@ -135,5 +138,19 @@ def load_plugin(context: PluginContext) -> bool:
     name = plain_name(plugin.filename)
     text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of {context.owner} is "
     text += "compiled code that Gazelle does not have: what it does in Gazebo does not happen here"
-    context.report("plugin.unknown", text, fix=did_you_mean(name, known_names()))
+    context.report("plugin.unknown", text, fix=did_you_mean(name, _alike(name)))
     return False
+
+
+def _alike(name: str) -> list[str]:
+    """Return known names that a name may be a slip for: half of all share ``gazebo_ros_``."""
+    return [
+        known
+        for known in known_names()
+        if known in name or _likeness(name, known) >= _LEAST_LIKENESS
+    ]
+
+
+def _likeness(name: str, known: str) -> float:
+    bare = (text.removeprefix(_COMMON_BEGIN) for text in (name, known))
+    return SequenceMatcher(None, *bare).ratio()
