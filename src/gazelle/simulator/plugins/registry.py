@@ -152,5 +152,5 @@ def _alike(name: str) -> list[str]:
 
 
 def _likeness(name: str, known: str) -> float:
-    bare = (text.removeprefix(_COMMON_BEGIN) for text in (name, known))
-    return SequenceMatcher(None, *bare).ratio()
+    bare = [text.removeprefix(_COMMON_BEGIN) for text in (name, known)]
+    return SequenceMatcher(None, bare[0], bare[1]).ratio()
