@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import pty
+import signal
 import termios
 from collections.abc import Callable, Iterator
 
@@ -96,3 +97,23 @@ def test_mimic_of_the_tutorial_goes_the_same_way(gazelle: Callable, tmp_path) ->
     launch.eventually(lambda: poses and poses[-1].angular_velocity == pytest.approx(math.pi / 2))
     assert poses[-1].linear_velocity == 1.0
     assert launch.stop() == 0
+
+
+def test_ros2_run_starts_ros2s_turtlesim(gazelle: Callable) -> None:
+    core = gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    words = ("--ros-args", "--remap", "__node:=my_turtle")
+    simulator = gazelle("ros2", "run", "turtlesim", "turtlesim_node", *words)
+    simulator.wait_for_line(r"^\[INFO\] \[\d+\.\d{9}\] \[my_turtle\]: Spawning turtle \[turtle1\]")
+    listed = gazelle("ros2", "param", "list", "/my_turtle")
+    assert listed.wait() == 0
+    assert [line.strip() for line in listed.lines] == [
+        "background_b", "background_g", "background_r", "holonomic", "use_sim_time",
+    ]  # fmt: skip
+    turning = gazelle(
+        "ros2", "action", "send_goal", "/turtle1/rotate_absolute",
+        "turtlesim/action/RotateAbsolute", "{theta: 0.5}",
+    )  # fmt: skip
+    assert turning.wait() == 0
+    assert "Goal finished with status: SUCCEEDED" in turning.text
+    assert simulator.stop(signal.SIGTERM) == 0

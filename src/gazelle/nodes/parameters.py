@@ -10,6 +10,7 @@ from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
+from gazelle.nodes.ros2_console import print_ros2
 
 __all__ = ["private", "start_node", "ticks"]
 
@@ -19,6 +20,8 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     node = graph.create_node(
         arguments.name, namespace=arguments.namespace, remappings=arguments.remappings
     )
+    if arguments.generation == 2:
+        node.console = print_ros2
     keep_log(node, arguments.log_file, arguments.output)
     offer_loggers(node)
     if arguments.log_level:

@@ -55,7 +55,8 @@ def _run(options: argparse.Namespace) -> int:
             return fail(f"Package '{package}' not found")
         return fail("No executable found")
     prefix = shlex.split(options.prefix) if options.prefix else []
-    environment = node_environment(os.environ, workspace)
+    # Programs that are there for both generations, such as turtlesim's, ask for it.
+    environment = node_environment({**os.environ, "ROS_VERSION": "2"}, workspace)
     return _run_words([*prefix, *found.command, *options.argv], environment)
 
 
