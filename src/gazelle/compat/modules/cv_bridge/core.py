@@ -1,0 +1,3 @@
+"""cv_bridge.core."""
+
+from gazelle.compat.images.bridge import *  # noqa: F403
