@@ -53,6 +53,8 @@ COMMANDS: dict[str, Command] = {
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
     "catkin_create_pkg": Command("gazelle.cli.catkin_create_pkg", "write a package for ROS 1"),
+    "catkin": Command("gazelle.cli.catkin", "build, init, config, clean, list, locate"),
+    "catkin_make": Command("gazelle.cli.catkin_make", "build a workspace of ROS 1"),
     "colcon": Command("gazelle.cli.colcon", "build, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

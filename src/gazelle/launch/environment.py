@@ -13,7 +13,9 @@ from gazelle.workspace import Workspace
 __all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment", "ros_home"]
 
 ROS_COMMANDS = (
+    "catkin",
     "catkin_create_pkg",
+    "catkin_make",
     "check_urdf",
     "colcon",
     "gazebo",

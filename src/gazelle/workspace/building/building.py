@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.diagnostics import Severity, SourceSpan, render_text
+from gazelle.diagnostics import SourceSpan, render_text
 from gazelle.workspace.building.cmake_plan import plan_cmake
 from gazelle.workspace.building.installing import install
 from gazelle.workspace.building.packages import SourcePackage, needed_by
@@ -95,8 +95,7 @@ def build_package(package: SourcePackage, options: BuildOptions, known: frozense
             text = f"cannot write '{error.filename}': {error.strerror}"
             plan.diagnostics.report("build.cannot-write", text)
             code = _CMAKE_CODE
-    shown = [item for item in plan.diagnostics if item.severity > Severity.INFO or code]
-    errors = tuple(render_text(item) for item in shown)
+    errors = tuple(render_text(item) for item in plan.diagnostics)
     return Outcome(package.name, code, time.monotonic() - begin, output, errors)
 
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
+from gazelle.workspace.building.catkin_plan import add_catkin
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
+from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.places import is_file, is_folder
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
-from gazelle.workspace.building.python_plan import add_python_distribution, add_python_folder
-from gazelle.workspace.building.setup_file import read_setup
+from gazelle.workspace.building.python_plan import add_python_folder
 
-__all__ = ["compiled_targets", "plan_cmake", "read_lists"]
+__all__ = ["add_interfaces", "compiled_targets", "plan_cmake", "read_lists"]
 
 _FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
 _EXECUTABLES = frozenset(
@@ -74,9 +75,9 @@ def plan_cmake(
         text = "what this installs is known only to CMake; it is left out"
         plan.diagnostics.report("package.install-unread", text, span)
     compiled_targets(package, lists, plan)
-    _add_interfaces(package, lists, plan)
+    add_interfaces(package, lists, plan)
     if package.build_type == "catkin":
-        _add_catkin(package, lists, layout, plan)
+        add_catkin(package, lists, layout, plan)
     else:
         _add_ament(package, lists, layout, plan)
     plan.add(Item(f"{share}/package.xml", package.path / "package.xml"))
@@ -95,7 +96,7 @@ def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> N
         plan.diagnostics.report("build.compiled-target", text, step.span)
 
 
-def _add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
+def add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
     """Install message, service and action files, from where Gazelle reads them itself."""
     names: list[str] = []
     for step in lists.called("rosidl_generate_interfaces"):
@@ -197,57 +198,3 @@ def _add_resource(package: SourcePackage, step: Step, plan: Plan) -> None:
         plan.add(Item(f"{_INDEX}/{step.words[0]}/{name}", package.path / file), step.span)
     else:
         plan.write(f"{_INDEX}/{step.words[0]}/{name}", text)
-
-
-def add_environment_file(
-    package: SourcePackage, step: Step, word: str, folder: str, plan: Plan
-) -> None:
-    """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
-    file = package.path / step.folder / word
-    if not is_file(file):
-        text = f"{step.name}() names '{word}', and there is no such file"
-        plan.diagnostics.report("package.install-missing", text, step.span)
-        return
-    name = file.name.removesuffix(".in")
-    if name.endswith((".bash", ".zsh", ".bat", ".ps1")):
-        target = f"{folder}/{name}"
-        plan.write(target, _configured(file, package))
-        return
-    plan.write(f"{folder}/{name}", _configured(file, package))
-    plan.scripts.append(f"{folder}/{name}")
-
-
-def _configured(file: Path, package: SourcePackage) -> str:
-    text = file.read_text(encoding="utf-8", errors="replace")
-    if file.suffix == ".in":
-        text = text.replace("@PROJECT_NAME@", package.name)
-        text = text.replace("${PROJECT_NAME}", package.name)
-    return text
-
-
-# -- catkin -----------------------------------------------------------------------------------
-
-
-def _add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:
-    for step in lists.called("catkin_python_setup"):
-        setup = read_setup(package.path)
-        if setup is None or (setup.error is None and not setup.is_called):
-            text = "catkin_python_setup() needs a setup.py with setup()"
-            plan.diagnostics.report("package.no-build-file", text, step.span)
-        elif setup.error is None:
-            add_python_distribution(package, setup, layout, plan)
-    for step in lists.called("catkin_add_env_hooks"):
-        add_catkin_hooks(package, step, "etc/catkin/profile.d", plan)
-
-
-def add_catkin_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
-    """Plan the shell files of a ``catkin_add_env_hooks`` call."""
-    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
-    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
-    for shell in step.after("SHELLS", words):
-        if shell not in {"sh", "bash", "zsh"} or not step.words:
-            continue
-        for ending in (f".{shell}", f".{shell}.in", f".{shell}.em", f".{shell}.develspace.em"):
-            name = f"{where}/{step.words[0]}{ending}"
-            if is_file(package.path / step.folder / name) and not ending.endswith(".em"):
-                add_environment_file(package, step, name, folder, plan)
