@@ -80,6 +80,35 @@ def test_executable_of_an_installed_ros_is_the_last_resort(tmp_path: Path) -> No
     assert found is not None and found.command == (str(native),)
 
 
+def test_built_in_node_stands_for_the_users_own_compiled_one(package: Path) -> None:
+    folder = package.parent / "turtlebot3_gazebo"
+    (folder / "src").mkdir(parents=True)
+    (folder / "src" / "turtlebot3_drive.cpp").write_text("int main() {}\n", encoding="utf-8")
+    (folder / "CMakeLists.txt").write_text(
+        "add_executable(turtlebot3_drive src/turtlebot3_drive.cpp)\n", encoding="utf-8"
+    )
+    manifest = "<package><name>turtlebot3_gazebo</name><version>1.0.0</version></package>"
+    (folder / "package.xml").write_text(manifest, encoding="utf-8")
+    found, diagnostics = _find("turtlebot3_gazebo", "turtlebot3_drive", folder)
+    assert found is not None and found.builtin is not None
+    assert found.builtin.target == "gazelle.nodes.turtlebot3.drive:run"
+    assert not tuple(diagnostics)
+    script = folder / "scripts" / "turtlebot3_drive"
+    script.parent.mkdir()
+    script.write_text("#!/usr/bin/env python3\n", encoding="utf-8")
+    script.chmod(0o755)
+    found, _ = _find("turtlebot3_gazebo", "turtlebot3_drive", folder)
+    assert found is not None and found.command[-1] == str(script)
+
+
+def test_misspelled_built_in_node_is_corrected_without_its_package(tmp_path: Path) -> None:
+    _, diagnostics = _find("turtlebot3_fake", "turtlebot3_fake_nod", tmp_path)
+    (error,) = diagnostics
+    assert error.code == "launch.executable-missing"
+    assert error.message.endswith("the package has: turtlebot3_fake_node")
+    assert error.fix == "did you mean 'turtlebot3_fake_node'?"
+
+
 def test_missing_package_is_named_with_its_place(package: Path) -> None:
     found, diagnostics = _find("tests_pgk", "does", package)
     (error,) = diagnostics

@@ -129,12 +129,14 @@ def _report_missing(
     diagnostics: Diagnostics,
     span: SourceSpan | None,
 ) -> None:
+    existing, found = set(builtin_types(package)), None
     try:
         found = workspace.package(package)
     except NotFoundError as error:
-        diagnostics.report("launch.package-missing", str(error), span)
-        return
-    source = _compiled_source(found, type_name)
+        if not existing:
+            diagnostics.report("launch.package-missing", str(error), span)
+            return
+    source = _compiled_source(found, type_name) if found is not None else None
     if source is not None:
         message = (
             f"Cannot locate node of type [{type_name}] in package [{package}]: it is compiled "
@@ -142,11 +144,15 @@ def _report_missing(
         )
         diagnostics.report("launch.compiled-node", message, span)
         return
-    own = {*_scripts(found), *console_scripts(found.path)}
-    existing = sorted({*builtin_types(package), *own})
-    known = f"the package has: {', '.join(existing)}" if existing else "the package has no nodes"
+    if found is not None:
+        existing |= {*_scripts(found), *console_scripts(found.path)}
+    known = (
+        f"the package has: {', '.join(sorted(existing))}"
+        if existing
+        else "the package has no nodes"
+    )
     message = f"Cannot locate node of type [{type_name}] in package [{package}]; {known}"
-    fix = did_you_mean(type_name, existing)
+    fix = did_you_mean(type_name, sorted(existing))
     diagnostics.report("launch.executable-missing", message, span, fix=fix)
 
 

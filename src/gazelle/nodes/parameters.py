@@ -6,13 +6,14 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
+from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
 from gazelle.nodes.ros2_console import print_ros2
 
-__all__ = ["private", "start_node", "ticks"]
+__all__ = ["private", "private_number", "start_node", "ticks"]
 
 
 def start_node(arguments: NodeArguments, graph: Graph) -> Node:
@@ -37,6 +38,18 @@ def private(node: Node, arguments: NodeArguments, name: str, default: Any) -> An
         return arguments.params[name]
     full = node.resolve_name(f"~{name}")
     return node.parameters.get(full) if node.parameters.has(full) else default
+
+
+def private_number(node: Node, arguments: NodeArguments, name: str, default: float) -> float:
+    """Return ``~name`` as a number.
+
+    Raises:
+        LaunchError: it is none.
+    """
+    value = private(node, arguments, name, default)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return float(value)
+    raise LaunchError(f"parameter '{node.resolve_name(f'~{name}')}' is {value!r}, not a number")
 
 
 def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:

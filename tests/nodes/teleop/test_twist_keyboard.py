@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import termios
+import threading
 
 import pytest
 
+from gazelle.errors import LaunchError
+from gazelle.nodes.host import run_node
 from gazelle.nodes.teleop.twist_keyboard import Driving
 
 _NODE = "teleop_twist_keyboard/teleop_twist_keyboard.py"
@@ -95,3 +98,9 @@ def test_ros2_goes_on_without_keys_and_sends_stamps(bench, keyboard, capfd) -> N
     assert twists[-1].header.frame_id == "base"
     assert bench.stop() == [0]
     assert "This node takes keypresses from the keyboard" in capfd.readouterr().out
+
+
+def test_speed_that_is_no_number_is_named_and_the_terminal_put_back(bench, keyboard) -> None:
+    with pytest.raises(LaunchError, match="'/teleop_twist_keyboard/speed' is 'fast', not a number"):
+        run_node({"node": _NODE, "argv": ["_speed:=fast"]}, bench.graph, threading.Event())
+    assert keyboard.settings == keyboard.before

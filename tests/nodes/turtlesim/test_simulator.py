@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+import threading
 
 import numpy as np
 import pytest
 
+from gazelle.errors import LaunchError
 from gazelle.graph import ServiceCallError
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import md5sum, message_type
+from gazelle.nodes.host import run_node
 
 _NODE = "turtlesim/turtlesim_node"
 _BLUE = (69, 86, 255)
@@ -212,3 +215,31 @@ def test_log_level_of_the_command_line_counts(bench, capfd) -> None:
     text = capfd.readouterr().err
     words = r"\[turtlesim\]: Tried to kill turtle \[nobody\], which does not exist\n"
     assert re.fullmatch(rf"\[ERROR\] \[\d+\.\d{{9}}\] {words}", text), text
+
+
+def test_background_that_is_no_number_is_told_and_not_taken(bench, capfd) -> None:
+    bench.start(_NODE, "_background_r:=red")
+    colors = bench.listen("/turtle1/color_sensor", "turtlesim/msg/Color")
+    assert _rgb(bench.eventually(lambda: colors)[-1]) == _BLUE
+    assert "'background_r' is 'red', no whole number from 0 to 255; 69 is taken" in "".join(
+        capfd.readouterr()
+    )
+
+
+@pytest.mark.parametrize(
+    ("rule", "text"),
+    [
+        ("background_r:=red", r"expected \[integer\] got \[string\]"),
+        ("background_r:=256", "must be from 0 to 255"),
+        ("holonomic:=1", "'holonomic' is 1; it must be like False"),
+    ],
+)
+def test_ros2_value_that_does_not_fit_ends_it(bench, rule: str, text: str) -> None:
+    request = {"node": _NODE, "argv": ["--ros-args", "-p", rule]}
+    with pytest.raises(LaunchError, match=text):
+        run_node(request, bench.graph, threading.Event())
+
+
+def test_unknown_argument_shows_the_usage(bench) -> None:
+    with pytest.raises(LaunchError, match=r"does not know '--pgn x'\nusage: turtlesim_node"):
+        run_node({"node": _NODE, "argv": ["--pgn", "x"]}, bench.graph, threading.Event())

@@ -18,11 +18,10 @@ from __future__ import annotations
 import threading
 import time
 from dataclasses import dataclass
-from typing import Any
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import private, private_number, start_node
 from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import TwistSender, twist_sender
 
@@ -158,18 +157,20 @@ def _drive(arguments: NodeArguments, graph: Graph, stop: threading.Event, *, is_
     with Keys("teleop_twist_keyboard", takes_ctrl_c=True) as keys:
         node = start_node(arguments, graph)
 
-        def read(name: str, default: Any) -> Any:
-            return type(default)(private(node, arguments, name, default))
+        def number(name: str, default: float) -> float:
+            return private_number(node, arguments, name, default)
 
         driving = Driving(
-            read("speed", 0.5),
-            read("turn", 1.0),
-            read("speed_limit", 1000.0),
-            read("turn_limit", 1000.0),
+            number("speed", 0.5),
+            number("turn", 1.0),
+            number("speed_limit", 1000.0),
+            number("turn_limit", 1000.0),
         )
-        rate = read("repeat_rate", 0.0)
-        times = _Times(read("key_timeout", 0.0 if is_ros2 else 0.5), 1 / rate if rate > 0 else 0.0)
-        stamped, frame_id = read("stamped", False), read("frame_id", "")
+        rate = number("repeat_rate", 0.0)
+        key_s = number("key_timeout", 0.0 if is_ros2 else 0.5)
+        times = _Times(key_s, 1 / rate if rate > 0 else 0.0)
+        stamped = bool(private(node, arguments, "stamped", False))
+        frame_id = str(private(node, arguments, "frame_id", ""))
         send = twist_sender(node, is_stamped=stamped, frame_id=frame_id)
         if is_ros2 or _wait_for_listener(send, keys, stop):
             say(f"{_ROS2_HEAD if is_ros2 else _HEAD}{_HELP}\n{driving.text}")

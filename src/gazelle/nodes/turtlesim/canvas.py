@@ -48,18 +48,18 @@ class Canvas:
 
     def __init__(self, background: tuple[int, int, int] = BACKGROUND) -> None:
         """Begin empty."""
-        self._background = background
-        self._ink = np.zeros((SIZE_PX, SIZE_PX, 3), np.uint8)
+        self._image = np.empty((SIZE_PX, SIZE_PX, 3), np.uint8)
         self._drawn = np.zeros((SIZE_PX, SIZE_PX), bool)
+        self.clear(background)
 
     def clear(self, background: tuple[int, int, int]) -> None:
         """Wipe all lines off."""
         self._drawn[:] = False
-        self._background = background
+        self._image[:] = background
 
     def paint_background(self, background: tuple[int, int, int]) -> None:
         """Change the colour below the lines."""
-        self._background = background
+        self._image[~self._drawn] = background
 
     def draw(self, strokes: Iterable[Stroke]) -> None:
         """Draw lines; their ends are square, half a width longer than the line."""
@@ -67,19 +67,15 @@ class Canvas:
             self._draw(stroke)
 
     def color_at(self, place_px: tuple[float, float]) -> tuple[int, int, int]:
-        """Return the colour of the pixel at a place."""
+        """Return the colour of the pixel at a place of the world."""
         # Qt rounds halves up.
         column, row = (math.floor(value + 0.5) for value in place_px)
-        if not (0 <= column < SIZE_PX and 0 <= row < SIZE_PX and self._drawn[row, column]):
-            return self._background
-        red, green, blue = (int(value) for value in self._ink[row, column])
+        red, green, blue = self._image[row, column].tolist()
         return red, green, blue
 
     def picture(self, turtles: Iterable[tuple[int, Turtle]] = ()) -> Picture:
         """Return the picture with turtles on it, each with the number of its kind."""
-        image = np.empty((SIZE_PX, SIZE_PX, 3), np.uint8)
-        image[:] = self._background
-        image[self._drawn] = self._ink[self._drawn]
+        image = self._image.copy()
         for kind, turtle in turtles:
             _paint_turtle(image, turtle, _KINDS[kind % len(_KINDS)])
         return image
@@ -98,7 +94,7 @@ class Canvas:
         inside = (aside <= half) & (along >= -half) & (along <= length + half)
         window = np.ix_(rows, columns)
         self._drawn[window] |= inside
-        self._ink[window] = np.where(inside[..., None], stroke.pen.color, self._ink[window])
+        self._image[window] = np.where(inside[..., None], stroke.pen.color, self._image[window])
 
 
 def write_png(picture: Picture, path: Path) -> None:

@@ -21,23 +21,22 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, ServiceRefusedError
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node
-from gazelle.nodes.turtlesim.canvas import BACKGROUND, Canvas, write_png
+from gazelle.nodes.turtlesim.canvas import Canvas, write_png
 from gazelle.nodes.turtlesim.member import Member, all_finite
+from gazelle.nodes.turtlesim.settings import settings_of
 from gazelle.nodes.turtlesim.turtle import PERIOD_S, SIZE_PX, WORLD_M, Turtle, single
 
 __all__ = ["Simulator", "run"]
 
-_CHANNELS = ("background_r", "background_g", "background_b")
 _USAGE = "usage: turtlesim_node [--png FILE]"
 # A turtle that stands still is shown again so often, for those who look later.
 _AGAIN_S = 1.0
@@ -50,13 +49,15 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     word = _png_of(arguments.rest)
     node = start_node(arguments, graph)
     png = word or str(private(node, arguments, "png", ""))
-    simulator = Simulator(node, arguments, png)
-    next_s = time.monotonic() + PERIOD_S
-    while not stop.wait(max(0.0, next_s - time.monotonic())):
-        simulator.step()
-        # Steps that are missed are not made up for, as with the original's timer.
-        next_s = max(next_s, time.monotonic() - PERIOD_S) + PERIOD_S
-    node.shutdown()
+    try:
+        simulator = Simulator(node, arguments, png)
+        next_s = time.monotonic() + PERIOD_S
+        while not stop.wait(max(0.0, next_s - time.monotonic())):
+            simulator.step()
+            # Steps that are missed are not made up for, as with the original's timer.
+            next_s = max(next_s, time.monotonic() - PERIOD_S) + PERIOD_S
+    finally:
+        node.shutdown()
     if png:
         write_png(simulator.picture(), Path(png))
     return 0
@@ -74,10 +75,9 @@ class Simulator:
         self._members: dict[str, Member] = {}
         self._count = 0
         self._kinds = 0
-        self._parameters = self._declare(arguments) if self._is_ros2 else None
-        if not self._is_ros2:
-            _set_missing(node)
-        self._canvas = Canvas(self._background())
+        self._canvas = Canvas()
+        self._settings = settings_of(node, arguments, self._on_background)
+        self._canvas.clear(self._settings.background())
         self._image: Any = message_type("sensor_msgs/msg/Image")
         self._out = node.create_publisher("~_canvas", self._image, reliable=False, queue_size=1)
         self._is_changed = True
@@ -212,7 +212,7 @@ class Simulator:
                 self._kinds,
                 lock=self._lock,
                 is_ros2=self._is_ros2,
-                is_holonomic=self._is_holonomic,
+                is_holonomic=self._settings.is_holonomic,
             )
             self._kinds += 1
             self._is_changed = True
@@ -226,71 +226,15 @@ class Simulator:
             if (name := f"turtle{self._count}") not in self._members:
                 return name
 
-    def _clear(self) -> None:
+    def _on_background(self, background: tuple[int, int, int]) -> None:
         with self._lock:
-            self._canvas.clear(self._background())
+            self._canvas.paint_background(background)
             self._is_changed = True
 
-    def _declare(self, arguments: NodeArguments) -> NodeParameters:
-        words = zip(_CHANNELS, ("Red", "Green", "Blue"), strict=True)
-        channels = {
-            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=255)
-            for name, word in words
-        }
-        holonomic = Descriptor("If true, then turtles will be holonomic")
-        values: dict[str, Any] = dict(zip(_CHANNELS, BACKGROUND, strict=True))
-        values |= {"holonomic": False, "use_sim_time": False}
-        values |= {name: arguments.params[name] for name in values if name in arguments.params}
-        self._node.clock.use(bool(values["use_sim_time"]) or None)
-        return NodeParameters(
-            self._node,
-            self._node.name,
-            values,
-            self._on_set,
-            descriptors={**channels, "holonomic": holonomic},
-            now_ns=self._node.clock.now_ns,
-        )
-
-    def _on_set(self, changes: Mapping[str, Any]) -> str:
-        if "use_sim_time" in changes:
-            self._node.clock.use(bool(changes["use_sim_time"]) or None)
-        if any(name in changes for name in _CHANNELS):
-            assert self._parameters is not None
-            values = {**self._parameters.values, **changes}
-            with self._lock:
-                self._canvas.paint_background(_color(values))
-                self._is_changed = True
-        return ""
-
-    def _is_holonomic(self) -> bool:
-        return self._parameters is None or bool(self._parameters.values["holonomic"])
-
-    def _background(self) -> tuple[int, int, int]:
-        if self._parameters is not None:
-            return _color(self._parameters.values)
-        defaults = zip(_CHANNELS, BACKGROUND, strict=True)
-        return _color({name: self._channel(name, default) for name, default in defaults})
-
-    def _channel(self, name: str, default: int) -> Any:
-        """Return the node's own value, or the older global one when that one was never set."""
-        store = self._node.parameters
-        own = store.get(f"~{name}") if store.has(f"~{name}") else default
-        return store.get(name) if own == default and store.has(name) else own
-
-
-def _set_missing(node: Node) -> None:
-    for name, value in zip(_CHANNELS, BACKGROUND, strict=True):
-        if not node.parameters.has(f"~{name}"):
-            node.parameters.set(f"~{name}", value)
-
-
-def _color(values: Mapping[str, Any]) -> tuple[int, int, int]:
-    """Return the three channels; what is no number from 0 to 255 counts as the default."""
-    found = [
-        value if isinstance(value, int) and 0 <= value <= 255 else default
-        for value, default in zip((values[name] for name in _CHANNELS), BACKGROUND, strict=True)
-    ]
-    return found[0], found[1], found[2]
+    def _clear(self) -> None:
+        with self._lock:
+            self._canvas.clear(self._settings.background())
+            self._is_changed = True
 
 
 def _png_of(words: Sequence[str]) -> str:

@@ -10,13 +10,13 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.errors import GazelleError
+from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import private_number, start_node
 from gazelle.nodes.teleop.terminal import Keys, say
 
 __all__ = ["run"]
@@ -44,6 +44,7 @@ _HEADINGS_RAD = {
     "v": -1.5708,
     "b": -0.7854,
 }
+_SCALES = ("scale_linear", "scale_angular")
 _POLL_S = 0.1
 
 
@@ -83,17 +84,19 @@ def _driver(node: Node, scales: Callable[[], tuple[float, float]]) -> Callable[.
 
 
 def _scales(node: Node) -> Callable[[], tuple[float, float]]:
-    store = node.parameters
-    found = [
-        float(store.get(name)) if store.has(name) else 2.0
-        for name in ("scale_linear", "scale_angular")
-    ]
+    found = [_scale(node, name) for name in _SCALES]
     return lambda: (found[0], found[1])
 
 
+def _scale(node: Node, name: str) -> float:
+    value = node.parameters.get(name) if node.parameters.has(name) else 2.0
+    if isinstance(value, int | float):
+        return float(value)
+    raise LaunchError(f"parameter '{node.resolve_name(name)}' is {value!r}, not a number")
+
+
 def _ros2_scales(node: Node, arguments: NodeArguments) -> Callable[[], tuple[float, float]]:
-    names = ("scale_linear", "scale_angular")
-    values = {name: float(private(node, arguments, name, 2.0)) for name in names}
+    values = {name: private_number(node, arguments, name, 2.0) for name in _SCALES}
     parameters = NodeParameters(node, node.name, values, now_ns=node.clock.now_ns)
     return lambda: (parameters.values["scale_linear"], parameters.values["scale_angular"])
 
