@@ -47,7 +47,7 @@ Visualization Manager:
        Position Transformer: XYZ}
   Global Options: {Background Color: 0; 0; 255, Fixed Frame: odom, Frame Rate: 10}
   Views:
-    Current: {Class: rviz/Orbit, Distance: 4, Focal Point: {X: 0.5, Y: 0, Z: 0},
+    Current: {Class: rviz/Orbit, Distance: 6, Focal Point: {X: 0.5, Y: 0, Z: 0},
               Pitch: 0.8, Yaw: 3.9}
 Window Geometry: {Height: 700, Width: 900}
 """

@@ -134,7 +134,7 @@ class Bridge:
         own = frozenset({*self._presences, BRIDGE_NAME})
         services = self._services.of(one for one in state.services if one[0] not in own)
         traits = traits_of(state, own, self._skipped, services, self._book)
-        self._settle_mirrors(traits, {one.node for one in entities if one.kind is Kind.NODE})
+        self._settle_mirrors(traits)
         self._settle_topics(wishes)
 
     def _settle_presences(self, wishes: dict[str, Wishes]) -> None:
@@ -168,24 +168,36 @@ class Bridge:
             presence.close()
         self._crossing.own_uris.discard(presence.uri)
 
-    def _settle_mirrors(self, traits: dict[str, Traits], ours: set[str]) -> None:
+    def _settle_mirrors(self, traits: dict[str, Traits]) -> None:
         with self._lock:
             gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
+            for name, mirror in list(self._mirrors.items()):
+                # Its name has become free on the graph.
+                if mirror.shares and not self._is_taken(name):
+                    gone.append(self._mirrors.pop(name))
         for mirror in gone:
             mirror.close()
         for name, one in traits.items():
-            self._mirror(name, ours).settle(one)
+            self._mirror(name).settle(one)
 
-    def _mirror(self, name: str, ours: set[str]) -> Mirror:
+    def _mirror(self, name: str) -> Mirror:
         with self._lock:
             known = self._mirrors.get(name)
             if known is not None:
                 return known
-            shares = name in ours
+            # A node made with a name that is taken would end the other one.
+            shares = self._is_taken(name)
             node = self._node if shares else self._mirror_node(name)
             made = Mirror(self._graph, name, node, self._call, shares=shares)
             self._mirrors[name] = made
             return made
+
+    def _is_taken(self, name: str) -> bool:
+        own = self._graph.zid
+        return any(
+            one.kind is Kind.NODE and one.node == name and one.zid != own
+            for one in self._graph.entities()
+        )
 
     def _mirror_node(self, name: str) -> Node:
         namespace, base = split(name)
@@ -205,9 +217,7 @@ class Bridge:
         with self._lock:
             if self._ended.is_set() or node in self._presences or not node.startswith("/"):
                 return None
-            known = self._graph.discovery.known()
-            ours = {one.node for one in known if one.zid != self._graph.zid}
-            return self._mirror(node, ours).voice(topic, kind, latched)
+            return self._mirror(node).voice(topic, kind, latched)
 
     def _call(self, service: str, kind: ServiceKind, request: Any) -> Any:
         try:

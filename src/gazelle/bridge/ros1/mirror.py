@@ -41,6 +41,7 @@ class Mirror:
 
     Attributes:
         name: the node's name in ROS 1.
+        shares: whether the graph shows it under a name that others have too.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class Mirror:
         self._graph = graph
         self._node = node
         self._answer = answer
-        self._shares = shares
+        self.shares = shares
         self._lock = threading.RLock()
         self._closed = False
         self._voices: dict[str, _Voice] = {}
@@ -124,7 +125,7 @@ class Mirror:
                 return
             self.settle(Traits({}, {}, {}))
             self._closed = True
-        if not self._shares:
+        if not self.shares:
             self._node.shutdown()
 
     def _settle_subscribers(self, wanted: dict[str, str]) -> None:
