@@ -48,7 +48,7 @@ COMMANDS: dict[str, Command] = {
     "check_urdf": Command("gazelle.cli.check_urdf", "check a robot and print its tree"),
     "urdf_to_graphviz": Command("gazelle.cli.urdf_to_graphviz", "draw a robot's tree"),
     "urdf_to_graphiz": Command("gazelle.cli.urdf_to_graphiz", "old name of urdf_to_graphviz"),
-    "gz": Command("gazelle.cli.sdf.gz", "gz sdf of Gazebo 11: print, check SDF files"),
+    "gz": Command("gazelle.cli.sdf.gz", "gz of Gazebo 11: topic, model, world, stats, joint, sdf"),
     "ign": Command("gazelle.cli.sdf.ign", "ign sdf of Fortress: print, check, draw SDF files"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),

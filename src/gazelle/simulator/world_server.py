@@ -131,6 +131,11 @@ class WorldServer:
         finally:
             self.commands.disown()
 
+    def step_in_command(self, count: int) -> None:
+        """Take steps from inside a command, which has the world already; paused or not."""
+        self._advance(count)
+        self.pace.restart(self.engine.time_ns)
+
     def run(self, iterations: int = 0) -> None:
         """Run until `stop`: at the wanted real-time factor, or as fast as possible.
 

@@ -1,4 +1,4 @@
-"""``gz``: Gazebo 11's tool, of which Gazelle has ``gz sdf``."""
+"""``gz``: Gazebo 11's tool; ``gz sdf`` is here, what talks to a world in `gazelle.cli.gz`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sys
 from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
+from gazelle.cli.gz import front
 from gazelle.cli.sdf.other_commands import GZ_INSTEAD
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
 from gazelle.description.sdformat.document import to_text
@@ -24,7 +25,12 @@ _HELP = """This tool modifies various aspects of a running Gazebo simulation.
 List of commands:
 
   help      Print this help text.
+  joint     Modify properties of a joint
+  model     Modify properties of a model
   sdf       Converts between SDF versions, and provides info about SDF files
+  stats     Print statistics about a running gzserver instance.
+  topic     Lists information about topics on a Gazebo master
+  world     Modify world properties
 
 
 Use "gz help <command>" to print help for a command."""
@@ -67,6 +73,11 @@ def main(argv: list[str]) -> int:
     if name == "help" and argv[1:] == ["sdf"]:
         say([_SDF_HELP])
         return 0
+    if name == "help" and len(argv) == 2 and argv[1] in front.WORLD_COMMANDS:
+        front.explain(argv[1])
+        return 0
+    if name in front.WORLD_COMMANDS:
+        return front.run(name, argv[1:])
     if name in GZ_INSTEAD:
         say([f"gazelle: gz {name} is not here; use {GZ_INSTEAD[name]}"])
         return _UNKNOWN

@@ -7,16 +7,10 @@ __all__ = ["GZ_INSTEAD", "IGN_INSTEAD"]
 GZ_INSTEAD = {
     "camera": "the browser page of the simulator",
     "debug": "gazelle --help",
-    "joint": "rosservice call /gazebo/apply_joint_effort",
-    "log": "rosbag",
+    "log": "rosbag record, info and play; no state.log is written, read or played here",
     "marker": "a visualization_msgs/Marker topic",
-    "model": "spawn_model, or rosservice call /gazebo/get_model_state, set_model_state, "
-    "delete_model",
     "physics": "rosservice call /gazebo/set_physics_properties",
-    "stats": "rostopic echo /clock",
-    "topic": "rostopic list, rostopic echo",
-    "world": "rosservice call /gazebo/pause_physics, unpause_physics, reset_world, "
-    "reset_simulation",
+    "plugin": "gazelle doctor FILE, which says what a plug-in is here",
 }
 IGN_INSTEAD = {
     "fuel": "models in local folders; nothing is downloaded",

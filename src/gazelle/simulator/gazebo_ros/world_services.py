@@ -35,6 +35,7 @@ class WorldServices:
             Row("set_light_properties", "gazebo_msgs/SetLightProperties", self._set_light),
             Row("get_state_hash", "std_srvs/Trigger", self._get_state_hash),
             Row("delete_light", "gazebo_msgs/DeleteLight", self._delete_light),
+            Row("control_world", "ros_gz_interfaces/ControlWorld", self._control_world),
         ]
 
     def ros2_rows(self) -> list[Row]:
@@ -51,6 +52,19 @@ class WorldServices:
 
     def _reset_world(self, request: Any, response: Any) -> None:
         self._server.reset(time=False)
+
+    def _control_world(self, request: Any, response: Any) -> None:
+        """Pause or not, and take steps; what ``gz world`` asks of Gazebo's world_control."""
+        control = request.world_control
+        if control.reset.all or control.reset.model_only:
+            self._server.reset(time=bool(control.reset.all))
+        self._server.paused = bool(control.pause)
+        steps = int(control.multi_step) or int(control.step)
+        if steps:
+            self._server.step_in_command(steps)
+        elif not control.pause:
+            self._server.unpause()
+        response.success = True
 
     def _get_world(self, request: Any, response: Any) -> None:
         response.sim_time = self._server.time_ns * 1e-9

@@ -1,0 +1,184 @@
+"""``gz topic``: the graph's topics with Gazebo's options and layout."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from gazelle.cli.gz.options import GzCommand, GzError, GzOption, seconds
+from gazelle.cli.gz.protobuf_text import protobuf_text
+from gazelle.cli.gz.world_link import WorldLink, world_link
+from gazelle.cli.processes import Processes
+from gazelle.cli.ros_types import topic_class
+from gazelle.cli.rostopic.bandwidth import BandwidthMeter
+from gazelle.cli.rostopic.rate import RateMeter
+from gazelle.diagnostics import did_you_mean
+from gazelle.graph import RawMessage, TopicInfo
+
+__all__ = ["COMMAND", "message_fields", "run"]
+
+COMMAND = GzCommand(
+    "topic",
+    "List all topics, or show what goes over one. Gazelle has the topics of ROS;\n\tGazebo's own "
+    "(~/world_stats and its kin) are not there.",
+    (
+        GzOption("world-name", "w", "World name; Gazelle has one world.", takes=True),
+        GzOption("list", "l", "List all topics."),
+        GzOption("info", "i", "Get information about a topic.", takes=True),
+        GzOption("echo", "e", "Output topic data to screen.", takes=True),
+        GzOption("hz", "z", "Get publish frequency.", takes=True),
+        GzOption("bw", "b", "Get topic bandwidth.", takes=True),
+        GzOption("duration", "d", "Duration (seconds) to run.", takes=True),
+        GzOption("view", "v", "Not here; use gazelle view.", takes=True),
+        GzOption("publish", "p", "Not here; use rostopic pub.", takes=True),
+        GzOption("request", "r", "Not here; use rosservice call.", takes=True),
+        GzOption("msg", "m", "Not here; use rostopic pub.", takes=True),
+    ),
+)
+_ELSEWHERE = {
+    "view": "the browser page of the simulator",
+    "publish": "rostopic pub TOPIC TYPE VALUES, or ros2 topic pub",
+    "msg": "rostopic pub TOPIC TYPE VALUES, or ros2 topic pub",
+    "request": "rosservice call",
+}
+_PERIOD_S = 1.0
+_FEW_BYTES = 1000.0
+
+
+def run(options: Mapping[str, str]) -> int:
+    """List topics or show one.
+
+    Raises:
+        GzError: an option is not here, or the topic is unknown.
+    """
+    for name, instead in _ELSEWHERE.items():
+        if name in options:
+            raise GzError(f"gz topic --{name} is not here; use {instead}")
+    ways: dict[str, Callable[[WorldLink, TopicInfo, float | None], None]] = {
+        "info": _info,
+        "echo": _echo,
+        "hz": _hz,
+        "bw": _bw,
+    }
+    way = next((name for name in ways if name in options), None)
+    duration_s = seconds(options)
+    if way is None and "list" not in options:
+        raise GzError("nothing to do; see gz help topic")
+    with world_link() as link:
+        if way is None:
+            print("\n".join(sorted(one.name for one in link.graph.topics())))
+        else:
+            ways[way](link, _find(link, options[way]), duration_s)
+    return 0
+
+
+def message_fields(message: Any) -> Any:
+    """Return a message as mappings and lists for `protobuf_text`."""
+    if hasattr(message, "__slots__") and hasattr(message, "_type"):
+        return {name: message_fields(getattr(message, name)) for name in message.__slots__}
+    if isinstance(message, (bytes, bytearray)):
+        return list(message)
+    if isinstance(message, (str, bool, int, float)):
+        return message
+    if hasattr(message, "secs"):
+        return {"sec": int(message.secs), "nsec": int(message.nsecs)}
+    items = message.tolist() if hasattr(message, "tolist") else message
+    return [message_fields(one) for one in items] if isinstance(items, (list, tuple)) else items
+
+
+def _find(link: WorldLink, word: str) -> TopicInfo:
+    """Return the topic of this name; Gazebo takes the end of a name too.
+
+    Raises:
+        GzError: no topic or several are meant.
+    """
+    topics = {one.name: one for one in link.graph.topics(include_hidden=True)}
+    word = word.removeprefix("~")
+    ends = [name for name in topics if name.endswith("/" + word.strip("/"))]
+    found = [word] if word in topics else ends
+    if len(found) == 1:
+        return topics[found[0]]
+    if found:
+        raise GzError(f"'{word}' means several topics: {', '.join(sorted(found))}")
+    hint = did_you_mean(word, topics) or "gz topic -l names those there are"
+    raise GzError(f"Unable to find topic[{word}]; {hint}")
+
+
+def _info(link: WorldLink, topic: TopicInfo, _duration_s: float | None) -> None:
+    processes = Processes(link.graph)
+    print(f"Type: {topic.type_name}\n")
+    for title, names in (("Publishers", topic.publishers), ("Subscribers", topic.subscriptions)):
+        print(f"{title}:")
+        for node in names:
+            print(f"\t{processes.uri(node)} {node}")
+        print()
+
+
+def _echo(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
+    def show(message: Any) -> None:
+        print(protobuf_text(message_fields(message)), flush=True)
+
+    link.node.create_subscription(topic.name, topic_class(topic.type_name), show)
+    link.ended.wait(duration_s)
+
+
+def _hz(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
+    meter = RateMeter()
+
+    def report() -> None:
+        rate = meter.read()
+        if rate is not None:
+            print(f"Hz: {rate.rate_hz:6.2f}", flush=True)
+
+    _measure(link, topic, duration_s, lambda _size: meter.add(time.monotonic()), report)
+
+
+def _bw(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
+    meter = BandwidthMeter()
+
+    def report() -> None:
+        found = meter.read(time.monotonic())
+        if found is None:
+            return
+        sizes = {
+            "Total": f"{_bytes(found.bytes_per_s)}/s",
+            "Mean": _bytes(found.mean),
+            "Min": _bytes(found.least),
+            "Max": _bytes(found.most),
+            "Messages": str(found.window),
+        }
+        print(" ".join(f"{name}[{text}]" for name, text in sizes.items()), flush=True)
+
+    _measure(link, topic, duration_s, lambda size: meter.add(time.monotonic(), size), report)
+
+
+def _measure(
+    link: WorldLink,
+    topic: TopicInfo,
+    duration_s: float | None,
+    add: Callable[[int], None],
+    report: Callable[[], None],
+) -> None:
+    def take(message: RawMessage) -> None:
+        add(len(message.data))
+
+    link.node.create_subscription(topic.name, None, take, raw=True, inline=True)
+    end_s = float("inf") if duration_s is None else time.monotonic() + duration_s
+    over = threading.Event()
+    while not over.is_set():
+        left_s = end_s - time.monotonic()
+        if link.ended.wait(max(0.0, min(_PERIOD_S, left_s))) or time.monotonic() >= end_s:
+            over.set()
+        report()
+    sys.stdout.flush()
+
+
+def _bytes(count: float) -> str:
+    for unit in ("B", "KB"):
+        if count < _FEW_BYTES:
+            return f"{count:6.2f} {unit}"
+        count /= _FEW_BYTES
+    return f"{count:6.2f} MB"
