@@ -26,6 +26,9 @@ COMMANDS: dict[str, Command] = {
     "rosparam": Command("gazelle.cli.rosparam", "list, get, set, load, dump, delete"),
     "rosmsg": Command("gazelle.cli.rosmsg", "show, info, list, md5, package, packages"),
     "rossrv": Command("gazelle.cli.rosmsg", "the same for services"),
+    "rosbag": Command(
+        "gazelle.cli.rosbag", "record, play, info, filter, check, compress, reindex bags"
+    ),
     "rospack": Command("gazelle.cli.rospack", "find, list, list-names, depends, depends1"),
     "rosversion": Command("gazelle.cli.rospack", "version of a package"),
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),

@@ -88,6 +88,22 @@ class Publisher:
         if self._matched_elsewhere():
             self._send(message)
 
+    def publish_raw(self, data: bytes) -> None:
+        """Send a message that is CDR bytes already, of the topic's type.
+
+        Raises:
+            GraphError: the publisher was unregistered.
+            InterfaceError: somebody listens in this process, and the bytes are not of the type.
+        """
+        if self._closed:
+            raise GraphError(f"publish() to a closed topic: {self.topic} was unregistered")
+        if self.latch or self._local.subscriptions:
+            self.publish(wire.decode(self.message_class, data))
+            return
+        self._sequence += 1
+        if self._matched_elsewhere():
+            self._send_bytes(data)
+
     def unregister(self) -> None:
         """Stop offering the topic; calling it twice does nothing."""
         if self._closed:
@@ -124,7 +140,10 @@ class Publisher:
             return not self._closed and bool(self._matcher.matching_status.matching)
 
     def _send(self, message: Any) -> None:
-        payload, attachment = wire.encode(message), self._attachment().to_bytes()
+        self._send_bytes(wire.encode(message))
+
+    def _send_bytes(self, payload: bytes) -> None:
+        attachment = self._attachment().to_bytes()
         with self._transport:
             if not self._closed:
                 self._sender.put(payload, attachment=attachment)

@@ -24,6 +24,7 @@ ROS_COMMANDS = (
     "gzserver",
     "ign",
     "ros2",
+    "rosbag",
     "rosclean",
     "roscore",
     "roslaunch",

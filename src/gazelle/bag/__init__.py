@@ -1,0 +1,49 @@
+"""Bags: recording, reading, playing and converting them, in ROS 1's and rosbag2's formats."""
+
+from __future__ import annotations
+
+from gazelle.bag.opening import create_bag, open_bag, storage_of
+from gazelle.bag.records import (
+    BagError,
+    BagMessage,
+    BagReader,
+    BagWriter,
+    Connection,
+    Encoding,
+    Pack,
+    Storage,
+    Summary,
+)
+from gazelle.bag.types import (
+    cdr_connection,
+    converter,
+    learn_definitions,
+    message_class,
+    ros1_connection,
+    ros1_name_of,
+    ros2_definition,
+    wire_name_of,
+)
+
+__all__ = [
+    "BagError",
+    "BagMessage",
+    "BagReader",
+    "BagWriter",
+    "Connection",
+    "Encoding",
+    "Pack",
+    "Storage",
+    "Summary",
+    "cdr_connection",
+    "converter",
+    "create_bag",
+    "learn_definitions",
+    "message_class",
+    "open_bag",
+    "ros1_connection",
+    "ros1_name_of",
+    "ros2_definition",
+    "storage_of",
+    "wire_name_of",
+]

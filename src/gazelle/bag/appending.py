@@ -1,0 +1,66 @@
+"""A file that only grows: what is written is the system's at once, also when we are killed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from gazelle.bag.records import BagError
+
+__all__ = ["AppendedFile"]
+
+_MOST_BUFFERS = 512
+
+
+class AppendedFile:
+    """Appends without a buffer of its own.
+
+    Attributes:
+        path: the file.
+        size: bytes written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Create the file, empty.
+
+        Raises:
+            BagError: the file system refuses it.
+        """
+        self.path = path
+        self.size = 0
+        try:
+            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC, 0o644)
+        except OSError as error:
+            raise BagError(f"Error opening file: {path}: {error.strerror}") from None
+
+    def append(self, pieces: Sequence[bytes]) -> None:
+        """Write pieces one after the other.
+
+        Raises:
+            BagError: the file system refuses it, as when it is full.
+        """
+        waiting = [memoryview(piece) for piece in pieces if piece]
+        try:
+            while waiting:
+                count = os.writev(self._file, waiting[:_MOST_BUFFERS])
+                self.size += count
+                waiting = _rest(waiting, count)
+        except OSError as error:
+            raise BagError(f"Error writing to file: {self.path}: {error.strerror}") from None
+
+    def replace(self, data: bytes, position: int) -> None:
+        """Write over bytes that are there."""
+        os.pwrite(self._file, data, position)
+
+    def close(self) -> None:
+        """Close the file."""
+        os.close(self._file)
+
+
+def _rest(pieces: list[memoryview], written: int) -> list[memoryview]:
+    for place, piece in enumerate(pieces):
+        if written < len(piece):
+            return [piece[written:], *pieces[place + 1 :]]
+        written -= len(piece)
+    return []

@@ -1,0 +1,9 @@
+"""Playing bags: their messages on the graph again, at the times they were recorded."""
+
+from __future__ import annotations
+
+from gazelle.bag.playing.controls import Controls
+from gazelle.bag.playing.player import Player, PlayOptions
+from gazelle.bag.playing.timeline import Timeline
+
+__all__ = ["Controls", "PlayOptions", "Player", "Timeline"]

@@ -1,0 +1,207 @@
+"""Publishes the messages of bags at the times they were recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.bag.playing.controls import Controls
+from gazelle.bag.playing.messages import Outgoing, ahead, outgoing
+from gazelle.bag.playing.timeline import Timeline
+from gazelle.bag.qos import read_qos
+from gazelle.bag.records import BagReader, Connection
+from gazelle.bag.types import wire_name_of
+from gazelle.errors import GazelleError
+from gazelle.graph import Node, Publisher
+from gazelle.interfaces import message_type
+
+__all__ = ["PlayOptions", "Player"]
+
+_LONGEST_WAIT_S = 0.05
+_LAST_PART_NS = 1_000_000
+_CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+@dataclass(frozen=True, slots=True)
+class PlayOptions:
+    """How bags are played.
+
+    Attributes:
+        rate: seconds of the bag in a second.
+        start_s: where to start, from the beginning.
+        duration_s: how much to play, None for all.
+        skip_empty_s: gaps longer than this are skipped, None for none.
+        immediate: do not wait between messages.
+        clock_hz: how often ``/clock`` is published, 0 for not at all.
+        topics: only these, all when empty.
+        pause_topics: pause when one of these comes.
+        prefix: in front of every topic.
+    """
+
+    rate: float = 1.0
+    start_s: float = 0.0
+    duration_s: float | None = None
+    skip_empty_s: float | None = None
+    immediate: bool = False
+    clock_hz: float = 0.0
+    topics: frozenset[str] = frozenset()
+    pause_topics: frozenset[str] = frozenset()
+    prefix: str = ""
+
+
+class Player:
+    """Plays bags on a node's graph.
+
+    Attributes:
+        timeline: when a stamp is due.
+        start_ns: stamp of the beginning.
+        length_ns: how long the bags are.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        bags: Sequence[BagReader],
+        options: PlayOptions,
+        controls: Controls,
+        say: Callable[[str, str], None],
+        show: Callable[[Player, str, int], None],
+    ) -> None:
+        """Announce the topics.
+
+        Args:
+            node: publishes; its remaps apply.
+            bags: played together.
+            options: how.
+            controls: pause, step, stop.
+            say: called with level and text of what goes wrong.
+            show: called with this, ``RUNNING``, ``PAUSED`` or ``DELAYED``, and the stamp of now.
+        """
+        self._node = node
+        self._bags = bags
+        self._options = options
+        self._controls = controls
+        self._say = say
+        self._show = show
+        summaries = [one.summary for one in bags]
+        filled = [one for one in summaries if one.messages] or summaries
+        self.start_ns = min(one.start_ns for one in filled)
+        self.length_ns = max(one.end_ns for one in filled) - self.start_ns
+        self.timeline = Timeline(self.start_ns, options.rate)
+        self._publishers: dict[tuple[int, int], Publisher] = {}
+        self._clock: Publisher | None = None
+        self._clock_ns = 0
+        self._announce()
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """One for every topic."""
+        return tuple(dict.fromkeys(self._publishers.values()))
+
+    def play(self) -> None:
+        """Publish everything once."""
+        options = self._options
+        start_ns = self.start_ns + int(options.start_s * 1e9)
+        end_ns = None
+        if options.duration_s is not None:
+            end_ns = start_ns + int(options.duration_s * 1e9)
+        self.timeline = Timeline(start_ns, options.rate)
+        self._clock_ns = 0
+        if self._controls.paused:
+            self.timeline.hold(start_ns)
+        last_ns = start_ns
+        for one in ahead(outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread)):
+            gap_s = (one.stamp_ns - last_ns) / 1e9
+            if options.immediate or (
+                options.skip_empty_s is not None and gap_s > options.skip_empty_s
+            ):
+                self.timeline.jump(one.stamp_ns)
+            if not self._wait_for(one.stamp_ns):
+                return
+            self._publish(one)
+            last_ns = one.stamp_ns
+
+    def tick(self) -> None:
+        """Publish ``/clock`` when it is due again."""
+        if self._clock is None:
+            return
+        stamp_ns = self.timeline.stamp_ns()
+        period_ns = int(1e9 / self._options.clock_hz * self.timeline.rate)
+        if not self._clock_ns <= stamp_ns < self._clock_ns + period_ns or self.timeline.held:
+            self._clock_ns = stamp_ns
+            message = self._clock.message_class()
+            message.clock.sec, message.clock.nanosec = divmod(stamp_ns, 1_000_000_000)
+            self._clock.publish(message)
+
+    def _wait_for(self, stamp_ns: int) -> bool:
+        """Wait until a stamp is due; False when told to stop."""
+        controls, timeline = self._controls, self.timeline
+        while not controls.stopped:
+            if controls.paused != timeline.held:
+                if timeline.held:
+                    timeline.go_on()
+                else:
+                    timeline.hold()
+            self.tick()
+            if timeline.held:
+                if controls.take_step():
+                    timeline.hold(stamp_ns)
+                    self.tick()
+                    return True
+                self._show(self, "PAUSED", timeline.stamp_ns())
+                controls.wait(_LONGEST_WAIT_S)
+                continue
+            wait_ns = timeline.wait_ns(stamp_ns)
+            if wait_ns <= 0:
+                return True
+            self._show(self, "RUNNING", timeline.stamp_ns())
+            self._sleep(wait_ns)
+        return False
+
+    def _sleep(self, wait_ns: int) -> None:
+        longest_s = _LONGEST_WAIT_S
+        if self._options.clock_hz:
+            longest_s = min(longest_s, 1 / self._options.clock_hz)
+        # Waits on a condition are late by up to a millisecond on a busy machine; short ones less.
+        rest_ns = wait_ns - _LAST_PART_NS if wait_ns > 2 * _LAST_PART_NS else wait_ns
+        self._controls.wait(min(rest_ns / 1e9, longest_s))
+
+    def _publish(self, one: Outgoing) -> None:
+        publisher = self._publishers.get((one.place, one.connection.id))
+        if publisher is not None:
+            publisher.publish_raw(one.data)
+        self._show(self, "PAUSED" if self.timeline.held else "RUNNING", one.stamp_ns)
+        if one.connection.topic in self._options.pause_topics:
+            self._controls.pause(True)
+
+    def _announce(self) -> None:
+        made: dict[tuple[str, str, bool], Publisher] = {}
+        for place, bag in enumerate(self._bags):
+            for one in filter(self._wants, bag.connections):
+                latched = one.latching or read_qos(one.qos).latched
+                key = (one.topic, wire_name_of(one), latched)
+                if key not in made and (new := self._publisher(one, latched)) is not None:
+                    made[key] = new
+                if key in made:
+                    self._publishers[place, one.id] = made[key]
+        if self._options.clock_hz:
+            self._clock = self._node.create_publisher("/clock", message_type(_CLOCK))
+
+    def _publisher(self, one: Connection, latched: bool) -> Publisher | None:
+        topic = f"{self._options.prefix}{one.topic}"
+        try:
+            kind: Any = message_type(wire_name_of(one))
+            return self._node.create_publisher(topic, kind, latch=latched, queue_size=100)
+        except GazelleError as error:
+            self._on_unread(one, error)
+            return None
+
+    def _wants(self, one: Connection) -> bool:
+        topics = self._options.topics
+        own_clock = one.topic == "/clock" and self._options.clock_hz > 0
+        return (not topics or one.topic in topics) and not own_clock
+
+    def _on_unread(self, one: Connection, error: GazelleError) -> None:
+        text = f"topic {one.topic} ({one.type_name}) is not played: {error}"
+        self._say("error", f"{text} [bag.not-converted]")

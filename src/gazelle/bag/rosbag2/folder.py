@@ -1,0 +1,263 @@
+"""A bag of rosbag2: a folder of files that continue each other."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from gazelle.bag.mcap import McapBag, McapWriter
+from gazelle.bag.records import (
+    BagError,
+    BagMessage,
+    BagReader,
+    BagWriter,
+    Connection,
+    Encoding,
+    Pack,
+    Storage,
+    Summary,
+    Wanted,
+)
+from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
+from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
+
+__all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
+
+_SUFFIXES = {Storage.MCAP: ".mcap", Storage.SQLITE: ".db3"}
+
+
+class Rosbag2:
+    """An open folder; topics of its files that are the same are one connection.
+
+    Attributes:
+        path: the folder.
+        files: its files.
+        has_metadata: it was closed properly.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open a folder.
+
+        Raises:
+            BagError: it is no bag, or one of its files cannot be read.
+        """
+        self.path = path
+        metadata = read_metadata(path)
+        self.has_metadata = metadata is not None
+        if metadata is not None and metadata.compression_mode not in ("", "none"):
+            raise BagError(
+                f"{path}: its {metadata.compression_mode}s are compressed with "
+                f"{metadata.compression_format}, which is not read here; "
+                "`ros2 bag convert` of ROS 2 writes it without"
+            )
+        self.files = _files(path, metadata.files if metadata else ())
+        self._readers = [_open(file) for file in self.files]
+        self.storage: Storage = self._readers[0].storage
+        self.ros_distro = metadata.ros_distro if metadata else ""
+        self._own: dict[tuple[int, int], Connection] = {}
+        self._connections = self._merged()
+
+    @property
+    def connections(self) -> tuple[Connection, ...]:
+        """All topics, by number."""
+        return tuple(self._connections)
+
+    @property
+    def summary(self) -> Summary:
+        """What is in it."""
+        counts: dict[int, int] = {}
+        packs: dict[str, Pack] = {}
+        parts = [one.summary for one in self._readers]
+        for place, part in enumerate(parts):
+            for number, count in part.counts.items():
+                own = self._own[place, number].id
+                counts[own] = counts.get(own, 0) + count
+            packs |= part.packs
+        filled = [one for one in parts if one.messages]
+        return Summary(
+            counts,
+            min((one.start_ns for one in filled), default=0),
+            max((one.end_ns for one in filled), default=0),
+            sum(one.size for one in parts),
+            packs,
+            self.has_metadata and all(one.is_indexed for one in parts),
+            sum(one.lost for one in parts),
+        )
+
+    def messages(
+        self, wanted: Wanted | None = None, start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[BagMessage]:
+        """Yield messages by time, those of `wanted` topics between two stamps."""
+        streams = [
+            self._of_file(place, wanted, start_ns, end_ns) for place in range(len(self._readers))
+        ]
+        return heapq.merge(*streams, key=lambda message: message.stamp_ns)
+
+    def close(self) -> None:
+        """Close the files."""
+        for one in self._readers:
+            one.close()
+
+    def _of_file(
+        self, place: int, wanted: Wanted | None, start_ns: int | None, end_ns: int | None
+    ) -> Iterator[BagMessage]:
+        for message in self._readers[place].messages(wanted, start_ns, end_ns):
+            yield message._replace(connection=self._own[place, message.connection.id])
+
+    def _merged(self) -> list[Connection]:
+        found: dict[tuple[str, str], Connection] = {}
+        for place, reader in enumerate(self._readers):
+            for one in reader.connections:
+                key = (one.topic, one.type_name)
+                own = found.setdefault(key, replace(one, id=len(found) + 1))
+                self._own[place, one.id] = own
+        return list(found.values())
+
+
+class Rosbag2Writer:
+    """Writes a folder: files ``NAME_0.mcap``, ``NAME_1.mcap`` … and ``metadata.yaml``.
+
+    Attributes:
+        path: the folder.
+        storage: of the files.
+    """
+
+    encoding = Encoding.CDR
+
+    def __init__(
+        self, path: Path, storage: Storage, *, compression: str = "", overwrite: bool = False
+    ) -> None:
+        """Create the folder.
+
+        Raises:
+            BagError: it is there already, or the file system refuses it.
+        """
+        self.path = path
+        self.storage = storage
+        self._compression = compression
+        try:
+            path.mkdir(parents=True, exist_ok=overwrite)
+        except FileExistsError:
+            raise BagError(f"Output folder '{path}' already exists.") from None
+        except OSError as error:
+            raise BagError(f"Error opening file: {path}: {error.strerror}") from None
+        self._connections: list[Connection] = []
+        self._own: dict[int, Connection] = {}
+        self._done: list[FileSummary] = []
+        self._counts: dict[int, int] = {}
+        self._file_counts: dict[int, int] = {}
+        self._span: tuple[int, int] | None = None
+        self._written = 0
+        self._closed = False
+        self._file = self._next_file()
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file that is being written."""
+        return self._file.size
+
+    @property
+    def file(self) -> Path:
+        """The file that is being written."""
+        return self._file.path
+
+    def add(self, connection: Connection) -> Connection:
+        """Add a topic; returns it with its number in this bag."""
+        own = replace(connection, id=len(self._connections))
+        self._connections.append(own)
+        self._own[own.id] = self._file.add(own)
+        return own
+
+    def write(self, connection: Connection, stamp_ns: int, data: bytes) -> None:
+        """Write one message."""
+        number = connection.id
+        self._file.write(self._own[number], stamp_ns, data)
+        self._counts[number] = self._counts.get(number, 0) + 1
+        self._file_counts[number] = self._file_counts.get(number, 0) + 1
+        low, high = self._span or (stamp_ns, stamp_ns)
+        self._span = (min(low, stamp_ns), max(high, stamp_ns))
+
+    def flush(self) -> None:
+        """Hand everything to the system."""
+        self._file.flush()
+
+    def split(self, stamp_ns: int = 0) -> Path:
+        """Go on in a new file; returns the one that is finished."""
+        del stamp_ns  # nothing is repeated in the new file
+        done = self._file.path
+        self._finish_file()
+        self._file = self._next_file()
+        self._own = {one.id: self._file.add(one) for one in self._connections}
+        return done
+
+    def close(self) -> None:
+        """Finish the last file and write ``metadata.yaml``; calling it twice does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        self._finish_file()
+        counts = [(one, self._counts.get(one.id, 0)) for one in self._connections]
+        write_metadata(self.path, self.storage, counts, self._done)
+
+    def _next_file(self) -> BagWriter:
+        name = f"{self.path.name}_{len(self._done)}{_SUFFIXES[self.storage]}"
+        if self.storage is Storage.SQLITE:
+            return SqliteWriter(self.path / name)
+        return McapWriter(self.path / name, compression=self._compression)
+
+    def _finish_file(self) -> None:
+        self._file.close()
+        path, (start_ns, end_ns) = self._file.path, self._span or (0, 0)
+        summary = Summary(self._file_counts, start_ns, end_ns, path.stat().st_size)
+        self._done.append(FileSummary(path, summary))
+        self._file_counts, self._span = {}, None
+
+
+def reindex(folder: Path) -> None:
+    """Write a folder's ``metadata.yaml`` from its files.
+
+    Raises:
+        BagError: there are no files, or one cannot be read.
+    """
+    files = _files(folder, ())
+    readers = [_open(file) for file in files]
+    counts: dict[str, tuple[Connection, int]] = {}
+    parts = []
+    for reader in readers:
+        summary = reader.summary
+        parts.append(FileSummary(reader.path, summary))
+        for one in reader.connections:
+            before = counts.get(one.topic, (one, 0))[1]
+            counts[one.topic] = (one, before + summary.counts.get(one.id, 0))
+        reader.close()
+    write_metadata(folder, readers[0].storage, list(counts.values()), parts)
+
+
+_OPENERS: dict[str, Callable[[Path], BagReader]] = {".mcap": McapBag, ".db3": SqliteBag}
+
+
+def _open(path: Path) -> BagReader:
+    opener = _OPENERS.get(path.suffix)
+    if opener is None:
+        raise BagError(f"{path}: a file of rosbag2 ends in .mcap or .db3")
+    return opener(path)
+
+
+def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
+    files = [folder / Path(name).name for name in names]
+    if not files:
+        files = [one for one in folder.iterdir() if one.suffix in _OPENERS]
+        files.sort(key=_place)
+    if not files:
+        raise BagError(f"{folder}: there is no bag in this folder (no .mcap and no .db3)")
+    for file in files:
+        if not file.is_file():
+            raise BagError(f"{folder}: its metadata.yaml names {file.name}, which is not there")
+    return tuple(files)
+
+
+def _place(path: Path) -> tuple[int, str]:
+    number = path.stem.rpartition("_")[2]
+    return (int(number) if number.isdigit() else 0, path.name)

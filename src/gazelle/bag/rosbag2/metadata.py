@@ -1,0 +1,131 @@
+"""``metadata.yaml`` of rosbag2, version 8 (Jazzy); versions 1 to 9 are read."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+
+from gazelle.bag.records import BagError, Connection, Storage, Summary
+from gazelle.limits.yaml_text import load_yaml
+
+__all__ = ["METADATA", "FileSummary", "Metadata", "read_metadata", "write_metadata"]
+
+METADATA = "metadata.yaml"
+_ROOT = "rosbag2_bagfile_information"
+_VERSION = 8
+
+
+class FileSummary(NamedTuple):
+    """One file of a bag and what is in it."""
+
+    path: Path
+    summary: Summary
+
+
+class Metadata(NamedTuple):
+    """What is read back from the file.
+
+    Attributes:
+        storage: ``mcap`` or ``sqlite3``.
+        files: relative to the folder.
+        compression_mode: ``file``, ``message`` or empty.
+        compression_format: such as ``zstd``.
+        ros_distro: who recorded it, empty when it is not said.
+        custom_data: what the recorder's user added.
+    """
+
+    storage: str
+    files: tuple[str, ...]
+    compression_mode: str = ""
+    compression_format: str = ""
+    ros_distro: str = ""
+    custom_data: dict[str, str] | None = None
+
+
+def read_metadata(folder: Path) -> Metadata | None:
+    """Return what a bag's ``metadata.yaml`` says, None when there is none.
+
+    Raises:
+        BagError: it cannot be read as such.
+    """
+    path = folder / METADATA
+    if not path.is_file():
+        return None
+    try:
+        root = load_yaml(path.read_text(encoding="utf-8"))[_ROOT]
+        return Metadata(
+            str(root["storage_identifier"]),
+            tuple(map(str, root["relative_file_paths"])),
+            str(root.get("compression_mode") or "").lower(),
+            str(root.get("compression_format") or ""),
+            str(root.get("ros_distro") or ""),
+            root.get("custom_data") or {},
+        )
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
+        text = f"{path}: this is no metadata of rosbag2: {error}"
+        raise BagError(f"{text}; `ros2 bag reindex {folder}` writes it anew") from None
+
+
+def write_metadata(
+    folder: Path,
+    storage: Storage,
+    counts: Sequence[tuple[Connection, int]],
+    files: Sequence[FileSummary],
+    custom_data: dict[str, str] | None = None,
+) -> None:
+    """Write a bag's ``metadata.yaml``.
+
+    Args:
+        folder: the bag.
+        storage: of its files.
+        counts: topics with their numbers of messages.
+        files: with their summaries.
+        custom_data: pairs that the user added.
+    """
+    filled = [one.summary for one in files if one.summary.messages]
+    start_ns = min((one.start_ns for one in filled), default=0)
+    end_ns = max((one.end_ns for one in filled), default=0)
+    root = {
+        "version": _VERSION,
+        "storage_identifier": str(storage),
+        "duration": {"nanoseconds": end_ns - start_ns},
+        "starting_time": {"nanoseconds_since_epoch": start_ns},
+        "message_count": sum(one.messages for one in filled),
+        "topics_with_message_count": [_topic(*pair) for pair in counts],
+        "compression_format": "",
+        "compression_mode": "",
+        "relative_file_paths": [one.path.name for one in files],
+        "files": [_file(one) for one in files],
+        "custom_data": custom_data or None,
+        "ros_distro": os.environ.get("ROS_DISTRO", "unknown"),
+    }
+    text = yaml.safe_dump({_ROOT: root}, sort_keys=False, default_flow_style=False)
+    part = folder / f"{METADATA}.part"
+    part.write_text(text, encoding="utf-8")
+    part.replace(folder / METADATA)
+
+
+def _topic(one: Connection, count: int) -> dict[str, Any]:
+    return {
+        "topic_metadata": {
+            "name": one.topic,
+            "type": one.type_name,
+            "serialization_format": "cdr",
+            "offered_qos_profiles": one.qos,
+            "type_description_hash": one.type_hash,
+        },
+        "message_count": count,
+    }
+
+
+def _file(one: FileSummary) -> dict[str, Any]:
+    return {
+        "path": one.path.name,
+        "starting_time": {"nanoseconds_since_epoch": one.summary.start_ns},
+        "duration": {"nanoseconds": one.summary.duration_ns},
+        "message_count": one.summary.messages,
+    }
