@@ -37,7 +37,8 @@ def test_yaml_csv_flow_and_raw(say: Any, once: Any) -> None:
     assert once("/point") == (0, "x: 1.0\ny: 0.0\nz: 0.0\n---\n", "")
     assert once("point").out == "x: 1.0\ny: 0.0\nz: 0.0\n---\n"
     assert once("/point", "geometry_msgs/msg/Point", "--csv").out == "1.0,0.0,0.0\n"
-    assert once("/point", "--flow-style").out == "{x: 1.0, y: 0.0, z: 0.0}\n---\n"
+    say("/names", "sensor_msgs/msg/JointState", name=["a", "b"])
+    assert "name: [a, b]\n" in once("/names", "--flow-style").out
     raw = once("/point", "--raw").out
     assert raw == repr(b"\0\1\0\0\0\0\0\0\0\0\xf0\x3f" + bytes(16)) + "\n---\n"
     assert once("/point", "-c").out.startswith("\x1b[H\x1b[2J\nx: 1.0\n")

@@ -34,8 +34,16 @@ def test_yaml_has_the_fields_in_order_and_the_header_of_ros2() -> None:
         "header:\n  stamp:\n    sec: 3\n    nanosec: 5\n  frame_id: base\nname:\n- a\n- b\n"
         "position:\n- 0.5\n- 1.0e-07\nvelocity: []\neffort: []\n"
     )
-    point = _message("geometry_msgs/msg/Point", x=1.0)
-    assert message_yaml(point, flow_style=True) == "{x: 1.0, y: 0.0, z: 0.0}\n"
+
+
+def test_flow_style_is_that_of_lists() -> None:
+    joints = _message("sensor_msgs/msg/JointState", name=["a", "b"], position=[0.5, 1.0])
+    assert message_yaml(joints, flow_style=True) == (
+        "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\n"
+        "name: [a, b]\nposition: [0.5, 1.0]\nvelocity: []\neffort: []\n"
+    )
+    points = _message("geometry_msgs/msg/Polygon", points=[{"x": 1.0}])
+    assert message_yaml(points, flow_style=True) == "points: [{x: 1.0, y: 0.0, z: 0.0}]\n"
 
 
 @pytest.mark.parametrize("text", ["\U0001f98c", "a\x85b", "ü: a", "\0", "a\nb", "x" * 300])

@@ -55,7 +55,7 @@ def main(argv: list[str]) -> int:
         del words[0]
     name = words[0] if words else ""
     if name in {"", "-h", "--help"}:
-        print(_usage(), end="")
+        print(_parser().format_help(), end="")
         return 0
     command = _COMMANDS.get(name)
     if command is None:
@@ -71,6 +71,7 @@ def _refuse(name: str) -> int:
         return 2
     hint = did_you_mean(name, _COMMANDS)
     known = f"choose from {', '.join(map(repr, _COMMANDS))}"
+    print(_parser().format_usage(), end="", file=sys.stderr)
     print(
         f"ros2: error: argument {_MORE}: invalid choice: '{name}' ({hint or known})",
         file=sys.stderr,
@@ -85,7 +86,7 @@ def _buffer_lines() -> None:
             sys.stdout.reconfigure(line_buffering=True)
 
 
-def _usage() -> str:
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="ros2",
         description="ros2 is an extensible command-line tool for ROS 2.",
@@ -99,4 +100,4 @@ def _usage() -> str:
     width = max(map(len, _COMMANDS))
     lines = [f"{name:<{width}}  {one.help}" for name, one in sorted(_COMMANDS.items())]
     parser.add_subparsers(title="Commands", description="\n".join(lines), metavar=_MORE)
-    return parser.format_help()
+    return parser

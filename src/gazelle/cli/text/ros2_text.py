@@ -6,6 +6,7 @@ The rules are those of rosidl_runtime_py's ``message_to_yaml`` and ``message_to_
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -89,16 +90,29 @@ def value_text(value: Any, kind: FieldType | None) -> str:
 def _dumped(plain: dict[str, Any], *, flow_style: bool, fast: bool) -> str:
     import yaml
 
-    dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper) if fast else yaml.SafeDumper
     text: str = yaml.dump(
         plain,
-        Dumper=dumper,
+        Dumper=_dumper("CSafeDumper" if fast else "SafeDumper"),
         allow_unicode=True,
         width=_NO_WRAP,
         default_flow_style=flow_style,
         sort_keys=False,
     )
     return text
+
+
+@cache
+def _dumper(name: str) -> Any:
+    """A dumper that gives each field a line, also where lists are written in one."""
+    import yaml
+
+    def represent(dumper: Any, fields: dict[str, Any]) -> Any:
+        return dumper.represent_mapping("tag:yaml.org,2002:map", fields, flow_style=False)
+
+    # Without libyaml there is no fast one.
+    made = type("Dumper", (getattr(yaml, name, yaml.SafeDumper),), {})
+    yaml.add_representer(dict, represent, Dumper=made)
+    return made
 
 
 def _plain(message: Message, how: Shortening) -> dict[str, Any]:

@@ -22,7 +22,7 @@ _LENGTH = 128
 _FLAGS = (
     ("--no-arr", "Don't print array fields of messages"),
     ("--no-str", "Don't print string fields of messages"),
-    ("--flow-style", "Print collections in the flow style (not available with csv format)"),
+    ("--flow-style", "Print lists in one line (not available with csv format)"),
     ("--no-lost-messages", "Don't report when a message is lost"),
     ("--raw", "Echo the raw binary representation"),
     ("--once", "Print the first message received and then exit."),
