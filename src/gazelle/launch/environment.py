@@ -27,6 +27,7 @@ ROS_COMMANDS = (
     "rosbag",
     "rosclean",
     "roscore",
+    "rosdep",
     "roslaunch",
     "rosmsg",
     "rosnode",

@@ -120,7 +120,7 @@ def test_the_install_space_has_copies(make: Make, spaces: CatkinSpaces, tmp_path
 def test_env_sh_runs_a_command_in_the_space(make: Make, spaces: CatkinSpaces) -> None:
     make("bot", "catkin", _FILES)
     _build(spaces)
-    words = [spaces.devel / "env.sh", "sh", "-c", 'echo "$ROS_PACKAGE_PATH"']
+    words = [str(spaces.devel / "env.sh"), "sh", "-c", 'echo "$ROS_PACKAGE_PATH"']
     done = subprocess.run(words, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True,
                           check=True)  # fmt: skip
     assert done.stdout == f"{spaces.source}\n"
