@@ -37,7 +37,7 @@ COMMANDS: dict[str, Command] = {
     "controller_manager": Command(
         "gazelle.cli.controller_manager", "list, load, start, stop, spawn, kill controllers"
     ),
-    "ros2": Command("gazelle.cli.ros2", "commands of ROS 2: control, param"),
+    "ros2": Command("gazelle.cli.ros2", "commands of ROS 2: topic, node, service, run, param …"),
     "dynparam": Command(
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),

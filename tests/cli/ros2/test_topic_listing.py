@@ -101,3 +101,9 @@ def test_without_a_graph_the_list_is_empty_and_says_why(
     code, out, error = run("ros2", "topic", "list")
     assert (code, out) == (0, "")
     assert error.startswith("no graph is running on port ")
+
+
+def test_illegal_names_are_told(run: Any) -> None:
+    code, _, error = run("ros2", "topic", "echo", "cmd-vel")
+    assert code == 1
+    assert error.startswith("illegal topic or service name '/cmd-vel': Character [-]")

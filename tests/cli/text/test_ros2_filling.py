@@ -42,7 +42,7 @@ def test_what_is_no_dictionary_is_told(text: str, words: str) -> None:
     ("text", "words"),
     [
         ("{linera: {x: 1}}", "no field 'linera'; did you mean 'linear'"),
-        ("{linear: {x: fast}}", "could not convert string to float: 'fast'"),
+        ("{linear: {x: fast}}", "field 'linear.x' is a float64: could not convert string"),
         ("{linear: 5}", "Failed to populate field: "),
         ("{linear: {x: [1]}}", "Failed to populate field: "),
     ],
@@ -50,3 +50,12 @@ def test_what_is_no_dictionary_is_told(text: str, words: str) -> None:
 def test_wrong_values_are_told(text: str, words: str) -> None:
     with pytest.raises(ToolError, match=words):
         filled(message_type("geometry_msgs/msg/Twist"), yaml_values(text), 0)
+
+
+def test_item_at_fault_is_named_and_words_are_no_truth() -> None:
+    polygon = message_type("geometry_msgs/msg/Polygon")
+    with pytest.raises(ToolError, match=r"field 'points\[1\]\.z' is a float32: could not"):
+        filled(polygon, yaml_values("points: [{x: 1}, {z: b}]"), 0)
+    words = "'maybe' is not true or false .ROS 2 would take it for True"
+    with pytest.raises(ToolError, match=words):
+        filled(message_type("std_msgs/msg/Bool"), {"data": "maybe"}, 0)

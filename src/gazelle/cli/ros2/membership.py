@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 from gazelle.graph import ANY_TYPE, Entity, Graph, Kind, Node, NoGraphError
-from gazelle.graph.names import is_hidden, resolve
+from gazelle.graph.names import check_name, is_hidden, resolve
 
 __all__ = ["cli_node", "full_name", "graph_of_ros2", "types_by_name", "until_ended"]
 
@@ -66,8 +66,12 @@ def until_ended(ended: threading.Event, *, timeout_s: float | None = None) -> No
 
 
 def full_name(name: str) -> str:
-    """Return the global name; relative ones start at the root, as for ros2cli's nodes."""
-    return resolve(name, "/")
+    """Return the global name; relative ones start at the root, as for ros2cli's nodes.
+
+    Raises:
+        IllegalNameError: it has a character that names do not have.
+    """
+    return check_name(resolve(name, "/"), "topic or service name")
 
 
 def types_by_name(

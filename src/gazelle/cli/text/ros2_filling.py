@@ -54,32 +54,43 @@ def filled(message_class: type[Message], values: dict[str, Any], now_ns: int) ->
     return message
 
 
-def _fitted(message_class: type[Message], values: Any) -> Any:
+def _fitted(message_class: type[Message], values: Any, path: str = "") -> Any:
     if not isinstance(values, dict):
         return values
     kinds = {item.name: item.type for item in message_class.FIELDS}
     return {
-        name: _fitted_value(kinds[name], value) if name in kinds else value
+        name: _fitted_value(kinds[name], value, f"{path}{name}") if name in kinds else value
         for name, value in values.items()
     }
 
 
-def _fitted_value(kind: FieldType, value: Any) -> Any:
+def _fitted_value(kind: FieldType, value: Any, path: str) -> Any:
     if kind.array is not Array.ONE:
         one = kind._replace(array=Array.ONE)
-        return [_fitted_value(one, item) for item in value] if isinstance(value, list) else value
+        if not isinstance(value, list):
+            return value
+        return [_fitted_value(one, item, f"{path}[{n}]") for n, item in enumerate(value)]
     if kind.is_message:
-        return value if isinstance(value, str) else _fitted(message_type(kind.base), value)
+        if isinstance(value, str):
+            return value
+        return _fitted(message_type(kind.base), value, f"{path}.")
     if kind.base in ("string", "wstring"):
         return value if isinstance(value, str) else str(value)
-    return _number(FORMATS.get(kind.base, ""), value)
+    try:
+        return _number(FORMATS.get(kind.base, ""), value)
+    except (TypeError, ValueError) as error:
+        raise InterfaceError(f"field '{path}' is a {kind.base}: {error}") from None
 
 
 def _number(code: str, value: Any) -> Any:
+    if code == "?":
+        return _truth(value)
     if code in ("f", "d"):
         return float(value)
-    if code == "?" and isinstance(value, int):
+    return int(value) if code and isinstance(value, float | str) else value
+
+
+def _truth(value: Any) -> bool:
+    if isinstance(value, int):
         return bool(value)
-    if code and code != "?" and isinstance(value, float | str):
-        return int(value)
-    return value
+    raise ValueError(f"{value!r} is not true or false (ROS 2 would take it for {bool(value)})")
