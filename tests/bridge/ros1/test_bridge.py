@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -214,5 +215,27 @@ def test_topic_of_an_unknown_type_is_told(
     peer.publish_on("/hello", STRING, STRING_MD5)
     eventually(lambda: graph.publishers_info("/hello"))
     text = capfd.readouterr().err
-    assert "topic /odd of /peer does not cross the bridge" in text
-    assert "odd_msgs/Odd" in text
+    assert text.count("does not cross the bridge") == 1
+    assert (
+        "topic /odd of /peer does not cross the bridge: "
+        "nothing here defines its type odd_msgs/Odd\n"
+        "  fix: start the bridge where the package that defines it is found"
+    ) in text
+
+
+def test_names_that_the_graph_cannot_have_do_no_harm(
+    graph: Graph, master: EmbeddedMaster, joined: Bridge, eventually: Eventually
+) -> None:
+    # A real master takes any text for a name.
+    master._master.registry.add_publisher("/odd-name", "/fine", STRING, "http://127.0.0.1:1/")
+    master._master.registry.add_publisher("/peer", "/odd topic", STRING, "http://127.0.0.1:1/")
+    eventually(lambda: graph.publishers_info("/fine"))
+    assert graph.publishers_info("/fine")[0].node == "/ros1_bridge"
+    assert not [one for one in graph.topics() if "odd" in one.name]
+
+
+def test_ending_the_bridges_node_ends_the_bridge(graph: Graph, bridge: Bridge) -> None:
+    ended = threading.Event()
+    bridge.on_end(ended.set)
+    assert graph.kill_node("/ros1_bridge")
+    assert ended.wait(10.0)

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from tests.bridge.ros1.peer import ask, pack_header, post, read_fields
 
-from gazelle.bridge.ros1 import Address, own_address
-from gazelle.bridge.ros1.addresses import master_address
+from gazelle.bridge.ros1 import Address, MasterAddress, master_address, own_address
+from gazelle.bridge.ros1.addresses import address_of_master
 from gazelle.bridge.ros1.endpoint import Endpoint
 from gazelle.bridge.ros1.frames import read_header, write_header
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
@@ -129,6 +129,19 @@ def test_only_this_machine_is_served_without_the_variables() -> None:
     assert (found.host, found.is_loopback) == ("localhost", True)
     with pytest.raises(GraphError, match=r"ROS_IP is '203\.0\.113\.7', which is not an address"):
         own_address({"ROS_IP": "203.0.113.7"})
+
+
+def test_master_is_found_under_the_name_it_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(socket, "gethostbyname", {"robot": "127.0.1.1", "lab": "10.1.2.3"}.get)
+    own = own_address({})
+    found = address_of_master(MasterAddress("robot", 11311), own)
+    assert (found.bind, found.host) == ("127.0.1.1", "robot")
+    assert {"robot", "127.0.1.1", "localhost"} <= found.names
+    assert address_of_master(MasterAddress("localhost", 11311), own).bind == HERE
+    with pytest.raises(GraphError, match=r"bridge\.not-open"):
+        address_of_master(MasterAddress("lab", 11311), own)
+    is_open = Address("0.0.0.0", "lab", own.names)
+    assert address_of_master(MasterAddress("lab", 11311), is_open).host == "lab"
 
 
 def test_place_of_the_master_is_that_of_the_variable() -> None:

@@ -8,10 +8,12 @@ from typing import NamedTuple
 from urllib.parse import urlsplit
 
 from gazelle.errors import GraphError
+from gazelle.graph.errors import coded
 
-__all__ = ["Address", "MasterAddress", "master_address", "own_address"]
+__all__ = ["Address", "MasterAddress", "address_of_master", "master_address", "own_address"]
 
 _LOOPBACK = "127.0.0.1"
+_EVERYWHERE = "0.0.0.0"  # noqa: S104 - only where ROS_HOSTNAME or ROS_IP ask for it
 _LOCAL_NAMES = frozenset({"localhost", _LOOPBACK, "[::1]"})
 _DEFAULT_URI = "http://127.0.0.1:11311"
 
@@ -49,12 +51,13 @@ class MasterAddress(NamedTuple):
     @property
     def is_here(self) -> bool:
         """Whether the host is this machine."""
-        if self.host in _LOCAL_NAMES or self.host.lower() == socket.gethostname().lower():
+        if self.host in _LOCAL_NAMES:
             return True
         try:
-            return socket.gethostbyname(self.host).startswith("127.")
+            socket.create_server((socket.gethostbyname(self.host), 0)).close()
         except OSError:
             return False
+        return True
 
 
 def master_address(environ: Mapping[str, str], port: int | None = None) -> MasterAddress:
@@ -86,6 +89,9 @@ def master_address(environ: Mapping[str, str], port: int | None = None) -> Maste
 def own_address(environ: Mapping[str, str]) -> Address:
     """Return what ``ROS_HOSTNAME``, else ``ROS_IP`` say; the loopback interface without them.
 
+    A name of the loopback interface keeps to it; another one opens the servers on every
+    interface, as nodes of ROS 1 do.
+
     Raises:
         GraphError: the name is not an address of this machine.
     """
@@ -94,12 +100,34 @@ def own_address(environ: Mapping[str, str]) -> Address:
         return Address(_LOOPBACK, _LOOPBACK, _LOCAL_NAMES)
     variable = "ROS_HOSTNAME" if environ.get("ROS_HOSTNAME", "").strip() else "ROS_IP"
     try:
-        bind = socket.gethostbyname(host)
-        socket.create_server((bind, 0)).close()
+        found = socket.gethostbyname(host)
+        socket.create_server((found, 0)).close()
     except OSError as error:
         raise GraphError(
             f"{variable} is '{host}', which is not an address of this machine ({error})\n"
             f"  fix: unset {variable}; then only this machine can reach the bridge"
         ) from error
-    names = {host.lower(), bind, socket.gethostname().lower()}
+    names = {host.lower(), found, socket.gethostname().lower()}
+    bind = found if found.startswith("127.") else _EVERYWHERE
     return Address(bind, host, _LOCAL_NAMES | names)
+
+
+def address_of_master(place: MasterAddress, own: Address) -> Address:
+    """Return where a master of our own listens, so that it is found at its place.
+
+    Args:
+        place: on this machine.
+        own: what the other servers of the bridge bind to.
+
+    Raises:
+        GraphError: the place is one that other machines can reach, and the bridge is not open.
+    """
+    if not own.is_loopback or place.host in _LOCAL_NAMES:
+        return own._replace(names=own.names | {place.host})
+    found = socket.gethostbyname(place.host)
+    if not found.startswith("127."):
+        text = f"{place.uri} is this machine as others reach it, and the bridge is open to none"
+        fix = f"export ROS_MASTER_URI=http://localhost:{place.port} in all shells, or open the "
+        fix += f"bridge to other machines: export ROS_HOSTNAME={place.host}"
+        raise GraphError(coded("bridge.not-open", text, fix=fix))
+    return Address(found, place.host, own.names | {place.host.lower(), found})

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +19,10 @@ from gazelle.bridge.ros1.services import call_service
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind
 from gazelle.bridge.ros1.views import BRIDGE_NAME, TypeBook, traits_of, wishes_of
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
-from gazelle.errors import GraphError
+from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Kind, Publisher
 from gazelle.graph.errors import ServiceUnavailableError, coded
-from gazelle.graph.names import split
+from gazelle.graph.names import is_legal, is_legal_base, split
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node
@@ -60,6 +60,7 @@ class Bridge:
         self._dirty = threading.Event()
         self._ended = threading.Event()
         self._lost = False
+        self._trouble = ""
         self._presences: dict[str, Presence] = {}
         self._mirrors: dict[str, Mirror] = {}
         self._lock = threading.RLock()
@@ -74,7 +75,7 @@ class Bridge:
             raise
         self._skipped = _NOTHING if self.master.is_embedded else _OF_REAL_ROSOUT
         self._book = TypeBook(self._notice)
-        self._services = ServiceTypes(self.master.ask, self._dirty.set, self._notice)
+        self._services = ServiceTypes(self.master.ask, self._dirty.set, self._book, self._notice)
         uri = self.master.uri
         self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
         self._own = Presence(self._crossing, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
@@ -90,6 +91,10 @@ class Bridge:
         with self._lock:
             return tuple(sorted(self._presences)), tuple(sorted(self._mirrors))
 
+    def on_end(self, listener: Callable[[], None]) -> None:
+        """Call back when somebody ends the bridge's node (``rosnode kill``)."""
+        self._node.on_shutdown(lambda reason: listener())
+
     def close(self) -> None:
         """Take everything that is of the other side off both; calling it twice does nothing."""
         if self._ended.is_set():
@@ -101,6 +106,9 @@ class Bridge:
         if self._sync is not None:
             self._sync.close()
         for presence in (*self._presences.values(), self._own):
+            if self._lost:
+                # A master that does not answer would be waited for once for each name.
+                presence.start_over()
             self._end_presence(presence)
         for mirror in self._mirrors.values():
             mirror.close()
@@ -118,12 +126,19 @@ class Bridge:
             self._dirty.clear()
             if self._ended.is_set():
                 return
-            try:
-                self._settle()
-            except RemoteError as error:
-                self._lose(error)
-            else:
-                self._find_again()
+            self._try_to_settle()
+
+    def _try_to_settle(self) -> None:
+        try:
+            self._settle()
+            self._find_again()
+        except RemoteError as error:
+            self._lose(error)
+        except GazelleError as error:
+            # One thing that cannot be brought over must not end the bridge.
+            if str(error) != self._trouble:
+                self._trouble = str(error)
+                self._notice(self._trouble)
 
     def _settle(self) -> None:
         state = self.master.state()
@@ -163,9 +178,10 @@ class Bridge:
         presence.settle(wishes)
 
     def _end_presence(self, presence: Presence) -> None:
-        # A master that went first has forgotten all of it.
-        with contextlib.suppress(RemoteError):
+        try:
             presence.close()
+        except RemoteError:
+            self._lost = True
         self._crossing.own_uris.discard(presence.uri)
 
     def _settle_mirrors(self, traits: dict[str, Traits]) -> None:
@@ -173,7 +189,7 @@ class Bridge:
             gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
             for name, mirror in list(self._mirrors.items()):
                 # Its name has become free on the graph.
-                if mirror.shares and not self._is_taken(name):
+                if mirror.shares and _is_node_name(name) and not self._is_taken(name):
                     gone.append(self._mirrors.pop(name))
         for mirror in gone:
             mirror.close()
@@ -186,7 +202,7 @@ class Bridge:
             if known is not None:
                 return known
             # A node made with a name that is taken would end the other one.
-            shares = self._is_taken(name)
+            shares = not _is_node_name(name) or self._is_taken(name)
             node = self._node if shares else self._mirror_node(name)
             made = Mirror(self._graph, name, node, self._call, shares=shares)
             self._mirrors[name] = made
@@ -278,6 +294,10 @@ def _refuse_second(graph: Graph) -> None:
     if BRIDGE_NAME in graph.node_names():
         text = "a bridge to ROS 1 already runs on this graph; a second one would double messages"
         raise GraphError(coded("bridge.second", text))
+
+
+def _is_node_name(name: str) -> bool:
+    return is_legal(name) and is_legal_base(split(name)[1])
 
 
 def _nodes(state: State) -> set[str]:

@@ -95,6 +95,9 @@ class Endpoint:
                 # Closed, or a caller that went before it was served.
                 continue
             with self._lock:
+                if self._closed:
+                    stream.close()
+                    return
                 self._open.add(stream)
             threading.Thread(
                 target=self._serve, args=(stream,), name=f"ros1 {self.port}", daemon=True

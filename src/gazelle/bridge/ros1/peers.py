@@ -6,7 +6,7 @@ import uuid
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from gazelle.bridge.ros1.addresses import Address, MasterAddress
+from gazelle.bridge.ros1.addresses import Address, MasterAddress, address_of_master
 from gazelle.bridge.ros1.endpoint import Endpoint
 from gazelle.bridge.ros1.master import Master
 from gazelle.bridge.ros1.registry import State
@@ -148,10 +148,11 @@ def find_master(
     """
     if _answers(place.uri):
         return RunningMaster(place.uri)
-    if not place.is_here and place.host != address.host:
+    if not place.is_here:
         text = f"no ROS 1 master answers at {place.uri}, and it is not this machine"
         raise GraphError(coded("bridge.no-master", text))
-    return EmbeddedMaster(parameters, place, address, on_change, notice)
+    bound = address_of_master(place, address)
+    return EmbeddedMaster(parameters, place, bound, on_change, notice)
 
 
 def _answers(uri: str) -> bool:

@@ -9,7 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from gazelle.bridge.ros1.services import probe
-from gazelle.bridge.ros1.types import ServiceKind, service_kind
+from gazelle.bridge.ros1.types import ServiceKind
+from gazelle.bridge.ros1.views import TypeBook
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError
 from gazelle.errors import GazelleError
 
@@ -26,17 +27,23 @@ class ServiceTypes:
     """Finds types in the background."""
 
     def __init__(
-        self, ask: Callable[..., Any], on_found: Callable[[], None], notice: Callable[[str], None]
+        self,
+        ask: Callable[..., Any],
+        on_found: Callable[[], None],
+        book: TypeBook,
+        notice: Callable[[str], None],
     ) -> None:
         """Know nothing yet.
 
         Args:
             ask: calls the master.
             on_found: called when a type has been found.
+            book: looks types up.
             notice: told of services that do not get across.
         """
         self._ask = ask
         self._on_found = on_found
+        self._book = book
         self._notice = notice
         self._lock = threading.Lock()
         self._found: dict[_Key, ServiceKind] = {}
@@ -64,7 +71,7 @@ class ServiceTypes:
         service = key[1]
         try:
             uri = self._ask("lookupService", _CALLER, service)
-            kind = service_kind(probe(uri, service, _CALLER))
+            name = probe(uri, service, _CALLER)
         except (OSError, RemoteError):
             # It has gone, or is not there yet.
             with self._lock:
@@ -73,6 +80,8 @@ class ServiceTypes:
         except GazelleError as error:
             self._notice(f"service {service} of {key[0]} does not cross the bridge: {error}")
             return
-        with self._lock:
-            self._found[key] = kind
-        self._on_found()
+        kind = self._book.service(name, f"service {service} of {key[0]}")
+        if kind is not None:
+            with self._lock:
+                self._found[key] = kind
+            self._on_found()

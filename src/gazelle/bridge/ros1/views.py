@@ -11,9 +11,10 @@ from gazelle.bridge.ros1.presence import Wishes
 from gazelle.bridge.ros1.registry import State
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind, is_ros2_only, message_kind
 from gazelle.bridge.ros1.types import service_kind as service_kind_of
-from gazelle.errors import GazelleError
+from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.names import is_hidden, is_legal
+from gazelle.interfaces import ros1_type_of
 
 __all__ = ["BRIDGE_NAME", "TypeBook", "traits_of", "wishes_of"]
 
@@ -44,6 +45,14 @@ class TypeBook:
     def _found(self, look_up: Callable[[str], _T], name: str, where: str) -> _T | None:
         try:
             found = look_up(name)
+        except NotFoundError:
+            shown = ros1_type_of(name) if name.count("/") == 2 else name
+            self._tell(
+                name,
+                f"{where} does not cross the bridge: nothing here defines its type {shown}\n"
+                "  fix: start the bridge where the package that defines it is found",
+            )
+            return None
         except GazelleError as error:
             self._tell(name, f"{where} does not cross the bridge: {error}")
             return None
@@ -100,21 +109,24 @@ def traits_of(
     """
     found: dict[str, Traits] = {}
 
+    def crosses(node: str, name: str) -> bool:
+        return node not in own and name not in skipped and is_legal(name)
+
     def traits(node: str) -> Traits:
         return found.setdefault(node, Traits({}, {}, {}))
 
     for node, topic in state.publishers:
         type_name = state.types.get(topic, ANY_TYPE)
-        if node not in own and topic not in skipped and type_name != ANY_TYPE:
+        if crosses(node, topic) and type_name != ANY_TYPE:
             kind = book.message(type_name, f"topic {topic} of {node}")
             _put(traits(node).publishers, topic, kind)
     for node, topic in state.subscribers:
-        if node not in own and topic not in skipped:
+        if crosses(node, topic):
             type_name = state.types.get(topic, ANY_TYPE)
             known = book.message(type_name, f"topic {topic}") if type_name != ANY_TYPE else None
             _put(traits(node).subscribers, topic, known.wire_name if known else ANY_TYPE)
     for node, service in state.services:
-        if node not in own:
+        if crosses(node, service):
             _put(traits(node).services, service, services.get(service))
     return found
 

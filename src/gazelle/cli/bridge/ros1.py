@@ -9,7 +9,7 @@ import sys
 import threading
 from typing import Any
 
-from gazelle.bridge.ros1 import Address, Bridge, master_address, own_address
+from gazelle.bridge.ros1 import Address, Bridge, MasterAddress, master_address, own_address
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.graph import Graph
 
@@ -24,13 +24,11 @@ def main(argv: list[str]) -> int:
     learn_workspace_types()
     stop = threading.Event()
     _stop_on_signals(stop)
-    environ = dict(os.environ)
-    if options.port is not None:
-        environ["ROS_MASTER_URI"] = place.uri
-    with Graph.open(environ=environ) as graph:
+    with Graph.open() as graph:
         bridge = Bridge(graph, place, address)
+        bridge.on_end(stop.set)
         try:
-            _say(bridge, address)
+            _say(bridge, place, address)
             stop.wait()
         finally:
             bridge.close()
@@ -52,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _say(bridge: Bridge, address: Address) -> None:
+def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
     what = "is the master" if bridge.master.is_embedded else "has joined the master"
     print(f"the bridge {what} at {bridge.master.uri}", flush=True)
     print(
@@ -62,6 +60,12 @@ def _say(bridge: Bridge, address: Address) -> None:
         print(
             f"gazelle bridge ros1: other machines can reach it as {address.host}, and ROS 1 asks "
             "nobody for a password; unset ROS_HOSTNAME and ROS_IP for this machine only",
+            file=sys.stderr,
+        )
+    elif not place.is_here:
+        print(
+            f"gazelle bridge ros1: nodes on {place.host} cannot reach this machine as "
+            f"{address.host}; export ROS_IP with its address in their network",
             file=sys.stderr,
         )
 

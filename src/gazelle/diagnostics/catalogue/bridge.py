@@ -24,6 +24,15 @@ ENTRIES = (
         "Unable to register with master node: master may not be running yet. Will keep trying.",
     ),
     Entry(
+        "bridge.not-open",
+        "error",
+        "ROS_MASTER_URI names this machine as others reach it",
+        "The bridge keeps to this machine unless ROS_HOSTNAME or ROS_IP open it, so nobody would "
+        "find the master there.",
+        "say localhost in ROS_MASTER_URI, or set ROS_HOSTNAME",
+        "Unable to communicate with master!",
+    ),
+    Entry(
         "bridge.second",
         "error",
         "Another bridge to ROS 1 runs on the graph",
