@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 import pytest
 
 from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
+from gazelle.cli.tf import monitor
 from gazelle.graph import Entity, Graph, Kind, Node
 
 _PACE_S = 0.005
-_COMMAND_NODES = ("/rostopic_", "/tf_echo_", "/_ros2cli/")
+_COMMAND_NODES = ("/rostopic_", "/tf_echo_", "/tf_monitor_", "/_ros2cli/")
 _MAINS: dict[str, Callable[[list[str]], int]] = {
     "ros2": ros2.main,
     "rosmsg": lambda words: rosmsg.main(["rosmsg", *words]),
@@ -26,6 +27,7 @@ _MAINS: dict[str, Callable[[list[str]], int]] = {
     "rossrv": lambda words: rosmsg.main(["rossrv", *words]),
     "rostopic": rostopic.main,
     "tf_echo": tf_echo.main,
+    "tf_monitor": monitor.main,
 }
 
 

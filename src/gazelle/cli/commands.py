@@ -42,6 +42,8 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
+    "tf_monitor": Command("gazelle.cli.tf.monitor", "print delays and rates of frames"),
+    "view_frames": Command("gazelle.cli.tf.view_frames", "draw the tree of frames"),
     "bridge": Command("gazelle.cli.bridge", "join real ROS: ros1"),
     "doctor": Command(
         "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
+from gazelle.cli.graphviz import typeset
 from gazelle.cli.urdf_file import (
     REFUSED,
     mappings_of,
@@ -23,10 +22,6 @@ _USAGE = (
     "  Will create either $ROBOT_NAME.gv & $ROBOT_NAME.pdf in CWD  or OUTPUT.gv & OUTPUT.pdf."
 )
 _DEPRECATED = "WARNING: OUTPUT not given. This type of usage is deprecated!"
-_INSTALL = (
-    "install Graphviz (apt-get install graphviz, brew install graphviz or "
-    "winget install Graphviz.Graphviz) and run this again"
-)
 
 
 def main(argv: list[str]) -> int:
@@ -63,24 +58,9 @@ def _draw(robot: Robot, output: str) -> int:
     except OSError as error:
         return _fail(f"cannot write '{source}': {error.strerror}")
     print(f"Created file {source}")
-    if _typeset(source, Path(f"{output}.pdf")):
+    if typeset(source, Path(f"{output}.pdf"), "urdf_to_graphviz"):
         print(f"Created file {output}.pdf")
     return 0
-
-
-def _typeset(source: Path, target: Path) -> bool:
-    dot = shutil.which("dot")
-    if dot is None:
-        message = f"'{target}' was not made: the program 'dot' is not here; {_INSTALL}"
-        print(f"urdf_to_graphviz: {message}", file=sys.stderr)
-        return False
-    # Absolute, so that no name is taken for an option.
-    words = [dot, "-Tpdf", str(source.absolute()), "-o", str(target.absolute())]
-    done = subprocess.run(words, stdin=subprocess.DEVNULL, check=False)
-    if done.returncode:
-        message = f"'{target}' was not made: dot ended with exit code {done.returncode}"
-        print(f"urdf_to_graphviz: {message}", file=sys.stderr)
-    return done.returncode == 0
 
 
 def _fail(message: str) -> int:

@@ -23,6 +23,11 @@ _COMMANDS = {
     ("dynamic_reconfigure", "dynparam"): "dynparam",
     ("tf", "tf_echo"): "tf_echo",
     ("tf2_ros", "tf2_echo"): "tf_echo",
+    ("tf", "tf_monitor"): "tf_monitor",
+    ("tf2_ros", "tf2_monitor"): "tf_monitor",
+    ("tf", "view_frames"): "view_frames",
+    ("tf2_tools", "view_frames"): "view_frames --tf2",
+    ("tf2_tools", "view_frames.py"): "view_frames --tf2",
     ("xacro", "xacro"): "xacro",
     ("xacro", "xacro.py"): "xacro",
 }
@@ -62,7 +67,7 @@ def find_executable(
     if found is not None:
         return found
     if _COMMANDS.get((package, type_name)):
-        words = (sys.executable, "-m", "gazelle.cli", _COMMANDS[package, type_name])
+        words = (sys.executable, "-m", "gazelle.cli", *_COMMANDS[package, type_name].split())
         return Executable(words)
     builtin = builtin_node(package, type_name)
     if builtin is not None:

@@ -1,0 +1,1 @@
+"""``view_frames`` and ``tf_monitor``: the tree of frames, drawn and timed."""
