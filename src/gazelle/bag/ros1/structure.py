@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from pathlib import Path
 from typing import BinaryIO
 
@@ -72,7 +73,7 @@ def _indexed(file: BinaryIO, position: int, end: int) -> Structure:
     for info in infos:
         found.chunks.append(_chunk_of_info(file, info, found.end))
     found.chunks.sort(key=lambda chunk: chunk.position)
-    for chunk, after in zip(found.chunks, [*found.chunks[1:], None], strict=True):
+    for chunk, after in zip_longest(found.chunks, found.chunks[1:]):
         chunk.end = after.position if after is not None else found.end
     return found
 
