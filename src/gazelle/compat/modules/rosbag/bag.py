@@ -1,0 +1,3 @@
+"""rosbag.bag."""
+
+from gazelle.compat.bags.rosbag import *  # noqa: F403

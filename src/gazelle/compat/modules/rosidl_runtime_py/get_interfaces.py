@@ -1,0 +1,3 @@
+"""rosidl_runtime_py.get_interfaces."""
+
+from gazelle.compat.packages.runtime import *  # noqa: F403

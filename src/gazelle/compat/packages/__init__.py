@@ -1,0 +1,1 @@
+"""Packages and interfaces as users' programs ask for them."""

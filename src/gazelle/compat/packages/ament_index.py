@@ -1,0 +1,137 @@
+"""ament_index_python: where packages are, answered by Gazelle's workspace."""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import lru_cache
+from pathlib import Path
+
+from gazelle.diagnostics import did_you_mean
+from gazelle.workspace import Package, Workspace
+
+__all__ = [
+    "PackageNotFoundError",
+    "get_package_prefix",
+    "get_package_share_directory",
+    "get_package_share_path",
+    "get_packages_with_prefixes",
+    "get_resource",
+    "get_resource_types",
+    "get_resources",
+    "get_search_paths",
+    "has_resource",
+]
+
+_LEGAL = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+", re.ASCII)
+
+
+class PackageNotFoundError(KeyError):
+    """There is no such package."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def get_search_paths() -> list[str]:
+    """Return the install prefixes of ``AMENT_PREFIX_PATH`` that exist."""
+    paths = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    return [path for path in paths if path and Path(path).is_dir()]
+
+
+def get_packages_with_prefixes() -> dict[str, str]:
+    """Return the prefixes of all packages by name."""
+    return {name: _prefix(one) for name, one in _workspace().packages.items()}
+
+
+def get_package_prefix(package_name: str) -> str:
+    """Return a package's install prefix; in a source tree, the package's own folder.
+
+    Raises:
+        PackageNotFoundError: there is no such package.
+        ValueError: the name is not legal.
+    """
+    return _prefix(_package(package_name))
+
+
+def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
+    """Return the folder of a package's data: ``share/NAME``, or the source folder.
+
+    Raises:
+        PackageNotFoundError: there is no such package.
+        ValueError: the name is not legal.
+    """
+    del print_warning
+    return str(_package(package_name).path)
+
+
+def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
+    """Return `get_package_share_directory` as a path."""
+    return Path(get_package_share_directory(package_name, print_warning))
+
+
+def get_resources(resource_type: str) -> dict[str, str]:
+    """Return prefixes by name of what packages registered in the index.
+
+    Packages in source trees are in it as ``packages`` without being installed.
+    """
+    found: dict[str, str] = {}
+    for prefix in reversed(get_search_paths()):
+        folder = _index(prefix) / resource_type
+        if folder.is_dir():
+            found |= {file.name: prefix for file in folder.iterdir() if file.is_file()}
+    if resource_type == "packages":
+        found = get_packages_with_prefixes() | found
+    return found
+
+
+def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
+    """Return what a package registered, and its prefix.
+
+    Raises:
+        LookupError: there is no such entry.
+    """
+    prefix = get_resources(resource_type).get(resource_name)
+    if prefix is None:
+        hint = did_you_mean(resource_name, get_resources(resource_type))
+        text = f"Could not find the resource '{resource_name}' of type '{resource_type}'"
+        raise LookupError(f"{text}; {hint}".rstrip("; "))
+    file = _index(prefix) / resource_type / resource_name
+    return (file.read_text(encoding="utf-8") if file.is_file() else ""), prefix
+
+
+def has_resource(resource_type: str, resource_name: str) -> str | bool:
+    """Return the prefix of an entry, False when there is none."""
+    return get_resources(resource_type).get(resource_name, False)
+
+
+def get_resource_types() -> set[str]:
+    """Return the kinds of entries that there are."""
+    folders = [_index(prefix) for prefix in get_search_paths()]
+    found = {one.name for folder in folders if folder.is_dir() for one in folder.iterdir()}
+    return found | {"packages"}
+
+
+@lru_cache(maxsize=1)
+def _workspace() -> Workspace:
+    return Workspace.discover()
+
+
+def _package(name: str) -> Package:
+    if _LEGAL.fullmatch(name) is None:
+        raise ValueError(f"'{name}' is not a valid package name")
+    found = _workspace().packages.get(name)
+    if found is None:
+        hint = did_you_mean(name, list(_workspace().packages))
+        places = list(_workspace().package_places)
+        text = f"package '{name}' not found, searching: {places}"
+        raise PackageNotFoundError(f"{text}; {hint}".rstrip("; "))
+    return found
+
+
+def _prefix(package: Package) -> str:
+    return str(package.prefix or package.path)
+
+
+def _index(prefix: str) -> Path:
+    return Path(prefix) / "share" / "ament_index" / "resource_index"
