@@ -61,6 +61,6 @@ COMMANDS: dict[str, Command] = {
     "catkin": Command("gazelle.cli.catkin", "build, init, config, clean, list, locate"),
     "catkin_make": Command("gazelle.cli.catkin_make", "build a workspace of ROS 1"),
     "rosdep": Command("gazelle.cli.rosdep", "what packages need: install, check, keys"),
-    "colcon": Command("gazelle.cli.colcon", "build, list, info, graph a workspace"),
+    "colcon": Command("gazelle.cli.colcon", "build, test, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
 }

@@ -17,6 +17,8 @@ _VERBS = {
     "graph": ("gazelle.cli.colcon.graph", "Generate a visual representation of the graph"),
     "info": ("gazelle.cli.colcon.listing", "Package information"),
     "list": ("gazelle.cli.colcon.listing", "List packages, optionally in topological ordering"),
+    "test": ("gazelle.cli.colcon.test", "Test a set of packages"),
+    "test-result": ("gazelle.cli.colcon.test", "Show a summary of test results"),
 }
 
 
@@ -42,6 +44,6 @@ def main(argv: list[str]) -> int:
 
 
 def _usage() -> str:
-    lines = [f"  {name:<8}{text}" for name, (_, text) in _VERBS.items()]
-    head = "usage: colcon [-h] [--log-base LOG_BASE] {build,graph,info,list} ..."
+    lines = [f"  {name:<13}{text}" for name, (_, text) in _VERBS.items()]
+    head = "usage: colcon [-h] [--log-base LOG_BASE] {build,graph,info,list,test,test-result} ..."
     return "\n".join([head, "", "colcon verbs:", *lines])

@@ -32,4 +32,11 @@ ENTRIES = (
         "remove build and install, or choose others with --build-base and --install-base",
         "Permission denied",
     ),
+    Entry(
+        "build.test-not-run",
+        "info",
+        "A test of a package is not run",
+        "It is C++, or needs a launcher of tests that is not here.",
+        "run it in real ROS, or write it for pytest",
+    ),
 )
