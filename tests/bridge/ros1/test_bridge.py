@@ -203,7 +203,7 @@ def test_topic_that_ros1_does_not_define_is_told_once(
     node.create_publisher("/one", "geometry_msgs/msg/VelocityStamped")
     node.create_publisher("/two", "geometry_msgs/msg/VelocityStamped")
     eventually(lambda: len(peer.call("getSystemState")[0]) == 2)
-    text = capfd.readouterr().err
+    text = "".join(capfd.readouterr())
     assert text.count("VelocityStamped, which ROS 1 does not define") == 1
 
 

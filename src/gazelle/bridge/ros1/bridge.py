@@ -65,6 +65,8 @@ class Bridge:
         self._mirrors: dict[str, Mirror] = {}
         self._lock = threading.RLock()
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
+        # A clock of a thousand ticks a second is of no use to a bridge.
+        graph.clock.use(False)
         self._workers = ThreadPoolExecutor(2, thread_name_prefix="ros1 bridge")
         try:
             self.master: MasterPeer = find_master(
@@ -74,7 +76,7 @@ class Bridge:
             self._node.shutdown()
             raise
         self._skipped = _NOTHING if self.master.is_embedded else _OF_REAL_ROSOUT
-        self._book = TypeBook(self._notice)
+        self._book = TypeBook(self._notice, self._explain)
         self._services = ServiceTypes(self.master.ask, self._dirty.set, self._book, self._notice)
         uri = self.master.uri
         self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
@@ -284,6 +286,10 @@ class Bridge:
             self._sync.start(self._own.uri)
             self._lost = False
             self._notice(f"the master at {self.master.uri} answers again")
+
+    def _explain(self, text: str) -> None:
+        if not self._node.closed:
+            self._node.log("info", text)
 
     def _notice(self, text: str) -> None:
         if not self._node.closed:

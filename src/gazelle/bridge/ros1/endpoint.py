@@ -19,6 +19,7 @@ __all__ = ["Endpoint", "StreamHandler"]
 _FIRST_BYTES = 4
 _HTTP = (b"POST", b"GET ", b"HEAD", b"PUT ", b"OPTI")
 _PATIENCE_S = 10.0
+_BREATH_S = 0.05
 
 StreamHandler = Callable[[socket.socket], None]
 """Serves a TCPROS connection until it ends; the stream is closed when it returns."""
@@ -58,7 +59,7 @@ class Endpoint:
         self._methods = methods
         self._streams = streams
         self._notice = notice
-        self._closed = False
+        self._closed = threading.Event()
         self._open: set[socket.socket] = set()
         self._lock = threading.Lock()
         self._listener = socket.create_server((address.bind, port), backlog=128)
@@ -80,7 +81,7 @@ class Endpoint:
     def close(self) -> None:
         """Take nothing more and end what is open."""
         with self._lock:
-            self._closed = True
+            self._closed.set()
             streams = list(self._open)
         for one in (self._listener, *streams):
             with contextlib.suppress(OSError):
@@ -88,14 +89,16 @@ class Endpoint:
         self._listener.close()
 
     def _accept(self) -> None:
-        while not self._closed:
+        while True:
             try:
                 stream, _ = self._listener.accept()
             except OSError:
-                # Closed, or a caller that went before it was served.
+                # Closed; or a caller that went before it was served, or too many at once.
+                if self._closed.wait(_BREATH_S):
+                    return
                 continue
             with self._lock:
-                if self._closed:
+                if self._closed.is_set():
                     stream.close()
                     return
                 self._open.add(stream)
@@ -108,7 +111,7 @@ class Endpoint:
             stream.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             stream.settimeout(_PATIENCE_S)
             first = stream.recv(_FIRST_BYTES, socket.MSG_PEEK | socket.MSG_WAITALL)
-            if self._closed or len(first) < _FIRST_BYTES:
+            if self._closed.is_set() or len(first) < _FIRST_BYTES:
                 return
             if first in _HTTP:
                 serve_calls(stream, self._methods, self._hosts, self._notice)

@@ -29,9 +29,15 @@ _V = TypeVar("_V")
 class TypeBook:
     """Looks types up and tells once of each that does not get across."""
 
-    def __init__(self, notice: Callable[[str], None]) -> None:
-        """Know nothing yet."""
+    def __init__(self, notice: Callable[[str], None], explain: Callable[[str], None]) -> None:
+        """Know nothing yet.
+
+        Args:
+            notice: told of what does not get across.
+            explain: told of what gets across with a definition made for it.
+        """
         self._notice = notice
+        self._explain = explain
         self._told: set[str] = set()
 
     def message(self, name: str, where: str) -> MessageKind | None:
@@ -48,26 +54,28 @@ class TypeBook:
         except NotFoundError:
             shown = ros1_type_of(name) if name.count("/") == 2 else name
             self._tell(
+                self._notice,
                 name,
                 f"{where} does not cross the bridge: nothing here defines its type {shown}\n"
                 "  fix: start the bridge where the package that defines it is found",
             )
             return None
         except GazelleError as error:
-            self._tell(name, f"{where} does not cross the bridge: {error}")
+            self._tell(self._notice, name, f"{where} does not cross the bridge: {error}")
             return None
         if name.count("/") == 2 and is_ros2_only(_full_ros1(found, name)):
             self._tell(
+                self._explain,
                 name,
                 f"{where} has type {name}, which ROS 1 does not define; it is offered there as "
                 f"{found.ros1_name} with md5sum {found.md5}, for programs that bring such a type",
             )
         return found
 
-    def _tell(self, name: str, text: str) -> None:
+    def _tell(self, say: Callable[[str], None], name: str, text: str) -> None:
         if name not in self._told:
             self._told.add(name)
-            self._notice(text)
+            say(text)
 
 
 def wishes_of(
