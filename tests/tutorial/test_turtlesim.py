@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import pty
+import re
 import signal
 import termios
 from collections.abc import Callable, Iterator
@@ -117,3 +118,19 @@ def test_ros2_run_starts_ros2s_turtlesim(gazelle: Callable) -> None:
     assert turning.wait() == 0
     assert "Goal finished with status: SUCCEEDED" in turning.text
     assert simulator.stop(signal.SIGTERM) == 0
+
+
+def test_recording_everything_leaves_the_picture_out(gazelle: Callable, tmp_path) -> None:
+    core = gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    simulator = gazelle("rosrun", "turtlesim", "turtlesim_node")
+    simulator.wait_for_line("Spawning turtle")
+    core.messages({"/turtle1/pose": 1})
+    recording = gazelle("rosbag", "record", "-a", "-O", "all", "--duration=1")
+    assert recording.wait() == 0
+    info = gazelle("rosbag", "info", "all.bag")
+    assert info.wait() == 0
+    assert re.search(r"/turtle1/color_sensor +\d+ msgs +: turtlesim/Color", info.text)
+    assert re.search(r"/turtle1/pose +\d+ msgs +: turtlesim/Pose", info.text)
+    assert "canvas" not in info.text
+    assert (tmp_path / "all.bag").stat().st_size < 500_000

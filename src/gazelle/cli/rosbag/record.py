@@ -104,10 +104,11 @@ def _selection(node: Node, options: Values, args: list[str]) -> Selection:
     exclude = _pattern(options.exclude) if options.exclude else None
     every = options.all or bool(exclude and not args)
     if options.regex:
-        return Selection((), every, tuple(map(_pattern, args)), exclude)
+        return Selection((), every, tuple(map(_pattern, args)), exclude, hidden=False)
     topics = tuple(dict.fromkeys(map(node.resolve_name, args)))
     watched = node.resolve_name(options.node) if options.node else ""
-    return Selection(topics, every, (), exclude, watched)
+    # What the graph hides has no counterpart in ROS 1: ROS 2's actions, turtlesim's picture.
+    return Selection(topics, every, (), exclude, watched, hidden=False)
 
 
 def _pattern(text: str) -> re.Pattern[str]:
