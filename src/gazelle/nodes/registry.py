@@ -177,6 +177,15 @@ _NODES = (
             ("drop", "leaves out some messages of a topic"),
         )
     ),
+    *(
+        BuiltinNode(
+            "topic_tools", name, f"gazelle.nodes.topic_mux:run_{name}", light=True, help=about
+        )
+        for name, about in (
+            ("mux", "publishes one of several topics, which services select"),
+            ("demux", "publishes a topic as one of several, which services select"),
+        )
+    ),
     BuiltinNode(
         "gazebo_ros",
         "gzclient",

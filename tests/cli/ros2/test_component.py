@@ -98,7 +98,7 @@ def test_compiled_components_are_answered_with_the_built_in_node(robot: Node, ru
             "tf2_ros static_transform_publisher",
         ),
         ("topic_tools", "topic_tools::ThrottleNode", "ros2 run topic_tools throttle"),
-        ("topic_tools", "topic_tools::Other", "built-in nodes of the package: drop"),
+        ("topic_tools", "topic_tools::Other", "built-in nodes of the package: demux"),
         ("demo_nodes_cpp", "demo_nodes_cpp::Talker", "write the node in Python"),
     ],
 )
