@@ -102,7 +102,7 @@ def test_a_subset_is_recorded_from_what_is_played(
     record.wait_for_line("Recording to 'subset.bag'.")
     record.wait_for_line("Subscribing to /other/pose")
     play = gazelle(
-        "rosbag", "play", "--wait-for-subscribers", "--topics", "/turtle1/cmd_vel",
+        "rosbag", "play", "-d", "1", "--wait-for-subscribers", "--topics", "/turtle1/cmd_vel",
         "/turtle1/pose", "--bags=turtle.bag", "/turtle1/pose:=/other/pose",
     )  # fmt: skip
     assert play.wait() == 0, play.text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.bag.rosbag2.folder import Rosbag2, Rosbag2Writer
+from gazelle.bag.rosbag2.folder import Rosbag2, Rosbag2Writer, reindex
 from gazelle.bag.rosbag2.metadata import Metadata, read_metadata, write_metadata
 from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
 
@@ -13,5 +13,6 @@ __all__ = [
     "SqliteBag",
     "SqliteWriter",
     "read_metadata",
+    "reindex",
     "write_metadata",
 ]

@@ -25,6 +25,7 @@ class _Command(NamedTuple):
 # Each module has ``main(argv) -> int``.
 _COMMANDS = {
     "action": _Command("gazelle.cli.ros2.action", "Various action related sub-commands"),
+    "bag": _Command("gazelle.cli.ros2.bag", "Various rosbag related sub-commands"),
     "component": _Command("gazelle.cli.ros2.component", "Various component related sub-commands"),
     "control": _Command("gazelle.cli.ros2.control", "Various control related sub-commands"),
     "daemon": _Command("gazelle.cli.ros2.daemon", "Various daemon related sub-commands"),
