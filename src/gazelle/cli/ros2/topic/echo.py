@@ -7,7 +7,12 @@ import time
 
 from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2, until_ended
 from gazelle.cli.ros2.topic.echoing import Echo, Selection
-from gazelle.cli.ros2.topic.qos import add_qos_arguments, chosen_profile, warn_of_incompatible
+from gazelle.cli.ros2.topic.qos import (
+    Profile,
+    add_qos_arguments,
+    chosen_profile,
+    warn_of_incompatible,
+)
 from gazelle.cli.ros2.topic.waiting import type_of_topic
 from gazelle.cli.ros2.types import ros2_message_class, stated_message_class
 from gazelle.cli.ros2.verbs import add_strategy_arguments, positive_float, whole
@@ -19,6 +24,7 @@ from gazelle.interfaces import Message
 __all__ = ["add_arguments", "run"]
 
 _LENGTH = 128
+_LEAST_QUEUE = 1000
 _FLAGS = (
     ("--no-arr", "Don't print array fields of messages"),
     ("--no-str", "Don't print string fields of messages"),
@@ -79,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
             topic,
             kind,
             echo,
-            queue_size=profile.queue_size,
+            queue_size=_queue_size(options, profile),
             raw=options.raw,
             with_info=True,
         )
@@ -87,6 +93,12 @@ def run(options: argparse.Namespace) -> int:
     if echo.error is not None:
         raise echo.error
     return 0
+
+
+def _queue_size(options: argparse.Namespace, profile: Profile) -> int:
+    """More may wait than ROS 2's five, unless the user chooses: a busy machine loses none."""
+    chosen = options.qos_depth is not None or options.qos_history is not None
+    return profile.queue_size if chosen else max(profile.queue_size, _LEAST_QUEUE)
 
 
 def _kind(graph: Graph, topic: str, options: argparse.Namespace) -> type[Message]:
