@@ -4,11 +4,28 @@ from __future__ import annotations
 
 import builtins
 import os
+from pathlib import Path
+from typing import ClassVar, NamedTuple, Self, cast
 
 from gazelle.errors import NotFoundError
+from gazelle.launch.environment import ros_home
 from gazelle.workspace import Workspace
+from gazelle.workspace.manifest import read_manifest
 
-__all__ = ["ResourceNotFound", "RosPack", "get_ros_package_path"]
+__all__ = [
+    "InvalidManifest",
+    "Manifest",
+    "ResourceNotFound",
+    "RosPack",
+    "RosStack",
+    "get_log_dir",
+    "get_package_name",
+    "get_ros_home",
+    "get_ros_package_path",
+    "get_ros_paths",
+    "get_ros_root",
+    "on_ros_path",
+]
 
 
 class ResourceNotFound(Exception):  # noqa: N818 - rospkg's name
@@ -20,14 +37,98 @@ def get_ros_package_path() -> str:
     return os.environ.get("ROS_PACKAGE_PATH", "")
 
 
+class InvalidManifest(Exception):  # noqa: N818 - rospkg's name
+    """A package's manifest cannot be read."""
+
+
+class Manifest(NamedTuple):
+    """What a package says about itself."""
+
+    name: str
+    version: str
+    description: str
+    depends: builtins.list[str]
+    type: str = "package"
+
+
+def get_ros_root() -> str | None:
+    """Return ``ROS_ROOT``."""
+    return os.environ.get("ROS_ROOT")
+
+
+def get_ros_paths() -> list[str]:
+    """Return the folders of ``ROS_PACKAGE_PATH``."""
+    return [path for path in get_ros_package_path().split(os.pathsep) if path]
+
+
+def get_ros_home() -> str:
+    """Return ``ROS_HOME``, ``~/.ros`` when it is not set."""
+    return str(ros_home(os.environ))
+
+
+def get_log_dir() -> str:
+    """Return ``ROS_LOG_DIR``, the folder ``log`` of ROS_HOME when it is not set."""
+    return os.environ.get("ROS_LOG_DIR") or str(ros_home(os.environ) / "log")
+
+
+def on_ros_path(p: str) -> bool:
+    """Tell whether a path is in one of the folders of ``ROS_PACKAGE_PATH``."""
+    here = Path(os.path.realpath(p))
+    return any(here.is_relative_to(os.path.realpath(one)) for one in get_ros_paths())
+
+
+def get_package_name(path: str) -> str | None:
+    """Return the package that a path is in, None when it is in none."""
+    here = Path(os.path.realpath(path))
+    for folder in (here, *here.parents):
+        manifest = folder / "package.xml"
+        if manifest.is_file():
+            return read_manifest(manifest).name
+    return None
+
+
 class RosPack:
     """Answers questions about packages."""
+
+    _shared: ClassVar[dict[tuple[str, ...], RosPack]] = {}
 
     def __init__(self, ros_paths: list[str] | None = None) -> None:
         environ = dict(os.environ)
         if ros_paths is not None:
             environ["ROS_PACKAGE_PATH"] = os.pathsep.join(ros_paths)
         self._workspace = Workspace.discover(environ=environ)
+
+    @classmethod
+    def get_instance(cls, ros_paths: builtins.list[str] | None = None) -> Self:
+        """Return one for these paths, always the same."""
+        key = tuple(ros_paths or get_ros_paths())
+        if key not in cls._shared:
+            cls._shared[key] = cls(ros_paths)
+        return cast(Self, cls._shared[key])
+
+    def get_manifest(self, name: str) -> Manifest:
+        """Return what a package says about itself.
+
+        Raises:
+            ResourceNotFound: there is no such package.
+        """
+        self.get_path(name)
+        one = self._workspace.package(name)
+        return Manifest(one.name, one.version, one.description, [*one.depends])
+
+    def get_depends_on(self, name: str, implicit: bool = True) -> builtins.list[str]:
+        """Return the packages that need one, directly or by way of others.
+
+        Raises:
+            ResourceNotFound: there is no such package.
+        """
+        self.get_path(name)
+        return [one for one in self.list() if name in self.get_depends(one, implicit)]
+
+    def stack_of(self, name: str) -> str | None:
+        """Return the stack of a package: there are none since catkin."""
+        self.get_path(name)
+        return None
 
     def list(self) -> list[str]:
         """Return the names of all packages."""
@@ -61,3 +162,11 @@ class RosPack:
             if implicit:
                 waiting += self._workspace.packages[item].depends
         return sorted(found)
+
+
+class RosStack(RosPack):
+    """Answers questions about stacks: there are none since catkin."""
+
+    def list(self) -> list[str]:
+        """Return the names of all stacks."""
+        return []

@@ -1,7 +1,7 @@
-"""roslib: what is left of it in programs is load_manifest, which has nothing to do here."""
+"""roslib, answered by Gazelle's workspace and interfaces."""
 
-__all__ = ["load_manifest"]
+from gazelle.compat.roslib import load_manifest
 
+from . import message, packages
 
-def load_manifest(package_name, bootstrap_version="0.7"):
-    """Do nothing: packages of the workspace are importable as they are."""
+__all__ = ["load_manifest", "message", "packages"]

@@ -1,0 +1,1 @@
+"""The Python functions of ROS 1's commands: rostopic, rosnode, rosparam, rosservice."""

@@ -1,0 +1,61 @@
+"""rosnode's functions: names of nodes, pinging and ending them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from gazelle.compat.rospy.state import STATE
+from gazelle.errors import NotFoundError
+
+__all__ = [
+    "ROSNodeException",
+    "ROSNodeIOException",
+    "get_node_names",
+    "kill_nodes",
+    "rosnode_ping",
+]
+
+
+class ROSNodeException(Exception):  # noqa: N818 - rosnode's name
+    """A question about a node has no answer."""
+
+
+class ROSNodeIOException(ROSNodeException):
+    """The graph cannot be reached."""
+
+
+def get_node_names(namespace: str | None = None) -> list[str]:
+    """Return the global names of all nodes, sorted, or of those below a namespace."""
+    names = sorted(STATE.open_graph().node_names())
+    if not namespace:
+        return names
+    start = STATE.resolved(namespace).rstrip("/")
+    return [name for name in names if name == start or name.startswith(f"{start}/")]
+
+
+def kill_nodes(node_names: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Ask nodes to end; return those that heard and those that did not."""
+    heard: list[str] = []
+    failed: list[str] = []
+    for name in map(STATE.resolved, node_names):
+        try:
+            done = STATE.open_graph().kill_node(name)
+        except NotFoundError:
+            done = False
+        (heard if done else failed).append(name)
+    return heard, failed
+
+
+def rosnode_ping(node_name: str, max_count: int | None = None, verbose: bool = False) -> bool:
+    """Return whether a node is there: the graph forgets one within milliseconds of its end."""
+    del max_count
+    full = STATE.resolved(node_name)
+    is_there = full in STATE.open_graph().node_names()
+    if verbose:
+        _say(f"{full} is alive" if is_there else f"cannot ping [{full}]: unknown node")
+    return is_there
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")

@@ -1,0 +1,3 @@
+"""roslib.packages."""
+
+from gazelle.compat.roslib import *  # noqa: F403

@@ -1,0 +1,3 @@
+"""rosnode, on Gazelle's graph."""
+
+from gazelle.compat.commands.rosnode import *  # noqa: F403

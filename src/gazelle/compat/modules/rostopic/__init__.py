@@ -1,0 +1,3 @@
+"""rostopic, on Gazelle's graph."""
+
+from gazelle.compat.commands.rostopic import *  # noqa: F403
