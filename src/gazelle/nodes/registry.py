@@ -233,6 +233,13 @@ _NODES = (
         help="a TurtleBot3 that drives without physics",
     ),
     BuiltinNode(
+        "turtlebot3_fake_node",
+        "turtlebot3_fake_node",
+        "gazelle.nodes.turtlebot3.fake:run_ros2",
+        light=True,
+        help="a TurtleBot3 that drives without physics, ROS 2's package",
+    ),
+    BuiltinNode(
         "turtlebot3_gazebo",
         "turtlebot3_drive",
         "gazelle.nodes.turtlebot3.drive:run",

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import threading
 
 import pytest
 
+from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
+from gazelle.nodes.host import run_node
 from gazelle.nodes.turtlebot3.fake import FakeBase
 
 _STEP_NS = 33_333_333
@@ -79,6 +82,35 @@ def test_node_sends_odometry_joints_and_transform_of_the_same_moment(bench) -> N
     transform = bench.eventually(lambda: _same([one.transforms[0] for one in transforms], moving))
     assert transform.transform.translation.x == moving.pose.pose.position.x
     assert transform.transform.rotation.z == moving.pose.pose.orientation.z
+
+
+def test_ros2_wheels_come_from_a_parameter_file(bench, tmp_path, capfd) -> None:
+    path = tmp_path / "burger.yaml"
+    path.write_text(
+        "turtlebot3_fake_node:\n  ros__parameters:\n    wheels:\n      separation: 0.16\n"
+        "      radius: 0.05\n    odom_frame: world\n"
+    )
+    odometry = bench.listen("/odom", "nav_msgs/msg/Odometry")
+    joints = bench.listen("/joint_states", "sensor_msgs/msg/JointState")
+    words = ("--ros-args", "--params-file", str(path))
+    bench.start("turtlebot3_fake_node/turtlebot3_fake_node", *words)
+    out = bench.node.create_publisher("/cmd_vel", "geometry_msgs/msg/Twist")
+    bench.eventually(lambda: out.matched)
+    out.publish(_twist(0.1, 0.0))
+    bench.eventually(lambda: joints and joints[-1].velocity[0] == pytest.approx(0.1 / 0.05))
+    assert odometry[-1].header.frame_id == "world"
+    assert set(odometry[-1].pose.covariance) == {0.0}
+    found = bench.call("/turtlebot3_fake_node/list_parameters", "rcl_interfaces/ListParameters")
+    assert "wheels.radius" in found.result.names
+    assert "Turtlebot3 fake node has been initialised" in capfd.readouterr().err
+
+
+def test_ros2_without_wheels_says_how_to_give_them(bench) -> None:
+    request = {"node": "turtlebot3_fake_node/turtlebot3_fake_node", "argv": []}
+    with pytest.raises(
+        LaunchError, match=r"-p wheels\.separation:=0\.16 -p wheels\.radius:=0\.033"
+    ):
+        run_node(request, bench.graph, threading.Event())
 
 
 def test_missing_model_is_told_with_what_the_original_does(bench, capfd) -> None:

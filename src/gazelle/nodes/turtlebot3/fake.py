@@ -10,7 +10,10 @@ It hears ``cmd_vel`` and sends ``odom``, ``joint_states`` and the transform from
 | joint_states_frame | base_footprint | frame of the joint states |
 | odom_frame, base_frame | odom, base_footprint | ends of the transform |
 
-Numbers are those of ``turtlebot3_fake`` (turtlebot3_simulations, noetic).
+In ROS 2 it is ``turtlebot3_fake_node/turtlebot3_fake_node``: 100 times a second, without
+covariances, with parameters of its own: ``wheels.separation`` and ``wheels.radius``, which must be
+given, and the three frames. Numbers are those of ``turtlebot3_fake`` and ``turtlebot3_fake_node``
+(turtlebot3_simulations, noetic and humble).
 """
 
 from __future__ import annotations
@@ -22,14 +25,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
+from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node, ticks
 
-__all__ = ["FakeBase", "run"]
+__all__ = ["FakeBase", "run", "run_ros2"]
 
 _PERIOD_NS = 1_000_000_000 // 30
+_ROS2_PERIOD_NS = 10_000_000
 _TIMEOUT_NS = 1_000_000_000
 _WHEEL_RADIUS_M = 0.033
 _SEPARATIONS_M = {"burger": 0.160, "waffle": 0.287, "waffle_pi": 0.287}
@@ -44,6 +50,7 @@ class FakeBase:
 
     Attributes:
         separation_m: between the wheels.
+        radius_m: of the wheels.
         x_m, y_m, yaw_rad: pose in the odom frame.
         linear_m_s, angular_rad_s: as commanded.
         left_rad, right_rad: how far the wheels have turned.
@@ -51,6 +58,7 @@ class FakeBase:
     """
 
     separation_m: float
+    radius_m: float = _WHEEL_RADIUS_M
     x_m: float = 0.0
     y_m: float = 0.0
     yaw_rad: float = 0.0
@@ -65,8 +73,8 @@ class FakeBase:
         """Left and right."""
         outward = self.angular_rad_s * self.separation_m / 2
         return (
-            (self.linear_m_s - outward) / _WHEEL_RADIUS_M,
-            (self.linear_m_s + outward) / _WHEEL_RADIUS_M,
+            (self.linear_m_s - outward) / self.radius_m,
+            (self.linear_m_s + outward) / self.radius_m,
         )
 
     def command(self, linear_m_s: float, angular_rad_s: float, now_ns: int) -> None:
@@ -89,11 +97,84 @@ class FakeBase:
         self.yaw_rad += turn
 
 
+@dataclass(frozen=True, slots=True)
+class _Setup:
+    """What the two generations have different.
+
+    Attributes:
+        period_ns: between two messages.
+        joints: left and right.
+        joints_frame, frames: of joint states; ends of the transform.
+        covariance: of pose and twist.
+    """
+
+    period_ns: int
+    joints: tuple[str, str]
+    joints_frame: str
+    frames: tuple[str, str]
+    covariance: list[float]
+
+
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Drive until told to stop."""
+    """ROS 1: drive until told to stop."""
     node = start_node(arguments, graph)
-    base, lock = FakeBase(_separation(node)), threading.Lock()
-    publish = _publishing(node, base)
+
+    def name(key: str, default: str) -> str:
+        return str(_parameter(node, key, default))
+
+    setup = _Setup(
+        _PERIOD_NS,
+        (
+            name("wheel_left_joint_name", "wheel_left_joint"),
+            name("wheel_right_joint_name", "wheel_right_joint"),
+        ),
+        name("joint_states_frame", "base_footprint"),
+        (name("odom_frame", "odom"), name("base_frame", "base_footprint")),
+        _COVARIANCE,
+    )
+    _drive(node, FakeBase(_separation(node)), setup, stop)
+    return 0
+
+
+def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 2: drive until told to stop.
+
+    Raises:
+        LaunchError: the wheels are not given.
+    """
+    given = arguments.params
+    wheels = [given.get(f"wheels/{name}") for name in ("separation", "radius")]
+    if not all(isinstance(value, int | float) and value > 0 for value in wheels):
+        raise LaunchError(
+            f"wheels.separation and wheels.radius must be positive numbers, not {wheels[0]!r} and "
+            f"{wheels[1]!r}; the original divides by 0 without them\n"
+            "  fix: -p wheels.separation:=0.16 -p wheels.radius:=0.033, or --params-file"
+        )
+    node = start_node(arguments, graph)
+    names = {"joint_states_frame": "base_footprint", "odom_frame": "odom"}
+    names["base_frame"] = "base_footprint"
+    values = {name: str(given.get(name, default)) for name, default in names.items()}
+    separation, radius = (float(value) for value in wheels if value is not None)
+    numbers = {"wheels.separation": separation, "wheels.radius": radius}
+    declared = {**values, **numbers}
+    # Read once, as the original does, which lets them be set to no effect.
+    fixed = {name: Descriptor(read_only=True) for name in declared}
+    NodeParameters(node, node.name, declared, descriptors=fixed, now_ns=node.clock.now_ns)
+    node.log("info", "Turtlebot3 fake node has been initialised")
+    setup = _Setup(
+        _ROS2_PERIOD_NS,
+        ("wheel_left_joint", "wheel_right_joint"),
+        values["joint_states_frame"],
+        (values["odom_frame"], values["base_frame"]),
+        [0.0] * 36,
+    )
+    _drive(node, FakeBase(separation, radius), setup, stop)
+    return 0
+
+
+def _drive(node: Node, base: FakeBase, setup: _Setup, stop: threading.Event) -> None:
+    lock = threading.Lock()
+    publish = _publishing(node, base, setup)
 
     def on_twist(twist: Any) -> None:
         linear, angular = twist.linear.x, twist.angular.z
@@ -106,14 +187,13 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     twist_type = message_type("geometry_msgs/msg/Twist")
     node.create_subscription("cmd_vel", twist_type, on_twist, queue_size=100)
     last_ns = node.clock.now_ns()
-    for now_ns in ticks(node, _PERIOD_NS, stop):
+    for now_ns in ticks(node, setup.period_ns, stop):
         with lock:
             # Time that went back starts anew.
             base.move(now_ns, max(0, now_ns - last_ns))
         publish(now_ns)
         last_ns = now_ns
     node.shutdown()
-    return 0
 
 
 def _separation(node: Node) -> float:
@@ -131,7 +211,7 @@ def _separation(node: Node) -> float:
     return _SEPARATIONS_M["burger"]
 
 
-def _publishing(node: Node, base: FakeBase) -> Callable[[int], None]:
+def _publishing(node: Node, base: FakeBase, setup: _Setup) -> Callable[[int], None]:
     """Return what tells others the state at a time."""
     odometry: Any = message_type("nav_msgs/msg/Odometry")
     joints: Any = message_type("sensor_msgs/msg/JointState")
@@ -139,40 +219,37 @@ def _publishing(node: Node, base: FakeBase) -> Callable[[int], None]:
     odom_out = node.create_publisher("odom", odometry, queue_size=100)
     joints_out = node.create_publisher("joint_states", joints, queue_size=100)
     tf_out = node.create_publisher("/tf", tf, queue_size=100)
-    names = [_name(node, "wheel_left_joint_name", "wheel_left_joint"),
-             _name(node, "wheel_right_joint_name", "wheel_right_joint")]  # fmt: skip
-    joints_frame = _name(node, "joint_states_frame", "base_footprint")
-    frames = _name(node, "odom_frame", "odom"), _name(node, "base_frame", "base_footprint")
 
     def publish(now_ns: int) -> None:
-        odom_out.publish(_odometry(odometry, base, frames, now_ns))
+        odom_out.publish(_odometry(odometry, base, setup, now_ns))
         state = joints(
-            name=names,
+            name=list(setup.joints),
             position=[base.left_rad, base.right_rad],
             velocity=list(base.wheel_speeds_rad_s),
             effort=[0.0, 0.0],
         )
-        _stamp(state, now_ns, joints_frame)
+        _stamp(state, now_ns, setup.joints_frame)
         joints_out.publish(state)
-        tf_out.publish(tf(transforms=[_transform(base, frames, now_ns)]))
+        tf_out.publish(tf(transforms=[_transform(base, setup, now_ns)]))
 
     return publish
 
 
-def _odometry(kind: Any, base: FakeBase, frames: tuple[str, str], now_ns: int) -> Any:
-    message = kind(child_frame_id=frames[1])
-    _stamp(message, now_ns, frames[0])
+def _odometry(kind: Any, base: FakeBase, setup: _Setup, now_ns: int) -> Any:
+    message = kind(child_frame_id=setup.frames[1])
+    _stamp(message, now_ns, setup.frames[0])
     pose, twist = message.pose, message.twist
     pose.pose.position.x, pose.pose.position.y = base.x_m, base.y_m
     _set_yaw(pose.pose.orientation, base.yaw_rad)
     twist.twist.linear.x, twist.twist.angular.z = base.linear_m_s, base.angular_rad_s
-    pose.covariance = twist.covariance = _COVARIANCE
+    pose.covariance = twist.covariance = setup.covariance
     return message
 
 
-def _transform(base: FakeBase, frames: tuple[str, str], now_ns: int) -> Any:
-    message: Any = message_type("geometry_msgs/msg/TransformStamped")(child_frame_id=frames[1])
-    _stamp(message, now_ns, frames[0])
+def _transform(base: FakeBase, setup: _Setup, now_ns: int) -> Any:
+    message: Any = message_type("geometry_msgs/msg/TransformStamped")()
+    message.child_frame_id = setup.frames[1]
+    _stamp(message, now_ns, setup.frames[0])
     message.transform.translation.x, message.transform.translation.y = base.x_m, base.y_m
     _set_yaw(message.transform.rotation, base.yaw_rad)
     return message
@@ -189,7 +266,3 @@ def _stamp(message: Any, now_ns: int, frame_id: str) -> None:
 
 def _parameter(node: Node, name: str, default: Any) -> Any:
     return node.parameters.get(name) if node.parameters.has(name) else default
-
-
-def _name(node: Node, name: str, default: str) -> str:
-    return str(_parameter(node, name, default))
