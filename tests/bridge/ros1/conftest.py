@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -113,3 +114,13 @@ def make_peer(bridge: Bridge) -> Iterator[Callable[..., Peer]]:
 @pytest.fixture
 def peer(make_peer: Callable[..., Peer]) -> Peer:
     return make_peer()
+
+
+@pytest.fixture(scope="session")
+def real_ros() -> None:
+    """Skips where ROS 1 is not installed."""
+    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, std_srvs.srv"]
+    try:
+        subprocess.run(words, check=True, capture_output=True, env={"PATH": "/usr/bin"})
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("ROS 1 is not installed (Debian: apt-get install ros-core python3-rosbag …)")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import subprocess
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.bridge.ros1.real import Ros1
 
 from gazelle.bridge.ros1 import Bridge, MasterAddress
 from gazelle.graph import Graph
@@ -38,55 +37,6 @@ rospy.init_node("server")
 rospy.Service("/theirs", SetBool, lambda request: SetBoolResponse(request.data, "from rospy"))
 rospy.spin()
 """
-
-
-class Ros1:
-    """Runs real programs with a clean environment."""
-
-    def __init__(self, master: str, folder: Path) -> None:
-        self._folder = folder
-        self._environ = {
-            "HOME": str(folder),
-            "PATH": "/usr/bin:/bin",
-            "PYTHONUNBUFFERED": "1",
-            "ROS_MASTER_URI": master,
-            "ROS_PACKAGE_PATH": "/usr/share",
-        }
-
-    def __call__(self, *words: str) -> str:
-        """What a program prints; it must end well."""
-        done = subprocess.run(
-            words, env=self._environ, cwd=self._folder, capture_output=True, text=True,
-            timeout=_PATIENCE_S, check=False,
-        )  # fmt: skip
-        assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
-        return done.stdout
-
-    @contextmanager
-    def running(self, *words: str) -> Iterator[subprocess.Popen[str]]:
-        """A program in the background, ended afterwards."""
-        with subprocess.Popen(
-            words, env=self._environ, cwd=self._folder, text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        ) as process:  # fmt: skip
-            try:
-                yield process
-            finally:
-                process.terminate()
-
-    def python(self, code: str) -> Any:
-        """A program of rospy in the background."""
-        return self.running("/usr/bin/python3", "-c", code)
-
-
-@pytest.fixture(scope="session")
-def real_ros() -> None:
-    """Skips where ROS 1 is not installed."""
-    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, std_srvs.srv"]
-    try:
-        subprocess.run(words, check=True, capture_output=True, env={"PATH": "/usr/bin"})
-    except (OSError, subprocess.CalledProcessError):
-        pytest.skip("ROS 1 is not installed (Debian: apt-get install ros-core python3-rosbag …)")
 
 
 @pytest.fixture
