@@ -179,3 +179,11 @@ for name in luck_description luck_gazebo luck_robot; do {gazelle} rospack find $
     ):
         file = install / name / "share" / name / below
         assert file.resolve() == (source / name / below).resolve()
+
+
+def test_a_folder_without_packages_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["build"]) == 0
+    assert f"there is no package.xml below {tmp_path}" in capsys.readouterr().err

@@ -149,3 +149,43 @@ def test_an_entry_point_that_is_no_function_makes_no_program(
     outcome = build()["bot"]
     assert "is not 'name = package.module:function'" in outcome.errors[0]
     assert not (tmp_path / "install/bot/lib/bot").exists()
+
+
+_COMPUTED = """import os
+from setuptools import find_packages, setup
+from setuptools.command.install import install
+class Own(install):
+    pass
+def rows(top):
+    return {os.path.join('share/bot', root): [os.path.join(root, name) for name in names]
+            for root, _, names in os.walk(top)}
+exec("name = 'bot'")
+setup(
+    name=name, version=open('VERSION').read().strip(), packages=find_packages('.', exclude=['t*']),
+    data_files=[('share/bot', ['package.xml']), *rows('worlds').items()], cmdclass={'install': Own},
+)
+"""
+
+
+def test_a_setup_py_that_computes_its_rules_is_run(
+    make: Make, build: Build, tmp_path: Path
+) -> None:
+    files = {"setup.py": _COMPUTED, "VERSION": "2.0\n", "worlds/deep/a.world": "<sdf/>",
+             "bot/__init__.py": "", "test/__init__.py": ""}  # fmt: skip
+    make("bot", "ament_python", files)
+    outcome = build()["bot"]
+    assert outcome.code == 0
+    prefix = tmp_path / "install/bot"
+    assert (prefix / "share/bot/worlds/deep/a.world").read_text() == "<sdf/>"
+    modules = prefix / site_packages()
+    assert sorted(path.name.partition("-")[0] for path in modules.iterdir()) == ["bot", "bot"]
+    (info,) = modules.glob("bot-2.0-*.egg-info")
+    assert "Version: 2.0\n" in (info / "PKG-INFO").read_text()
+
+
+def test_a_setup_py_that_cannot_be_run_is_told(make: Make, build: Build) -> None:
+    make("bot", "ament_python", {"setup.py": _COMPUTED, "bot/__init__.py": ""})
+    outcome = build()["bot"]
+    text = "\n".join(outcome.errors)
+    assert "running it fails: FileNotFoundError: [Errno 2] No such file or directory" in text
+    assert "[package.install-unread]" in text

@@ -43,6 +43,9 @@ def run(words: list[str], log_base: Path) -> int:
     options = parser.parse_args(rest)
     _say_without_effect(options)
     everything, chosen = chosen_packages(options)
+    if not everything:
+        places = ", ".join(str(path.absolute()) for path in options.base_paths)
+        print(f"colcon build: there is no package.xml below {places}", file=sys.stderr)
     build = BuildOptions(
         options.build_base.absolute(),
         options.install_base.absolute(),

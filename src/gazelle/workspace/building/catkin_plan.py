@@ -7,7 +7,7 @@ from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.places import is_file
 from gazelle.workspace.building.plan import Layout, Plan
-from gazelle.workspace.building.python_plan import add_python_distribution
+from gazelle.workspace.building.python_plan import add_python_distribution, completed
 from gazelle.workspace.building.setup_file import read_setup
 
 __all__ = ["add_catkin"]
@@ -21,7 +21,7 @@ def add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: 
             text = "catkin_python_setup() needs a setup.py with setup()"
             plan.diagnostics.report("package.no-build-file", text, step.span)
         elif setup.error is None:
-            add_python_distribution(package, setup, layout, plan)
+            add_python_distribution(package, completed(package, setup, plan), layout, plan)
     for step in lists.called("catkin_add_env_hooks"):
         _add_hooks(package, step, "etc/catkin/profile.d", plan)
 

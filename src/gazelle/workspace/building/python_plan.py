@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.places import is_file, is_folder
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
-from gazelle.workspace.building.setup_file import SetupFile, read_setup
+from gazelle.workspace.building.setup_file import SetupFile, read_setup, with_arguments
+from gazelle.workspace.building.setup_run import SetupRunError, setup_arguments
 from gazelle.workspace.entry_points import console_scripts
 
-__all__ = ["add_python_distribution", "add_python_folder", "plan_python"]
+__all__ = ["add_python_distribution", "add_python_folder", "completed", "plan_python"]
 
 _TARGET = re.compile(r"\s*([^\W\d][\w.]*)\s*:\s*([^\W\d][\w.]*)\s*(?:\[.*\])?\s*")
 _FAILURE = "error: can't copy '{path}': doesn't exist or not a regular file"
@@ -35,9 +35,6 @@ def plan_python(package: SourcePackage, layout: Layout, plan: Plan) -> None:
     if setup is None:
         return
     add_rules(plan, package.path, setup.rules, _FAILURE)
-    if not setup.has_all_rules:
-        text = "a part of data_files is known only when setup.py runs; it is left out"
-        plan.diagnostics.report("package.install-unread", text, setup.span)
     add_python_distribution(package, setup, layout, plan)
     _add_executables(package, setup, plan)
     _add_markers(package, setup, plan)
@@ -47,7 +44,7 @@ def add_python_distribution(
     package: SourcePackage, setup: SetupFile, layout: Layout, plan: Plan
 ) -> None:
     """Plan the modules of a ``setup.py`` and the ``egg-info`` that names them."""
-    for top, modules in sorted(_by_top(_modules(package, setup, plan)).items()):
+    for top, modules in sorted(_by_top(setup.modules or ()).items()):
         folder = _module_folder(package.path, top, setup.folders)
         if layout.symlinks and is_folder(folder):
             plan.add(Item(f"{layout.python}/{top}", folder), setup.span)
@@ -89,23 +86,21 @@ def _setup_of(package: SourcePackage, plan: Plan) -> SetupFile | None:
         text = "setup() is called nowhere in setup.py: nothing is installed"
         report("package.no-build-file", text, manifest, severity=Severity.ERROR)
         return None
-    return setup
+    return completed(package, setup, plan)
 
 
-def _modules(package: SourcePackage, setup: SetupFile, plan: Plan) -> tuple[str, ...]:
-    if setup.modules is not None:
-        return setup.modules
-    found = tuple(_found_modules(package.path))
-    text = f"packages= is known only when setup.py runs; installed are {', '.join(found) or 'none'}"
-    plan.diagnostics.report("package.install-unread", text, setup.span)
-    return found
-
-
-def _found_modules(folder: Path) -> Iterator[str]:
-    for file in sorted(folder.rglob("__init__.py")):
-        parts = file.parent.relative_to(folder).parts
-        if parts and parts[0] not in {"build", "install", "test", "tests"}:
-            yield ".".join(parts)
+def completed(package: SourcePackage, setup: SetupFile, plan: Plan) -> SetupFile:
+    """Return a ``setup.py`` with what reading it leaves open; it is run for that."""
+    if setup.has_all_rules and setup.modules is not None:
+        return setup
+    try:
+        return with_arguments(setup, setup_arguments(package.path))
+    except SetupRunError as error:
+        text = f"setup.py computes what it installs, and running it fails: {error}; that is left "
+        text += "out"
+        severity = Severity.WARNING
+        plan.diagnostics.report("package.install-unread", text, setup.span, severity=severity)
+        return setup
 
 
 def _by_top(modules: tuple[str, ...]) -> dict[str, list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import configparser
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 from typing import Any
@@ -12,7 +13,7 @@ from gazelle.diagnostics import SourceSpan
 from gazelle.workspace.building.install_rules import InstallRule
 from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, is_known, parse_python
 
-__all__ = ["EmptyGlob", "SetupFile", "read_setup"]
+__all__ = ["EmptyGlob", "SetupFile", "read_setup", "with_arguments"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +93,16 @@ def read_setup(folder: Path) -> SetupFile | None:
         if call.name != "setup" or call.keywords or found.span is None:
             _fill(found, call)
             _find_globs(found, call.node, evaluator, folder)
+    return found
+
+
+def with_arguments(setup: SetupFile, arguments: Mapping[str, Any]) -> SetupFile:
+    """Return what a file says when ``setup()`` is called with these arguments."""
+    node = ast.Call(ast.Name("setup"), [], [])
+    node.lineno = setup.span.line if setup.span is not None else 1
+    node.col_offset = setup.span.column - 1 if setup.span is not None else 0
+    found = SetupFile(setup.file, is_called=True, scripts_folder=setup.scripts_folder)
+    _fill(found, Call("setup", (), arguments, node))
     return found
 
 
