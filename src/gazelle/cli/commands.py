@@ -31,6 +31,7 @@ COMMANDS: dict[str, Command] = {
     ),
     "rospack": Command("gazelle.cli.rospack", "find, list, list-names, depends, depends1"),
     "rosversion": Command("gazelle.cli.rospack", "version of a package"),
+    "rosclean": Command("gazelle.cli.rosclean", "check, purge: log files of nodes"),
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),
     "gazebo": Command("gazelle.cli.gzserver", "run a world"),
     "spawn_model": Command("gazelle.cli.spawn_model", "put a model into a running world"),
