@@ -26,11 +26,13 @@ COMMANDS: dict[str, Command] = {
     "rosparam": Command("gazelle.cli.rosparam", "list, get, set, load, dump, delete"),
     "rosmsg": Command("gazelle.cli.rosmsg", "show, info, list, md5, package, packages"),
     "rossrv": Command("gazelle.cli.rosmsg", "the same for services"),
+    "bag": Command("gazelle.cli.bag", "convert bags between formats, export them to files"),
     "rosbag": Command(
         "gazelle.cli.rosbag", "record, play, info, filter, check, compress, reindex bags"
     ),
     "rospack": Command("gazelle.cli.rospack", "find, list, list-names, depends, depends1"),
     "rosversion": Command("gazelle.cli.rospack", "version of a package"),
+    "roswtf": Command("gazelle.cli.roswtf", "look for what is wrong in files and in the graph"),
     "rosclean": Command("gazelle.cli.rosclean", "check, purge: log files of nodes"),
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),
     "gazebo": Command("gazelle.cli.gzserver", "run a world"),

@@ -19,6 +19,13 @@ __all__ = ["main"]
 
 _say = partial(say, "rosbag2_player")
 _FASTER, _SLOWER = 1.1, 0.9
+_KEYS = (
+    "Adding keyboard callbacks.",
+    "Press SPACE for Pause/Resume",
+    "Press CURSOR_RIGHT for Play Next Message",
+    "Press CURSOR_UP for Increase Rate 10%",
+    "Press CURSOR_DOWN for Decrease Rate 10%",
+)
 
 
 def main(argv: list[str]) -> int:
@@ -62,12 +69,8 @@ def _play(graph: Graph, options: argparse.Namespace, controls: Controls) -> int:
             player.timeline.set_rate(player.timeline.rate * (_FASTER if key == "A" else _SLOWER))
             _say("info", f"Set rate to {player.timeline.rate:g}")
 
-    if not options.disable_keyboard_controls:
-        _say("info", "Adding keyboard callbacks.")
-        _say("info", "Press SPACE for Pause/Resume")
-        _say("info", "Press CURSOR_RIGHT for Play Next Message")
-        _say("info", "Press CURSOR_UP for Increase Rate 10%")
-        _say("info", "Press CURSOR_DOWN for Decrease Rate 10%")
+    for text in () if options.disable_keyboard_controls else _KEYS:
+        _say("info", text)
     controls.wait(options.delay)
     with keyboard(on_key if not options.disable_keyboard_controls else lambda _key: None):
         while True:

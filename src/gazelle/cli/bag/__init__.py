@@ -1,0 +1,85 @@
+"""``gazelle bag convert`` and ``gazelle bag export``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from gazelle.bag import BagError, BagReader, Storage, create_bag, open_bag, storage_of
+from gazelle.bag.copying import copy_bag
+from gazelle.bag.export import FORMATS, export_bag
+from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.cli.rosbag.opened import tell_of_unindexed
+from gazelle.diagnostics import Diagnostics, render
+
+__all__ = ["main"]
+
+
+def main(argv: list[str]) -> int:
+    """Run ``gazelle bag convert`` or ``gazelle bag export``."""
+    options = _parser().parse_args(argv)
+    learn_workspace_types()
+    return _convert(options) if options.verb == "convert" else _export(options)
+
+
+def _convert(options: argparse.Namespace) -> int:
+    source, target = Path(options.input), Path(options.output)
+    if target.exists():
+        raise BagError(f"{target} is there already")
+    storage = Storage(options.storage) if options.storage else storage_of(target) or Storage.MCAP
+    bag, diagnostics = open_bag(source), Diagnostics()
+    writer = create_bag(target, storage, compression=options.compression)
+    topics = {f"/{topic.lstrip('/')}" for topic in options.topics}
+    try:
+        copied = copy_bag(
+            bag,
+            writer,
+            diagnostics=diagnostics,
+            wanted=lambda message: not topics or message.connection.topic in topics,
+        )
+    finally:
+        writer.close()
+    print(f"{target}: {copied.written} messages ({storage})")
+    return _end(bag, diagnostics)
+
+
+def _export(options: argparse.Namespace) -> int:
+    bag, diagnostics = open_bag(options.input), Diagnostics()
+    folder = Path(options.output or f"{Path(options.input).stem}_{options.to}")
+    topics = [f"/{topic.lstrip('/')}" for topic in options.topics]
+    files = export_bag(
+        bag, folder, options.to, topics=topics, rate_hz=options.rate, diagnostics=diagnostics
+    )
+    shown = files if len(files) <= 20 else [*files[:3], Path("…"), *files[-1:]]
+    print("\n".join(map(str, shown)))
+    return _end(bag, diagnostics)
+
+
+def _end(bag: BagReader, diagnostics: Diagnostics) -> int:
+    sys.stdout.flush()
+    tell_of_unindexed(bag)
+    render(diagnostics)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    about = "convert bags between ROS 1 and rosbag2, and export them"
+    parser = argparse.ArgumentParser(prog="gazelle bag", description=about)
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="{convert,export}")
+    convert = verbs.add_parser("convert", help="write a bag in another format")
+    export = verbs.add_parser("export", help="write the messages into files of other programs")
+    for verb in (convert, export):
+        verb.add_argument("input", metavar="IN", help=".bag, .mcap, .db3 or a folder of rosbag2")
+        verb.add_argument("--topics", nargs="+", default=[], help="only these topics")
+    text = "NAME.bag, NAME.mcap, NAME.db3, or a folder of rosbag2"
+    convert.add_argument("output", metavar="OUT", help=text)
+    kinds = [str(one) for one in Storage]
+    convert.add_argument("--storage", choices=kinds, help="the format, where OUT does not tell it")
+    text = "bz2 or lz4 (.bag), lz4 or zstd (.mcap)"
+    convert.add_argument("--compression", default="", choices=["bz2", "lz4", "zstd"], help=text)
+    export.add_argument("--to", required=True, choices=FORMATS, help="the format")
+    export.add_argument("-o", "--output", metavar="DIR", help="folder for the files")
+    text = "pictures a second of a film; the median of the recording by default"
+    export.add_argument("--rate", type=float, default=0.0, metavar="HZ", help=text)
+    return parser
