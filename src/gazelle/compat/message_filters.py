@@ -1,14 +1,19 @@
-"""What `message_filters` is in Gazelle: messages of several topics that belong together."""
+"""What `message_filters` is in Gazelle: messages of several topics that belong together.
+
+One module for rospy and rclpy: a `Subscriber` of rclpy begins with its node.
+"""
 
 from __future__ import annotations
 
 import bisect
+import sys
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.compat.rospy.rostime import get_rostime
 from gazelle.compat.rospy.topics import Subscriber as _Subscriber
+from gazelle.compat.tf.conversions import nanoseconds, time_of
 
 __all__ = [
     "ApproximateTimeSynchronizer",
@@ -17,6 +22,9 @@ __all__ = [
     "Subscriber",
     "TimeSynchronizer",
 ]
+
+
+_TOLD: set[str] = set()
 
 
 class SimpleFilter:
@@ -30,6 +38,10 @@ class SimpleFilter:
         self._callbacks.append((cb, args))
         return len(self._callbacks) - 1
 
+    def now_ns(self) -> int:
+        """Return the time of messages that have no header."""
+        return int(get_rostime().to_nsec())
+
     def signalMessage(self, *msg: Any) -> None:
         """Pass messages on."""
         for callback, args in self._callbacks:
@@ -37,21 +49,48 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """A topic as a filter; takes the arguments of `rospy.Subscriber`."""
+    """A topic as a filter.
+
+    Takes the arguments of `rospy.Subscriber`, or a node of rclpy, type and topic, then
+    ``qos_profile`` and what `Node.create_subscription` takes.
+    """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
-        self.topic = args[0]
-        kwargs["callback"] = self.signalMessage
-        self.sub = _Subscriber(*args, **kwargs)
+        self.node: Any = kwargs.pop("node", None)
+        if args and hasattr(args[0], "graph_node"):
+            self.node, *args = args  # type: ignore[assignment]
+        if self.node is None:
+            self.topic = args[0]
+            kwargs["callback"] = self.signalMessage
+            self.sub: Any = _Subscriber(*args, **kwargs)
+        else:
+            self._subscribe(*args, **kwargs)
+
+    def now_ns(self) -> int:
+        """Return the time of messages that have no header."""
+        if self.node is None:
+            return super().now_ns()
+        return int(self.node.get_clock().now_ns())
 
     def unregister(self) -> None:
         """Stop receiving."""
-        self.sub.unregister()
+        if self.node is None:
+            self.sub.unregister()
+        else:
+            self.node.destroy_subscription(self.sub)
+
+    unsubscribe = unregister
 
     def getTopic(self) -> str:
         """Return the topic."""
         return str(self.topic)
+
+    def _subscribe(self, msg_type: Any, topic: str, qos_profile: Any = 10, **options: Any) -> None:
+        self.topic = topic
+        self.sub = self.node.create_subscription(
+            msg_type, topic, self.signalMessage, qos_profile, **options
+        )
 
 
 class Cache(SimpleFilter):
@@ -65,33 +104,52 @@ class Cache(SimpleFilter):
         self._allow_headerless = allow_headerless
         self._messages: list[Any] = []
         self._times: list[int] = []
+        self._source = f
         f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
         """Keep a message."""
-        stamp = msg.header.stamp if hasattr(msg, "header") else get_rostime()
-        if not hasattr(msg, "header") and not self._allow_headerless:
+        stamp_ns = _stamp_ns(msg, self._source, allow_headerless=self._allow_headerless)
+        if stamp_ns is None:
             return
-        index = bisect.bisect(self._times, stamp.to_nsec())
-        self._times.insert(index, stamp.to_nsec())
+        index = bisect.bisect(self._times, stamp_ns)
+        self._times.insert(index, stamp_ns)
         self._messages.insert(index, msg)
         del self._times[: -self._size], self._messages[: -self._size]
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Any, to_stamp: Any) -> list[Any]:
         """Return the messages between two times."""
-        low = bisect.bisect_left(self._times, from_stamp.to_nsec())
-        return self._messages[low : bisect.bisect(self._times, to_stamp.to_nsec())]
+        low = bisect.bisect_left(self._times, nanoseconds(from_stamp))
+        return self._messages[low : bisect.bisect(self._times, nanoseconds(to_stamp))]
 
     def getElemBeforeTime(self, stamp: Any) -> Any:
         """Return the last message before a time, or None."""
-        index = bisect.bisect(self._times, stamp.to_nsec())
+        index = bisect.bisect(self._times, nanoseconds(stamp))
         return self._messages[index - 1] if index else None
 
     def getElemAfterTime(self, stamp: Any) -> Any:
         """Return the first message after a time, or None."""
-        index = bisect.bisect_left(self._times, stamp.to_nsec())
+        index = bisect.bisect_left(self._times, nanoseconds(stamp))
         return self._messages[index] if index < len(self._messages) else None
+
+    def getLast(self) -> Any:
+        """Return the last message, or None."""
+        return self._messages[-1] if self._messages else None
+
+    def getLastestTime(self) -> Any:
+        """Return the time of the last message, or None; the name is the original's."""
+        return self._time(-1)
+
+    def getOldestTime(self) -> Any:
+        """Return the time of the oldest message that is kept, or None."""
+        return self._time(0)
+
+    def _time(self, place: int) -> Any:
+        if not self._times:
+            return None
+        node = getattr(self._source, "node", None)
+        return time_of(self._times[place], 1 if node is None else 2)
 
 
 class TimeSynchronizer(SimpleFilter):
@@ -100,6 +158,8 @@ class TimeSynchronizer(SimpleFilter):
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
         super().__init__()
         self._size = queue_size
+        self._sources = list(fs)
+        self._allow_headerless = False
         self._queues: list[dict[int, Any]] = [{} for _ in fs]
         self._lock = threading.Lock()
         for index, item in enumerate(fs):
@@ -107,9 +167,12 @@ class TimeSynchronizer(SimpleFilter):
 
     def add(self, msg: Any, index: int) -> None:
         """Take a message of one filter."""
+        source = self._sources[index]
+        stamp_ns = _stamp_ns(msg, source, allow_headerless=self._allow_headerless)
+        if stamp_ns is None:
+            return
         with self._lock:
             queue = self._queues[index]
-            stamp_ns = msg.header.stamp.to_nsec()
             queue[stamp_ns] = msg
             while len(queue) > self._size:
                 del queue[min(queue)]
@@ -135,7 +198,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         allow_headerless: bool = False,
     ) -> None:
         super().__init__(fs, queue_size)
-        del allow_headerless
+        self._allow_headerless = allow_headerless
         self._slop_ns = int(slop * 1e9)
 
     def _matched(self, stamp_ns: int, index: int) -> list[Any] | None:
@@ -152,3 +215,18 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
 def _nearest(queue: dict[int, Any], stamp_ns: int) -> int | None:
     return min(queue, key=lambda stamp: abs(stamp - stamp_ns), default=None)
+
+
+def _stamp_ns(message: Any, source: SimpleFilter, *, allow_headerless: bool) -> int | None:
+    """Return a message's time; None, said once a type, when it has none and needs one."""
+    header = getattr(message, "header", None)
+    if header is not None:
+        return nanoseconds(header.stamp)
+    if allow_headerless:
+        return source.now_ns()
+    kind = type(message).__name__
+    if kind not in _TOLD:
+        _TOLD.add(kind)
+        text = f"can not use message filters messages without timestamp infomation ({kind})"
+        sys.stderr.write(f"[WARN] {text} when 'allow_headerless' is disabled\n")
+    return None
