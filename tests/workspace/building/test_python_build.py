@@ -189,3 +189,37 @@ def test_a_setup_py_that_cannot_be_run_is_told(make: Make, build: Build) -> None
     text = "\n".join(outcome.errors)
     assert "running it fails: FileNotFoundError: [Errno 2] No such file or directory" in text
     assert "[package.install-unread]" in text
+
+
+def test_setup_cfg_alone_can_say_it_all(make: Make, build: Build, tmp_path: Path) -> None:
+    cfg = """[metadata]
+name = bot
+version = 3.1
+[options]
+packages = find:
+package_dir =
+    = lib
+[options.packages.find]
+where = lib
+[options.data_files]
+share/ament_index/resource_index/packages = resource/bot
+share/bot =
+    package.xml
+share/bot/Launch = launch/*.py
+[options.entry_points]
+console_scripts =
+    talk = bot.talk:main
+[install]
+install_scripts=$base/lib/bot
+"""
+    files = {"setup.py": "from setuptools import setup\nsetup()\n", "setup.cfg": cfg,
+             "resource/bot": "", "launch/a.launch.py": "", "lib/bot/__init__.py": "",
+             "lib/bot/talk.py": "def main(): pass\n"}  # fmt: skip
+    make("bot", "ament_python", files)
+    outcome = build()["bot"]
+    assert (outcome.code, outcome.errors) == (0, ())
+    prefix = tmp_path / "install/bot"
+    assert (prefix / "share/bot/Launch/a.launch.py").is_file()
+    assert (prefix / "lib/bot/talk").is_file()
+    assert (prefix / site_packages() / "bot/talk.py").is_file()
+    assert list((prefix / site_packages()).glob("bot-3.1-*"))

@@ -11,6 +11,7 @@ from typing import Any
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.workspace.building.install_rules import InstallRule
+from gazelle.workspace.building.setup_cfg import cfg_arguments
 from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, is_known, parse_python
 
 __all__ = ["EmptyGlob", "SetupFile", "read_setup", "with_arguments"]
@@ -91,7 +92,9 @@ def read_setup(folder: Path) -> SetupFile | None:
         found.is_called = True
         # catkin's idiom: setup(**generate_distutils_setup(packages=[…])).
         if call.name != "setup" or call.keywords or found.span is None:
-            _fill(found, call)
+            declared = cfg_arguments(folder, _packages_of(folder)) if call.name == "setup" else {}
+            arguments = {**declared, **call.keywords}
+            _fill(found, Call(call.function, call.arguments, arguments, call.node))
             _find_globs(found, call.node, evaluator, folder)
     return found
 
