@@ -131,6 +131,7 @@ def test_master_that_runs_is_joined_and_left(
     eventually(lambda: ("/talker", "/chatter") in master.state().publishers)
     joined.close()
     assert not any(master.state()[:3])
+    assert not master._master.registry.listeners("/any")
 
 
 def test_name_that_ros1_uses_gets_an_ending(

@@ -32,6 +32,12 @@ def test_bridge_says_where_it_is_and_leaves_in_peace(gazelle: Run, free_port: in
         xmlrpc.client.ServerProxy(uri).getUri("/me")
 
 
+def test_port_is_a_port(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["ros1", "--port", "99999"])
+    assert "'99999' is not a port number from 1 to 65535" in capsys.readouterr().err
+
+
 def test_bad_address_is_told(gazelle: Run) -> None:
     run = gazelle("bridge", "ros1", ROS_IP="203.0.113.7")
     assert run.wait() == 1

@@ -105,8 +105,7 @@ class Bridge:
         self._dirty.set()
         self._thread.join(_ENDING_S)
         self._services.close()
-        if self._sync is not None:
-            self._sync.close()
+        self._end_parameters()
         for presence in (*self._presences.values(), self._own):
             if self._lost:
                 # A master that does not answer would be waited for once for each name.
@@ -267,6 +266,13 @@ class Bridge:
         except (RemoteError, RemoteRefusedError):
             self._lost = True
         return sync
+
+    def _end_parameters(self) -> None:
+        if self._sync is not None:
+            try:
+                self._sync.close()
+            except RemoteError:
+                self._lost = True
 
     def _lose(self, error: RemoteError) -> None:
         if self._lost:

@@ -42,6 +42,7 @@ class ParameterSync:
         self._notice = notice
         self._known = ParameterTree()
         self._listens = False
+        self._uri = ""
         # Listeners of the store must not wait for another process.
         self._mailbox = Mailbox(lambda job: job[0](*job[1:]), size=0, name="ros1 parameters")
 
@@ -54,6 +55,7 @@ class ParameterSync:
         Raises:
             RemoteError: the master does not answer.
         """
+        self._uri = uri
         theirs = self._ask("subscribeParam", self._name, uri, _ROOT)
         self._known.replace(theirs if isinstance(theirs, dict) else {}, 0)
         ours = ParameterTree(self._store.get(_ROOT, {}))
@@ -71,8 +73,14 @@ class ParameterSync:
         self._mailbox.put((self._receive, name.rstrip("/") or _ROOT, value))
 
     def close(self) -> None:
-        """Pass on nothing more."""
+        """Pass on nothing more.
+
+        Raises:
+            RemoteError: the master does not answer any more.
+        """
         self._mailbox.close()
+        if self._uri:
+            self._ask("unsubscribeParam", self._name, self._uri, _ROOT)
 
     def _receive(self, name: str, value: Any) -> None:
         if value == {} and name != _ROOT:

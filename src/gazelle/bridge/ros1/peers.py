@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import uuid
 from collections.abc import Callable
 from typing import Any, Protocol
@@ -95,7 +96,10 @@ class EmbeddedMaster:
             self._endpoint = Endpoint(address, self._master.methods, None, notice, port=place.port)
         except OSError as error:
             self._master.close()
-            text = f"port {place.port} is taken by a program that is not a ROS 1 master ({error})"
+            text = f"port {place.port} is taken by a program that is not a ROS 1 master, or by one "
+            text += "that does not answer"
+            if error.errno != errno.EADDRINUSE:
+                text = f"port {place.port} cannot be listened at: {error.strerror}"
             fix = "end that program, or choose another port: gazelle bridge ros1 --port 11312"
             raise GraphError(coded("bridge.master-port-taken", text, fix=fix)) from error
         self.uri = self._master.uri = self._endpoint.uri

@@ -44,10 +44,16 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "-p",
         "--port",
-        type=int,
+        type=_port,
         help="port of the master on this machine, in place of ROS_MASTER_URI",
     )
     return parser
+
+
+def _port(text: str) -> int:
+    if not text.isdigit() or not 0 < int(text) < 65536:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a port number from 1 to 65535")
+    return int(text)
 
 
 def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
