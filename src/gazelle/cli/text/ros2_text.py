@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gazelle.cli.text.yaml_blocks import NotSimpleError, yaml_blocks
 from gazelle.interfaces import FieldType, Message
 from gazelle.interfaces.definition import FORMATS, NUMPY_NAMES, Array, attribute_name
 
@@ -47,10 +48,12 @@ _NO_WRAP = 2**31 - 1
 def message_yaml(message: Message, how: Shortening = WHOLE, *, flow_style: bool = False) -> str:
     """Return a message as YAML, its fields in order."""
     plain = _plain(message, how)
-    text = _dumped(plain, flow_style=flow_style, fast=True)
-    # libyaml writes characters beyond the first plane, and U+0085, in another way.
-    is_other = "\\U" in text or "\\N" in text
-    return _dumped(plain, flow_style=flow_style, fast=False) if is_other else text
+    if not flow_style:
+        try:
+            return yaml_blocks(plain)
+        except NotSimpleError:
+            pass
+    return _dumped(plain, flow_style=flow_style)
 
 
 def message_csv(message: Message, how: Shortening = WHOLE) -> str:
@@ -87,12 +90,12 @@ def value_text(value: Any, kind: FieldType | None) -> str:
     return _repr(value, kind)
 
 
-def _dumped(plain: dict[str, Any], *, flow_style: bool, fast: bool) -> str:
+def _dumped(plain: dict[str, Any], *, flow_style: bool) -> str:
     import yaml
 
     text: str = yaml.dump(
         plain,
-        Dumper=_dumper("CSafeDumper" if fast else "SafeDumper"),
+        Dumper=_dumper(),
         allow_unicode=True,
         width=_NO_WRAP,
         default_flow_style=flow_style,
@@ -102,15 +105,14 @@ def _dumped(plain: dict[str, Any], *, flow_style: bool, fast: bool) -> str:
 
 
 @cache
-def _dumper(name: str) -> Any:
+def _dumper() -> Any:
     """A dumper that gives each field a line, also where lists are written in one."""
     import yaml
 
     def represent(dumper: Any, fields: dict[str, Any]) -> Any:
         return dumper.represent_mapping("tag:yaml.org,2002:map", fields, flow_style=False)
 
-    # Without libyaml there is no fast one.
-    made = type("Dumper", (getattr(yaml, name, yaml.SafeDumper),), {})
+    made = type("Dumper", (yaml.SafeDumper,), {})
     yaml.add_representer(dict, represent, Dumper=made)
     return made
 

@@ -122,9 +122,7 @@ class Echo:
             return ",".join([*start, message_csv(value, self._how)]) + "\n"
         head = ""
         if about:
-            import yaml
-
-            head = f"{yaml.dump(about)}---\n"
+            head = "".join(f"{name}: {_or_null(about[name])}\n" for name in sorted(about)) + "---\n"
         return f"{head}{message_yaml(value, self._how, flow_style=options.flow_style)}---\n"
 
     def _tell_lost(self, info: MessageInfo) -> None:
@@ -153,6 +151,10 @@ def _about(info: MessageInfo) -> dict[str, int | None]:
         "publication_sequence_number": info.sequence,
         "reception_sequence_number": None,
     }
+
+
+def _or_null(number: int | None) -> int | str:
+    return "null" if number is None else number
 
 
 def _field_kind(owner: type[Message], steps: tuple[Step, ...], path: str) -> FieldType | None:
