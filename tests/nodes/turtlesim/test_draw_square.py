@@ -54,3 +54,16 @@ def test_goals_are_told_in_the_originals_words() -> None:
     command, texts = Square().next(pose)
     assert texts == ["New goal [3.000000 2.000000, 0.000000]"]
     assert command == (1.0, 0.0)
+
+
+def test_node_resets_the_turtles_and_sets_out(bench, capfd) -> None:
+    bench.start("turtlesim/turtlesim_node")
+    bench.call("/turtle1/teleport_absolute", "turtlesim/TeleportAbsolute", x=1.0, y=1.0)
+    poses = bench.listen("/turtle1/pose", "turtlesim/msg/Pose")
+    bench.start("turtlesim/draw_square")
+    bench.eventually(lambda: poses and poses[-1].x > 5.6)
+    assert poses[-1].y == pytest.approx(WORLD_M / 2, abs=1e-3)
+    assert bench.stop() == [0, 0]
+    texts = "".join(capfd.readouterr())
+    assert "Resetting turtlesim." in texts
+    assert "New goal [" in texts

@@ -104,6 +104,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     out = node.create_publisher("turtle1/cmd_vel", twist, queue_size=1)
     node.create_subscription("turtle1/pose", "turtlesim/msg/Pose", on_pose, queue_size=1)
     _reset(node)
+    # Where the turtle was before says nothing about the way to go.
+    poses.clear()
     square = Square()
     next_s = time.monotonic()
     while not stop.wait(max(0.0, next_s - time.monotonic())):
