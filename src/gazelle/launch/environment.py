@@ -38,6 +38,7 @@ ROS_COMMANDS = (
     "rossrv",
     "rostopic",
     "rosversion",
+    "roswtf",
     "urdf_to_graphiz",
     "urdf_to_graphviz",
     "xacro",
