@@ -152,3 +152,15 @@ def test_a_missing_script_fails(make: Make, spaces: CatkinSpaces) -> None:
     outcome = _build(spaces)
     assert outcome.code == 1
     assert "catkin_install_python: '" in "\n".join(outcome.errors)
+
+
+def test_without_a_build_file_a_package_is_used_but_not_installed(
+    make: Make, spaces: CatkinSpaces
+) -> None:
+    (make("bot", "catkin", _FILES) / "CMakeLists.txt").unlink()
+    outcome = _build(spaces)
+    assert outcome.code == 0
+    assert "it is used from its source folder, where catkin_make would stop" in outcome.errors[0]
+    outcome = _build(spaces, installs=True)
+    assert outcome.code == 1
+    assert "is catkin and has no CMakeLists.txt" in outcome.errors[0]

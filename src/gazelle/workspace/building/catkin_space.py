@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.diagnostics import render_text
+from gazelle.diagnostics import SourceSpan, render_text
 from gazelle.workspace.building.building import Outcome
 from gazelle.workspace.building.catkin_plan import add_catkin
 from gazelle.workspace.building.cmake_plan import (
@@ -126,6 +126,12 @@ def write_space_scripts(space: Path, sources: tuple[Path, ...], environ: Mapping
 def _plan_devel(
     package: SourcePackage, layout: Layout, definitions: Mapping[str, str], plan: Plan
 ) -> None:
+    if not (package.path / "CMakeLists.txt").is_file():
+        text = f"package '{package.name}' has no CMakeLists.txt: it is used from its source folder,"
+        span = SourceSpan(str(package.path / "package.xml"))
+        code = "package.no-build-file"
+        plan.diagnostics.report(code, f"{text} where catkin_make would stop", span)
+        return
     lists = read_lists(package, plan, definitions)
     if lists is None:
         return
