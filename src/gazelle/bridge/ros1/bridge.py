@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
 from gazelle.bridge.ros1.crossing import Crossing
-from gazelle.bridge.ros1.mirror import Mirror, Traits
+from gazelle.bridge.ros1.mirrors import Mirrors
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
 from gazelle.bridge.ros1.peers import MasterPeer, find_master
 from gazelle.bridge.ros1.presence import Presence, Wishes
@@ -20,12 +20,11 @@ from gazelle.bridge.ros1.types import MessageKind, ServiceKind
 from gazelle.bridge.ros1.views import BRIDGE_NAME, TypeBook, traits_of, wishes_of
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GazelleError, GraphError
-from gazelle.graph import Kind, Publisher
+from gazelle.graph import Publisher
 from gazelle.graph.errors import ServiceUnavailableError, coded
-from gazelle.graph.names import is_legal, is_legal_base, split
 
 if TYPE_CHECKING:
-    from gazelle.graph import Graph, Node
+    from gazelle.graph import Graph
 
 __all__ = ["Bridge"]
 
@@ -62,8 +61,6 @@ class Bridge:
         self._lost = False
         self._trouble = ""
         self._presences: dict[str, Presence] = {}
-        self._mirrors: dict[str, Mirror] = {}
-        self._lock = threading.RLock()
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
         # A clock of a thousand ticks a second is of no use to a bridge.
         graph.clock.use(False)
@@ -79,8 +76,10 @@ class Bridge:
         self._book = TypeBook(self._notice, self._explain)
         self._services = ServiceTypes(self.master.ask, self._dirty.set, self._book, self._notice)
         uri = self.master.uri
+        self._mirrors = Mirrors(graph, self._node, self._call, self._end_in_ros1)
         self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
         self._own = Presence(self._crossing, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
+        self._crossing.own_uris.add(self._own.uri)
         self._sync = self._joined_parameters()
         graph.discovery.listen(lambda entity, is_there: self._dirty.set())
         self._dirty.set()
@@ -90,8 +89,7 @@ class Bridge:
     @property
     def nodes(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Names of the graph's nodes in ROS 1, and of ROS 1's nodes on the graph."""
-        with self._lock:
-            return tuple(sorted(self._presences)), tuple(sorted(self._mirrors))
+        return tuple(sorted(self._presences)), self._mirrors.names
 
     def on_end(self, listener: Callable[[], None]) -> None:
         """Call back when somebody ends the bridge's node (``rosnode kill``)."""
@@ -106,13 +104,8 @@ class Bridge:
         self._thread.join(_ENDING_S)
         self._services.close()
         self._end_parameters()
-        for presence in (*self._presences.values(), self._own):
-            if self._lost:
-                # A master that does not answer would be waited for once for each name.
-                presence.start_over()
-            self._end_presence(presence)
-        for mirror in self._mirrors.values():
-            mirror.close()
+        self._end_presences()
+        self._mirrors.close()
         self._crossing.close()
         self.master.close()
         self._workers.shutdown(wait=False, cancel_futures=True)
@@ -150,18 +143,18 @@ class Bridge:
         own = frozenset({*self._presences, BRIDGE_NAME})
         services = self._services.of(one for one in state.services if one[0] not in own)
         traits = traits_of(state, own, self._skipped, services, self._book)
-        self._settle_mirrors(traits)
+        self._mirrors.settle(traits)
         self._settle_topics(wishes)
 
     def _settle_presences(self, wishes: dict[str, Wishes]) -> None:
         wishes = dict(wishes)
         self._settle_presence(self._own, wishes.pop(BRIDGE_NAME, Wishes(BRIDGE_NAME, {}, {}, {})))
-        for name in set(self._presences) - set(wishes):
-            presence = self._presences[name]
+        gone = [one for name, one in self._presences.items() if name not in wishes]
+        self._presences = {k: one for k, one in self._presences.items() if k in wishes}
+        for presence in gone:
             self._crossing.forget_offers(presence.wishes.node, presence.wishes.publishers)
-            self._end_presence(presence)
-            with self._lock:
-                del self._presences[name]
+            self._crossing.own_uris.discard(presence.uri)
+            presence.close()
         for name, one in wishes.items():
             presence = self._presences.get(name) or self._add_presence(name, one.node)
             self._settle_presence(presence, one)
@@ -169,8 +162,7 @@ class Bridge:
     def _add_presence(self, name: str, node: str) -> Presence:
         presence = Presence(self._crossing, self.master.ask, name, node)
         self._crossing.own_uris.add(presence.uri)
-        with self._lock:
-            self._presences[name] = presence
+        self._presences = {**self._presences, name: presence}
         return presence
 
     def _settle_presence(self, presence: Presence, wishes: Wishes) -> None:
@@ -178,63 +170,18 @@ class Bridge:
         self._crossing.forget_offers(presence.wishes.node, gone)
         presence.settle(wishes)
 
-    def _end_presence(self, presence: Presence) -> None:
-        try:
-            presence.close()
-        except RemoteError:
-            self._lost = True
-        self._crossing.own_uris.discard(presence.uri)
-
-    def _settle_mirrors(self, traits: dict[str, Traits]) -> None:
-        with self._lock:
-            gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
-            for name, mirror in list(self._mirrors.items()):
-                # Its name has become free on the graph.
-                if mirror.shares and _is_node_name(name) and not self._is_taken(name):
-                    gone.append(self._mirrors.pop(name))
-        for mirror in gone:
-            mirror.close()
-        for name, one in traits.items():
-            self._mirror(name).settle(one)
-
-    def _mirror(self, name: str) -> Mirror:
-        with self._lock:
-            known = self._mirrors.get(name)
-            if known is not None:
-                return known
-            # A node made with a name that is taken would end the other one.
-            shares = not _is_node_name(name) or self._is_taken(name)
-            node = self._node if shares else self._mirror_node(name)
-            made = Mirror(self._graph, name, node, self._call, shares=shares)
-            self._mirrors[name] = made
-            return made
-
-    def _is_taken(self, name: str) -> bool:
-        own = self._graph.zid
-        return any(
-            one.kind is Kind.NODE and one.node == name and one.zid != own
-            for one in self._graph.entities()
-        )
-
-    def _mirror_node(self, name: str) -> Node:
-        namespace, base = split(name)
-        node = self._graph.create_node(base, namespace=namespace, rosout=False)
-        node.on_shutdown(lambda reason: self._end_in_ros1(name, node, reason))
-        return node
-
     def _settle_topics(self, wishes: dict[str, Wishes]) -> None:
         wanted = {topic for one in wishes.values() for topic in one.subscribers}
         for topic in self._crossing.keep_topics(wanted):
-            for mirror in tuple(self._mirrors.values()):
-                mirror.forget_latched(topic)
+            self._mirrors.forget_latched(topic)
 
     def _voice_of(
         self, node: str, topic: str, kind: MessageKind, latched: bool
     ) -> Publisher | None:
-        with self._lock:
-            if self._ended.is_set() or node in self._presences or not node.startswith("/"):
-                return None
-            return self._mirror(node).voice(topic, kind, latched)
+        ours = node in self._presences or node == BRIDGE_NAME
+        if ours or self._ended.is_set() or not node.startswith("/"):
+            return None
+        return self._mirrors.voice(node, topic, kind, latched)
 
     def _call(self, service: str, kind: ServiceKind, request: Any) -> Any:
         try:
@@ -243,11 +190,8 @@ class Bridge:
             raise ServiceUnavailableError(f"service [{service}] unavailable: {error}") from error
         return call_service(uri, service, kind, BRIDGE_NAME, request)
 
-    def _end_in_ros1(self, name: str, node: Node, reason: str) -> None:
-        """End a node of ROS 1 when somebody on the graph asks for it, not when we let it go."""
-        with self._lock:
-            mirror = self._mirrors.get(name)
-        if mirror is not None and mirror.speaks_through(node) and not self._ended.is_set():
+    def _end_in_ros1(self, name: str, reason: str) -> None:
+        if not self._ended.is_set():
             self._workers.submit(self._shut_down, name, reason)
 
     def _shut_down(self, name: str, reason: str) -> None:
@@ -274,6 +218,16 @@ class Bridge:
             except RemoteError:
                 self._lost = True
 
+    def _end_presences(self) -> None:
+        for presence in (*self._presences.values(), self._own):
+            if self._lost:
+                # A master that does not answer would be waited for once for each name.
+                presence.start_over()
+            try:
+                presence.close()
+            except RemoteError:
+                self._lost = True
+
     def _lose(self, error: RemoteError) -> None:
         if self._lost:
             return
@@ -281,10 +235,7 @@ class Bridge:
         self._notice(f"the master does not answer, the bridge waits for it: {error}")
         for presence in (*self._presences.values(), self._own):
             presence.start_over()
-        with self._lock:
-            mirrors, self._mirrors = self._mirrors, {}
-        for mirror in mirrors.values():
-            mirror.close()
+        self._mirrors.close()
         self._crossing.keep_topics(())
 
     def _find_again(self) -> None:
@@ -306,10 +257,6 @@ def _refuse_second(graph: Graph) -> None:
     if BRIDGE_NAME in graph.node_names():
         text = "a bridge to ROS 1 already runs on this graph; a second one would double messages"
         raise GraphError(coded("bridge.second", text))
-
-
-def _is_node_name(name: str) -> bool:
-    return is_legal(name) and is_legal_base(split(name)[1])
 
 
 def _nodes(state: State) -> set[str]:
