@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING
 
 from gazelle.errors import InterfaceError, NotFoundError
 from gazelle.interfaces import ros1_message_type, ros1_service_type, ros1_type_of
+from gazelle.nodes.workspace_types import learn_workspace_types
 
 if TYPE_CHECKING:
     from gazelle.interfaces import Ros1Message, Ros1Service
 
 __all__ = ["learn_workspace_types", "message_class", "service_class", "shown_type", "topic_class"]
-
-_PARTS = ("msg", "srv", "action")
 
 
 def message_class(name: str) -> type[Ros1Message]:
@@ -67,16 +65,3 @@ def service_class(name: str) -> type[Ros1Service]:
 def shown_type(name: str) -> str:
     """Return a type's name as ROS 1 shows it; ``*``, any type, stays."""
     return ros1_type_of(name) if name.count("/") == 2 else name
-
-
-@cache
-def learn_workspace_types() -> None:
-    """Let the packages of the workspace define types, except those that Gazelle brings."""
-    from gazelle.interfaces import add_package, known_types
-    from gazelle.workspace import Workspace
-
-    for package in Workspace.discover().packages.values():
-        if not any((package.path / part).is_dir() for part in _PARTS):
-            continue
-        if not any(known_types(part, package.name) for part in _PARTS):
-            add_package(package.name, package.path)

@@ -150,6 +150,13 @@ _NODES = (
         light=True,
         help="deactivates and unloads controllers, ROS 2's older name",
     ),
+    *(
+        BuiltinNode("rosbag", name, f"gazelle.nodes.rosbag.{name}:run", light=False, help=about)
+        for name, about in (
+            ("record", "records topics into a bag"),
+            ("play", "plays a bag"),
+        )
+    ),
     BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"
     ),

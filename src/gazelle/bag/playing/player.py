@@ -128,8 +128,11 @@ class Player:
             return
         stamp_ns = self.timeline.stamp_ns()
         period_ns = int(1e9 / self._options.clock_hz * self.timeline.rate)
-        if not self._clock_ns <= stamp_ns < self._clock_ns + period_ns or self.timeline.held:
-            self._clock_ns = stamp_ns
+        if self._clock_ns - 2 * period_ns > stamp_ns or stamp_ns >= self._clock_ns:
+            # On a grid, so that being late once does not make all later ones late.
+            due_ns = self._clock_ns + period_ns
+            near = stamp_ns < due_ns < stamp_ns + 2 * period_ns
+            self._clock_ns = due_ns if near else stamp_ns + period_ns
             message = self._clock.message_class()
             message.clock.sec, message.clock.nanosec = divmod(stamp_ns, 1_000_000_000)
             self._clock.publish(message)
@@ -160,12 +163,11 @@ class Player:
         return False
 
     def _sleep(self, wait_ns: int) -> None:
-        longest_s = _LONGEST_WAIT_S
         if self._options.clock_hz:
-            longest_s = min(longest_s, 1 / self._options.clock_hz)
+            wait_ns = min(wait_ns, max(self.timeline.wait_ns(self._clock_ns), 0))
         # Waits on a condition are late by up to a millisecond on a busy machine; short ones less.
         rest_ns = wait_ns - _LAST_PART_NS if wait_ns > 2 * _LAST_PART_NS else wait_ns
-        self._controls.wait(min(rest_ns / 1e9, longest_s))
+        self._controls.wait(min(rest_ns / 1e9, _LONGEST_WAIT_S))
 
     def _publish(self, one: Outgoing) -> None:
         publisher = self._publishers.get((one.place, one.connection.id))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
@@ -21,6 +21,7 @@ __all__ = ["Limits", "Recorder", "Sink"]
 
 _FLUSH_S = 0.5
 _WARN_S = 5.0
+_NEWS_S = 0.3
 
 
 class Sink(Protocol):
@@ -258,7 +259,7 @@ class Recorder:
             self._ended.set()
 
     def _route(self, item: _Item) -> _Route | None:
-        publisher = item.info.publisher if self._sink.encoding is Encoding.ROS1 else ""
+        publisher = self._publisher(item) if self._sink.encoding is Encoding.ROS1 else ""
         key = (item.topic, publisher, item.message.type_name)
         if key not in self._routes:
             try:
@@ -269,15 +270,25 @@ class Recorder:
                 self._say("error", f"{text} [bag.not-converted]")
         return self._routes[key]
 
+    def _publisher(self, item: _Item) -> str:
+        """Return who sent it; a message may come before the news of its publisher."""
+        if item.info.publisher:
+            return item.info.publisher
+        known = [key for key in self._routes if key[0] == item.topic]
+        if len(known) == 1:
+            return known[0][1]
+
+        def is_known(entities: Iterable[Entity]) -> bool:
+            return bool(_publishers(entities, item.topic))
+
+        self._graph.discovery.wait_for(is_known, _NEWS_S)
+        names = {one.node for one in _publishers(self._graph.discovery.known(), item.topic)}
+        return names.pop() if len(names) == 1 else ""
+
     def _new_route(self, item: _Item, publisher: str) -> _Route:
         type_name, topic = item.message.type_name, item.topic
-        ends = [
-            one
-            for one in self._graph.discovery.known()
-            if one.kind is Kind.PUBLISHER
-            and one.name == topic
-            and one.node == (publisher or one.node)
-        ]
+        ends = _publishers(self._graph.discovery.known(), topic)
+        ends = [one for one in ends if one.node == (publisher or one.node)]
         latched = any(one.qos.latched for one in ends)
         if self._sink.encoding is Encoding.CDR:
             reliable = all(one.qos.reliable for one in ends)
@@ -287,6 +298,10 @@ class Recorder:
         short = ros1_type_of(type_name)
         new = ros1_connection(topic, short, callerid=publisher, latching=latched)
         return _Route(self._sink.add(new), _ros1_bytes(short))
+
+
+def _publishers(entities: Iterable[Entity], topic: str) -> list[Entity]:
+    return [one for one in entities if one.kind is Kind.PUBLISHER and one.name == topic]
 
 
 def _ros1_bytes(short: str) -> Callable[[bytes, int], bytes]:

@@ -9,8 +9,8 @@ from pathlib import Path
 from gazelle.bag import BagError, BagReader, Storage, create_bag, open_bag, storage_of
 from gazelle.bag.copying import copy_bag
 from gazelle.bag.export import FORMATS, export_bag
+from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.rosbag.opened import tell_of_unindexed
 from gazelle.diagnostics import Diagnostics, render
 
 __all__ = ["main"]

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from gazelle.bag import BagReader, Connection, Storage, create_bag, open_bag, ros1_name_of
 from gazelle.bag.copying import copy_bag
+from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.rosbag.opened import tell_of_unindexed
 from gazelle.cli.tool import ToolError, add_flag, option_parser
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import NotFoundError

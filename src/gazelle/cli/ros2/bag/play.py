@@ -9,10 +9,10 @@ from functools import partial
 
 from gazelle.bag import Connection, learn_definitions, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
+from gazelle.bag.playing.keyboard import keyboard
+from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.rosbag.keyboard import keyboard
-from gazelle.cli.rosbag.opened import tell_of_unindexed
 from gazelle.graph import Graph
 
 __all__ = ["main"]

@@ -12,11 +12,11 @@ from functools import partial
 from pathlib import Path
 
 from gazelle.bag import Storage
+from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.rosbag.keyboard import keyboard
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 

@@ -1,8 +1,8 @@
-"""What is said of a bag when it is opened."""
+"""What is said of a bag that was not closed."""
 
 from __future__ import annotations
 
-from gazelle.bag import BagReader, Storage
+from gazelle.bag.records import BagReader, Storage
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
 
 __all__ = ["tell_of_unindexed"]
