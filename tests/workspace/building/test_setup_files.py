@@ -132,3 +132,15 @@ def test_a_merged_install_space_has_one_prefix(make: Make, build: Build, tmp_pat
     assert found["AMENT_PREFIX_PATH"] == str(tmp_path / "install")
     assert (tmp_path / "install/share/one/x/package.xml").is_file()
     assert (tmp_path / "install/share/two/x/package.xml").is_file()
+
+
+def test_a_hook_for_bash_alone_is_sourced_by_bash(make: Make, build: Build, tmp_path: Path) -> None:
+    lists = "project(bot)\nament_environment_hooks(env-hooks/bot.bash)\nament_package()\n"
+    hook = 'export BOT_SHELL="bash $AMENT_CURRENT_PREFIX"\n'
+    make("bot", files={"CMakeLists.txt": lists, "env-hooks/bot.bash": hook})
+    build()
+    found = _sourced("bash", tmp_path / "install/setup.bash")
+    assert found["BOT_SHELL"] == f"bash {tmp_path / 'install/bot'}"
+    assert "BOT_SHELL" not in _sourced("sh", tmp_path / "install/setup.sh")
+    one = _sourced("bash", tmp_path / "install/bot/share/bot/local_setup.bash")
+    assert one["BOT_SHELL"] == found["BOT_SHELL"]

@@ -22,12 +22,9 @@ def add_environment_file(
         plan.diagnostics.report("package.install-missing", text, step.span)
         return
     name = file.name.removesuffix(".in")
-    if name.endswith((".bash", ".zsh", ".bat", ".ps1")):
-        target = f"{folder}/{name}"
-        plan.write(target, _configured(file, package))
-        return
     plan.write(f"{folder}/{name}", _configured(file, package))
-    plan.scripts.append(f"{folder}/{name}")
+    if name.endswith((".sh", ".dsv", ".bash", ".zsh")):
+        plan.scripts.append(f"{folder}/{name}")
 
 
 def _configured(file: Path, package: SourcePackage) -> str:

@@ -32,7 +32,6 @@ class SourcePackage:
         name: of the package.
         path: its folder, absolute.
         manifest: its ``package.xml``.
-        build_type: ``ament_cmake``, ``ament_python``, ``catkin``, ``cmake`` or another word.
     """
 
     name: str
@@ -41,7 +40,7 @@ class SourcePackage:
 
     @property
     def build_type(self) -> str:
-        """The build type as the manifest has it."""
+        """``ament_cmake``, ``ament_python``, ``catkin``, ``cmake`` or another word."""
         return self.manifest.build_type
 
     def depends(self, role: str = "") -> frozenset[str]:

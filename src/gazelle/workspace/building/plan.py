@@ -70,13 +70,11 @@ class Plan:
 
     Attributes:
         items: by target; a later rule for the same target replaces an earlier one.
-        hooks: what sourcing the package does.
         scripts: shell files to be sourced, relative to the prefix.
         diagnostics: what was found on the way; an error stops the build of the package.
     """
 
     items: dict[str, Item] = field(default_factory=dict)
-    hooks: list[EnvironmentHook] = field(default_factory=list)
     scripts: list[str] = field(default_factory=list)
     diagnostics: Diagnostics = field(default_factory=Diagnostics)
 

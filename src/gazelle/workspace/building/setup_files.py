@@ -37,9 +37,8 @@ def add_package_scripts(
         known: names of the workspace's packages; run dependencies among them are written down.
     """
     share = f"share/{package.name}"
-    hooks = [*_hooks_for(package, layout, plan), *plan.hooks]
     names = []
-    for hook in hooks:
+    for hook in _hooks_for(package, layout, plan):
         base = f"{share}/hook/{hook.name}"
         plan.write(f"{base}.dsv", f"prepend-non-duplicate;{hook.variable};{hook.value}\n")
         plan.write(f"{base}.sh", HEADER + prepend(hook.variable, _PREFIX, hook.value))
@@ -48,10 +47,11 @@ def add_package_scripts(
     plan.write(f"{share}/package.dsv", "".join(f"source;{name}\n" for name in names))
     plan.write(f"{share}/package.sh", _package_sh(layout, names, plan))
     for shell in ("bash", "zsh"):
-        plan.write(f"{share}/package.{shell}", _package_shell(shell, share))
+        own = [name for name in plan.scripts if name.endswith(f".{shell}")]
+        plan.write(f"{share}/package.{shell}", _package_shell(shell, share, scripts=own))
     if package.build_type != "ament_python":
         for shell in _SHELLS:
-            text = _package_shell(shell, share, str(layout.prefix / share))
+            text = _package_shell(shell, share, built=str(layout.prefix / share), to=shell)
             plan.write(f"{share}/local_setup.{shell}", text)
     needs = sorted(package.depends("run") & known - {package.name})
     plan.write(f"{_INDEX}/{package.name}", ":".join(needs))
@@ -71,17 +71,12 @@ def write_prefix_scripts(
         The names of the packages, in the order they are sourced.
     """
     names = _installed(install_base, merged=merged)
-    local = [HEADER, "# Extends the environment with the packages of this folder.\n"]
-    for name in names:
-        where = "" if merged else f"/{name}"
-        local.append(f'{_PREFIX}="${_SAVED}{where}"\n')
-        local.append(source_file(f"${_PREFIX}/share/{name}/package.sh"))
-    body = "".join([*local, f'_gazelle_prepend COLCON_PREFIX_PATH "${_SAVED}"\n'])
     chain = "".join(source_file(f"{_quoted(path)}/local_setup.sh") for path in environ_chain(
         install_base, environ))  # fmt: skip
     for shell in _SHELLS:
         own = own_prefix(_PREFIX, shell, str(install_base))
         head = f'{own}{_SAVED}="${_PREFIX}"\n'
+        body = _sourcing(names, shell, merged=merged)
         end = forget([_PREFIX, _SAVED])
         (install_base / f"local_setup.{shell}").write_text(
             HEADER + head + FUNCTIONS + body + end, encoding="utf-8"
@@ -139,7 +134,7 @@ def _package_sh(layout: Layout, names: Sequence[str], plan: Plan) -> str:
     for name in names:
         if name.endswith(".sh"):
             lines.append(source_file(f"${_PREFIX}/{name}"))
-        elif f"{name.removesuffix('.dsv')}.sh" not in names:
+        elif name.endswith(".dsv") and f"{name.removesuffix('.dsv')}.sh" not in names:
             lines += _dsv_lines(plan.items[name].text)
     lines.append(forget(["AMENT_CURRENT_PREFIX", "CATKIN_ENV_HOOK_WORKSPACE", _PREFIX]))
     return "".join(lines)
@@ -163,13 +158,34 @@ def _dsv_lines(text: str) -> list[str]:
     return lines
 
 
-def _package_shell(shell: str, share: str, built: str = "") -> str:
-    """Return a file that finds its prefix, two folders up, and sources ``package.sh``."""
+def _sourcing(names: Sequence[str], shell: str, *, merged: bool) -> str:
+    lines = ["# Extends the environment with the packages of this folder.\n"]
+    for name in names:
+        where = "" if merged else f"/{name}"
+        lines.append(f'{_PREFIX}="${_SAVED}{where}"\n')
+        lines.append(source_file(f"${_PREFIX}/share/{name}/package.{shell}"))
+    return "".join([*lines, f'_gazelle_prepend COLCON_PREFIX_PATH "${_SAVED}"\n'])
+
+
+def _package_shell(
+    shell: str, share: str, *, built: str = "", to: str = "sh", scripts: Sequence[str] = ()
+) -> str:
+    """Return a file that finds its prefix, two folders up, and sources ``package.sh``.
+
+    Args:
+        shell: for which the file is.
+        share: the package's share folder, relative to the prefix.
+        built: where the file was built for; a plain sh needs it.
+        to: ending of the package file that is sourced.
+        scripts: hooks of this shell alone, relative to the prefix.
+    """
     own = own_prefix("_gazelle_share", shell, built)
     up = "/".join(".." for _ in PurePosixPath(share).parts)
     find = f'{_PREFIX}="$(cd "$_gazelle_share/{up}" > /dev/null && pwd)"\n'
-    source = '. "$_gazelle_share/package.sh"\n'
-    return HEADER + own + find + source + forget(["_gazelle_share"])
+    lines = [HEADER, own, find, f'. "$_gazelle_share/package.{to}"\n']
+    for script in scripts:
+        lines += [find, f'AMENT_CURRENT_PREFIX="${_PREFIX}"\n', source_file(f"${_PREFIX}/{script}")]
+    return "".join([*lines, forget(["_gazelle_share", "AMENT_CURRENT_PREFIX", _PREFIX])])
 
 
 def _installed(install_base: Path, *, merged: bool) -> tuple[str, ...]:
