@@ -16,6 +16,7 @@ class Command(NamedTuple):
 
 COMMANDS: dict[str, Command] = {
     "env": Command("gazelle.cli.env", "print shell lines that make the ROS commands available"),
+    "complete": Command("gazelle.cli.completion", "print what may follow the words of a command"),
     "shell": Command("gazelle.cli.shell", "start a shell with the ROS commands and modules"),
     "roscore": Command("gazelle.cli.roscore", "run the graph's hub and parameter store"),
     "roslaunch": Command("gazelle.cli.roslaunch", "start what launch files name"),
