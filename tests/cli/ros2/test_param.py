@@ -83,7 +83,7 @@ def test_dump_and_load_are_a_round_trip(
     path = tmp_path / "arm.yaml"
     assert (code, text) == (0, f"Saving to:  {path}\n")
     written = path.read_text(encoding="utf-8")
-    assert ros2_param("dump", "/arm")[1] == written
+    assert ros2_param("dump", "/arm")[1] == f"{written}\n"
     path.write_text(written.replace("p: 1.0", "p: 7.5"), encoding="utf-8")
     code, out, error = ros2_param("load", "/arm", str(path))
     assert code == 1

@@ -9,6 +9,7 @@ from typing import Any
 
 import yaml
 
+from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
@@ -24,7 +25,11 @@ _CANCEL_S = 10.0
 
 def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 action``."""
-    options = _parser().parse_args(argv)
+    parser = _parser()
+    options = parser.parse_args(argv)
+    if not options.verb:
+        parser.print_help()
+        return 0
     try:
         with Graph.open(role="client") as graph:
             return int(_VERBS[options.verb](options, graph))
@@ -36,13 +41,22 @@ def main(argv: list[str]) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     about = "Various action related sub-commands"
-    parser = argparse.ArgumentParser(prog="ros2 action", description=about)
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
-    listing = verbs.add_parser("list", help="Output a list of action names")
-    info = verbs.add_parser("info", help="Output information about an action")
-    kind = verbs.add_parser("type", help="Print a ROS action's type")
-    find = verbs.add_parser("find", help="Find actions from type")
-    send = verbs.add_parser("send_goal", help="Send an action goal")
+    parser = argparse.ArgumentParser(
+        prog="ros2 action",
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    verbs = add_verbs(
+        parser,
+        {
+            "find": "Find actions from type",
+            "info": "Print information about an action",
+            "list": "Output a list of action names",
+            "send_goal": "Send an action goal",
+            "type": "Print a action's type",
+        },
+    )
+    find, info, listing, send, kind = (verbs[name] for name in sorted(verbs))
     for verb in (listing, info):
         verb.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
     listing.add_argument("-c", "--count-actions", action="store_true", help="Show the number only")

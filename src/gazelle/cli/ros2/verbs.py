@@ -17,6 +17,7 @@ __all__ = [
     "Verb",
     "add_direct_arguments",
     "add_strategy_arguments",
+    "add_verbs",
     "command_parser",
     "fail",
     "guarded",
@@ -90,21 +91,27 @@ def command_parser(command: Command, chosen: str = "") -> Parser:
     )
     if command.add_arguments is not None:
         command.add_arguments(parser)
-    more = f"Call `ros2 {command.name} <command> -h` for more detailed usage."
-    width = max(map(len, command.verbs))
-    lines = [f"{name:<{width}}  {verb.about}" for name, verb in sorted(command.verbs.items())]
-    verbs = parser.add_subparsers(
-        title="Commands", description="\n".join(lines), metavar=more, dest="verb"
-    )
-    for name, verb in command.verbs.items():
-        own = verbs.add_parser(
-            name,
-            description=verb.about,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )
-        if name == chosen:
-            _function(verb, name, "add_arguments")(own)
+    verbs = add_verbs(parser, {name: verb.about for name, verb in command.verbs.items()})
+    if chosen:
+        _function(command.verbs[chosen], chosen, "add_arguments")(verbs[chosen])
     return parser
+
+
+def add_verbs(parser: Parser, abouts: Mapping[str, str]) -> dict[str, Parser]:
+    """Add verbs with their lines of help, listed as ros2cli lists them; return their parsers."""
+    width = max(map(len, abouts))
+    lines = [f"{name:<{width}}  {about}" for name, about in sorted(abouts.items())]
+    verbs = parser.add_subparsers(
+        title="Commands",
+        description="\n".join(lines),
+        metavar=f"Call `{parser.prog} <command> -h` for more detailed usage.",
+        dest="verb",
+    )
+    layout = argparse.RawDescriptionHelpFormatter
+    return {
+        name: verbs.add_parser(name, description=about, formatter_class=layout)
+        for name, about in abouts.items()
+    }
 
 
 def add_direct_arguments(parser: Parser) -> None:

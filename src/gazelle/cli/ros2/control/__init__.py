@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError, joined
 from gazelle.errors import GraphError
 from gazelle.nodes.controller_manager_client import ManagerClient
@@ -19,7 +20,11 @@ def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 control``."""
     from gazelle.cli.ros2.control import listing, verbs
 
-    options = _parser().parse_args(_own_words(argv))
+    parser = _parser()
+    options = parser.parse_args(_own_words(argv))
+    if not options.verb:
+        parser.print_help()
+        return 0
     module = listing if hasattr(listing, options.verb) else verbs
     try:
         with joined() as graph:
@@ -46,8 +51,11 @@ def _own_words(argv: list[str]) -> list[str]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="ros2 control", description="Various control related")
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
+    parser = argparse.ArgumentParser(
+        prog="ros2 control",
+        description="Various control related sub-commands",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     rows = (
         ("list_controller_types", "Output the available controller types and their base classes"),
         ("list_controllers", "Output the list of loaded controllers, their type and status"),
@@ -60,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
         ("switch_controllers", "Switch controllers in a controller manager"),
         ("unload_controller", "Unload a controller in a controller manager"),
     )
-    found = {name: verbs.add_parser(name, help=about, description=about) for name, about in rows}
+    found = add_verbs(parser, dict(rows))
     _add_listing(found)
     _add_changing(found)
     for verb in found.values():

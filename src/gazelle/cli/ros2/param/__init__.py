@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError
 
 __all__ = ["main"]
@@ -15,7 +16,11 @@ def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 param``."""
     from gazelle.cli.ros2.param import verbs
 
-    options = _parser().parse_args(argv)
+    parser = _parser()
+    options = parser.parse_args(argv)
+    if not options.verb:
+        parser.print_help()
+        return 0
     try:
         return int(getattr(verbs, f"run_{options.verb}")(options))
     except ToolError as error:
@@ -24,8 +29,11 @@ def main(argv: list[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="ros2 param", description="Various param related verbs")
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
+    parser = argparse.ArgumentParser(
+        prog="ros2 param",
+        description="Various param related sub-commands",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     rows = (
         ("delete", "Delete parameter", ("node", "name")),
         ("describe", "Show descriptive information about declared parameters", ("node", "names")),
@@ -35,11 +43,10 @@ def _parser() -> argparse.ArgumentParser:
         ("load", "Load parameter file for a node", ("node", "file")),
         ("set", "Set parameter", ("node", "name", "value")),
     )
-    for name, about, arguments in rows:
-        verb = verbs.add_parser(name, help=about, description=about)
+    choices = add_verbs(parser, {name: about for name, about, _ in rows})
+    for name, _, arguments in rows:
         for argument in arguments:
-            _add(verb, argument)
-    choices = verbs.choices
+            _add(choices[name], argument)
     choices["get"].add_argument("--hide-type", action="store_true", help="Hide the type")
     choices["list"].add_argument("--filter", help="Only list parameters matching this regex")
     choices["list"].add_argument("--param-prefixes", nargs="+", default=[], help="Only with these")

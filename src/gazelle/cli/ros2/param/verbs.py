@@ -41,7 +41,7 @@ def run_list(options: argparse.Namespace) -> int:
                 print(f"{parameters.node}:")
             types = parameters.types(found) if options.param_type else []
             for place, name in enumerate(found):
-                kind = f" (type: {types[place].word})" if types else ""
+                kind = f" (type: {_type_word(types[place])})" if types else ""
                 print(f"  {name}{kind}")
     return 0
 
@@ -79,7 +79,7 @@ def run_describe(options: argparse.Namespace) -> int:
     with joined() as graph:
         for row in remote(graph, options.node).describe(options.names):
             print(f"Parameter name: {row.name}")
-            print(f"  Type: {ParameterType(row.type).word}")
+            print(f"  Type: {_type_word(ParameterType(row.type))}")
             if row.description:
                 print(f"  Description: {row.description}")
             print("  Constraints:")
@@ -99,7 +99,7 @@ def run_dump(options: argparse.Namespace) -> int:
     tree = {parameters.node: {"ros__parameters": _branches(values)}}
     text = yaml.safe_dump(tree, default_flow_style=False)
     if options.output_dir is None:
-        print(text, end="")
+        print(text)
         return 0
     path = options.output_dir / f"{parameters.node.strip('/').replace('/', '__')}.yaml"
     path.write_text(text, encoding="utf-8")
@@ -131,6 +131,11 @@ def run_load(options: argparse.Namespace) -> int:
                 good, bad = f"Set parameter {name} successful", f"Set parameter {name} failed"
                 failed |= _told(reason, good, bad)
     return failed
+
+
+def _type_word(kind: ParameterType) -> str:
+    """ros2param's word of a type."""
+    return kind.word.replace("bool", "boolean")
 
 
 def _told(reason: str, good: str, bad: str) -> int:
