@@ -41,20 +41,23 @@ def joined(make_bridge: Callable[..., Bridge], master: EmbeddedMaster) -> Bridge
 
 
 def test_second_bridge_is_refused(bridge: Bridge, make_bridge: Callable[..., Bridge]) -> None:
-    with pytest.raises(GraphError, match=r"already runs on this graph.*\[bridge\.second\]"):
+    with pytest.raises(GraphError, match="already runs on this graph") as raised:
         make_bridge()
+    assert "[bridge.second]" in str(raised.value)
 
 
 def test_port_of_another_program_is_told(make_bridge: Callable[..., Bridge]) -> None:
     with socket.create_server((HERE, 0)) as other:
         port = other.getsockname()[1]
-        with pytest.raises(GraphError, match=rf"port {port} is taken.*bridge\.master-port-taken"):
+        with pytest.raises(GraphError, match=f"port {port} is taken by a program") as raised:
             make_bridge(MasterAddress(HERE, port))
+    assert "[bridge.master-port-taken]" in str(raised.value)
 
 
 def test_master_on_another_machine_must_run(make_bridge: Callable[..., Bridge]) -> None:
-    with pytest.raises(GraphError, match=r"no ROS 1 master answers.*\[bridge\.no-master\]"):
+    with pytest.raises(GraphError, match="no ROS 1 master answers at") as raised:
         make_bridge(MasterAddress("nowhere.invalid", 11311))
+    assert "[bridge.no-master]" in str(raised.value)
 
 
 def test_nodes_of_both_sides_show_on_the_other(

@@ -6,6 +6,7 @@ import xmlrpc.client
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from tests.bridge.ros1.peer import Peer, ask
 
 from gazelle.bridge.ros1 import Bridge
@@ -98,7 +99,11 @@ def test_several_calls_in_one_as_roslaunch_sends_them(bridge: Bridge) -> None:
     calls.setParam("/roslaunch", "/one", 1)
     calls.getParam("/roslaunch", "/one")
     calls.getPid("/roslaunch", "too", "many")
-    results = list(calls())
+    calls.nothing()
+    answers = calls()
+    results = [answers[place] for place in range(3)]
+    with pytest.raises(xmlrpc.client.Fault, match='method "nothing" is not supported'):
+        print(answers[3])
     assert results[1] == [1, "Parameter [/one]", 1]
     assert results[2][0] == -1
     assert "wrong arguments of getPid" in results[2][1]

@@ -8,7 +8,7 @@ import traceback
 import xmlrpc.client
 from collections.abc import Callable, Mapping
 from inspect import signature
-from typing import Any
+from typing import Any, NamedTuple
 
 from gazelle.bridge.ros1.xmlrpc_call import MOST_BODY_BYTES, decoded
 
@@ -34,26 +34,30 @@ def serve_calls(
         notice: told of failures in a method.
     """
     stream.settimeout(_IDLE_S)
+    _Calls(stream, _Terms(methods, hosts, notice))
 
-    class Calls(_Calls):
-        pass
 
-    Calls.methods, Calls.hosts, Calls.notice = methods, hosts, staticmethod(notice)
-    Calls(stream, ("", 0), None)  # type: ignore[arg-type]  # no server is behind it
+class _Terms(NamedTuple):
+    methods: Methods
+    hosts: frozenset[str]
+    notice: Notice
 
 
 class _Calls(http.server.BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
-    methods: Methods
-    hosts: frozenset[str]
-    notice: Notice
     wbufsize = -1
     disable_nagle_algorithm = True
+
+    def __init__(self, stream: socket.socket, terms: _Terms) -> None:
+        """Serve the connection until it ends."""
+        self._terms = terms
+        # The library's own server is not behind it: connections are accepted elsewhere.
+        super().__init__(stream, ("", 0), None)  # type: ignore[arg-type]
 
     def do_POST(self) -> None:
         size = self.headers.get("Content-Length", "")
         host = self.headers.get("Host", "").rpartition(":")[0].lower()
-        if host not in self.hosts or "Origin" in self.headers:
+        if host not in self._terms.hosts or "Origin" in self.headers:
             self._refuse(403, f"'{host}' is not a name of this server")
         elif not size.isdigit():
             self._refuse(411, "Content-Length is needed")
@@ -85,7 +89,7 @@ class _Calls(http.server.BaseHTTPRequestHandler):
     def _result(self, method: str, arguments: tuple[Any, ...]) -> Any:
         if method == _MULTICALL:
             return self._results(arguments)
-        found = self.methods.get(method)
+        found = self._terms.methods.get(method)
         if found is None:
             return xmlrpc.client.Fault(1, f'method "{method}" is not supported')
         try:
@@ -95,21 +99,22 @@ class _Calls(http.server.BaseHTTPRequestHandler):
         try:
             return found(*arguments)
         except Exception as error:  # noqa: BLE001 - the caller is told, and the other calls go on
-            type(self).notice(f"{method} failed: {error}\n{traceback.format_exc().rstrip()}")
+            self._terms.notice(f"{method} failed: {error}\n{traceback.format_exc().rstrip()}")
             return [_ERROR, str(error), 0]
 
     def _results(self, arguments: tuple[Any, ...]) -> Any:
         calls = arguments[0] if len(arguments) == 1 and isinstance(arguments[0], list) else []
-        results: list[Any] = []
-        for one in calls:
-            well = isinstance(one, dict) and isinstance(one.get("params"), list)
-            name = str(one.get("methodName", "")) if well else ""
-            result = self._result(name, tuple(one["params"])) if name != _MULTICALL and well else 0
-            is_fault = isinstance(result, xmlrpc.client.Fault) or result == 0
-            text = result.faultString if isinstance(result, xmlrpc.client.Fault) else "bad call"
-            fault = {"faultCode": 1, "faultString": text}
-            results.append(fault if is_fault else [result])
-        return results
+        return [self._one_result(one) for one in calls]
+
+    def _one_result(self, one: Any) -> Any:
+        name = one.get("methodName") if isinstance(one, dict) else None
+        params = one.get("params") if isinstance(one, dict) else None
+        if not isinstance(name, str) or not isinstance(params, list) or name == _MULTICALL:
+            return {"faultCode": 1, "faultString": "a call has methodName and params"}
+        result = self._result(name, tuple(params))
+        if isinstance(result, xmlrpc.client.Fault):
+            return {"faultCode": result.faultCode, "faultString": result.faultString}
+        return [result]
 
 
 def _written(result: Any) -> bytes:
