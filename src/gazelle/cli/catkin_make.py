@@ -105,7 +105,8 @@ def _packages(
 ) -> tuple[SourcePackage, ...]:
     diagnostics = Diagnostics()
     found = in_order(find_packages([spaces.source], diagnostics))
-    render(diagnostics)
+    if len(diagnostics):
+        render(diagnostics)
     foreign = [item.name for item in found if item.build_type != "catkin"]
     if foreign:
         raise BuildError(

@@ -27,7 +27,11 @@ def _sourced(shell: str, *files: Path, **before: str) -> dict[str, str]:
     lines = ["set -eu", *(f'. "{file}"' for file in files), "env -0"]
     environ = {"PATH": "/usr/bin:/bin", "HOME": "/", **before}
     done = subprocess.run(
-        [shell, "-c", "\n".join(lines)], env=environ, capture_output=True, text=True, check=False
+        [shutil.which(shell) or shell, "-c", "\n".join(lines)],
+        env=environ,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     assert not done.stderr

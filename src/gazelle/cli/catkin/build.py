@@ -83,7 +83,8 @@ def _packages(
     if not source.is_dir():
         raise BuildError(f"the source space '{source}' does not exist")
     everything = in_order(find_packages([source], diagnostics))
-    render(diagnostics)
+    if len(diagnostics):
+        render(diagnostics)
     names = list(options.packages)
     if options.this:
         here = Path.cwd()

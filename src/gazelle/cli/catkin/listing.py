@@ -60,5 +60,6 @@ def _locate(parser: argparse.ArgumentParser, words: list[str]) -> int:
 def _packages(profile: Profile) -> tuple[SourcePackage, ...]:
     diagnostics = Diagnostics()
     found = in_order(find_packages([profile.spaces.source], diagnostics))
-    render(diagnostics)
+    if len(diagnostics):
+        render(diagnostics)
     return found

@@ -50,7 +50,8 @@ def chosen_packages(
     """
     diagnostics = Diagnostics()
     everything = in_order(find_packages(options.base_paths, diagnostics))
-    render(diagnostics)
+    if len(diagnostics):
+        render(diagnostics)
     selection = Selection(
         tuple(options.packages_select),
         tuple(options.packages_up_to),

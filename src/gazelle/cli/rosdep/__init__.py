@@ -6,12 +6,15 @@ import argparse
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from gazelle.cli.rosdep.keys import Answer, Kind, judge
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 from gazelle.workspace.building.packages import find_packages
+
+if TYPE_CHECKING:
+    from gazelle.cli.rosdep.keys import Answer
 
 __all__ = ["main"]
 
@@ -45,6 +48,8 @@ def main(argv: list[str]) -> int:
         print(_NOTHING[verb], end="")
         return 0
     if verb == "resolve":
+        from gazelle.cli.rosdep.keys import judge
+
         workspace = Workspace.discover()
         for key in options.names:
             print(_line(judge(key, workspace, ())))
@@ -83,7 +88,8 @@ def _keys(options: argparse.Namespace) -> tuple[dict[str, list[str]], frozenset[
     diagnostics = Diagnostics()
     for item in find_packages(options.from_paths, diagnostics):
         needs[item.name] = item.depends()
-    render(diagnostics)
+    if len(diagnostics):
+        render(diagnostics)
     workspace = Workspace.discover()
     if options.all:
         mine = (item for item in workspace.packages.values() if not item.is_builtin)
@@ -107,6 +113,9 @@ def _keys(options: argparse.Namespace) -> tuple[dict[str, list[str]], frozenset[
 def _tell(
     verb: str, keys: dict[str, list[str]], own: frozenset[str], options: argparse.Namespace
 ) -> int:
+    # What is known here is spread over all of Gazelle, and takes its time to load.
+    from gazelle.cli.rosdep.keys import Kind, judge
+
     workspace = Workspace.discover()
     answers = [judge(key, workspace, own) for key in sorted(keys)]
     if options.ignore_packages_from_source:
