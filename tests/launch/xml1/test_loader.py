@@ -132,6 +132,20 @@ def test_all_mistakes_of_a_file_show_at_once(tmp_path: Path) -> None:
     assert config.params == {"/good": 1}
 
 
+def test_what_needs_an_unreadable_argument_says_nothing_more(tmp_path: Path) -> None:
+    text = """<launch>
+  <arg name="model" default="$(env NO_SUCH_MODEL)"/>
+  <arg name="file" default="$(arg model).urdf"/>
+  <param name="a" value="$(arg file)"/>
+  <param name="b" value="$(eval 'x' + arg('model'))"/>
+  <include file="$(arg model).launch"/>
+  <param name="good" value="1"/>
+</launch>"""
+    config, diagnostics = _load(text, tmp_path)
+    assert [item.code for item in diagnostics] == ["launch.env-missing"]
+    assert config.params == {"/good": 1}
+
+
 def test_a_mistake_in_an_include_names_the_way_there(tmp_path: Path) -> None:
     (tmp_path / "inner.launch").write_text("<launch>\n<param name='p'/>\n</launch>")
     _, diagnostics = _load('<launch>\n <include file="inner.launch"/>\n</launch>', tmp_path)

@@ -12,6 +12,7 @@ from gazelle.launch.config import ArgDeclaration, Machine, NodeSpec, TestSpec
 from gazelle.launch.xml1.param_elements import param, rosparam
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
+from gazelle.launch.xml1.substitution import UNREADABLE
 
 __all__ = ["HANDLERS"]
 
@@ -26,6 +27,8 @@ def _arg(tag: Tag, scope: Scope, reading: Reading) -> None:
         raise TagError("launch.bad-attribute", message, fix="keep default to let callers change it")
     if name in scope.args:
         raise TagError("launch.arg-redeclared", f"arg '{name}' has already been declared")
+    # Until its text turns out to have a value.
+    scope.args[name] = UNREADABLE
     default = reading.text(tag, "default", scope) if "default" in tag.attributes else None
     value = reading.text(tag, "value", scope) if "value" in tag.attributes else None
     if not scope.stack:

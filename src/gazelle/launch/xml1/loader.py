@@ -12,6 +12,7 @@ from gazelle.launch.config import LaunchConfig
 from gazelle.launch.xml1.elements import HANDLERS
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
+from gazelle.launch.xml1.substitution import TOLD
 from gazelle.launch.xml1.tables import ELEMENTS
 from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
@@ -82,8 +83,9 @@ def _load_children(parent: Tag, scope: Scope, reading: Reading) -> None:
         try:
             _load_element(tag, scope, reading)
         except TagError as error:
-            span = reading.located(error.span or tag.span, scope)
-            reading.diagnostics.report(error.code, str(error), span, fix=error.fix)
+            if error.code != TOLD:
+                span = reading.located(error.span or tag.span, scope)
+                reading.diagnostics.report(error.code, str(error), span, fix=error.fix)
 
 
 def _load_element(tag: Tag, scope: Scope, reading: Reading) -> None:

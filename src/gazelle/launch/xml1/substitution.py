@@ -16,7 +16,12 @@ from gazelle.graph.names import anonymous_name
 from gazelle.limits import Budget, LimitError, compile_limited
 from gazelle.workspace import Workspace
 
-__all__ = ["Substitution", "SubstitutionError"]
+__all__ = ["TOLD", "UNREADABLE", "Substitution", "SubstitutionError"]
+
+# The value of an argument whose own text has no value; no XML text holds this character.
+UNREADABLE = "\0"
+# The code of what follows from a mistake that is reported already.
+TOLD = ""
 
 _CALL = re.compile(r"\$\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 _FIND = re.compile(r"\$\(find([^()]*)\)")
@@ -141,6 +146,8 @@ class Substitution:
             message = f"required arg '{name}' has no value"
             fix = f"give it on the command line: {name}:=VALUE"
             raise SubstitutionError("launch.arg-missing", message, fix)
+        if value == UNREADABLE:
+            raise SubstitutionError(TOLD, f"arg '{name}' could not be read")
         return value
 
     def _eval(self, expression: str) -> Any:
@@ -149,7 +156,9 @@ class Substitution:
             message = "$(eval ...) may not contain double underscore expressions"
             raise SubstitutionError("launch.substitution", f"{message}: '{expression}'")
         names: dict[str, Any] = {
-            key: _eval_value(value) for key, value in self.args.items() if value is not None
+            key: _eval_value(value)
+            for key, value in self.args.items()
+            if value not in {None, UNREADABLE}
         }
         names.update(_EVAL_NAMES)
         names["arg"] = lambda name: _eval_value(self.arg(name))
