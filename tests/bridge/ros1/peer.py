@@ -86,7 +86,8 @@ class Peer:
         self.server.register_function(self._request_topic, "requestTopic")
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port: int = self.listener.getsockname()[1]
-        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        self.place: list[Any] = ["TCPROS", "127.0.0.1", self.port]
+        threading.Thread(target=self.server.serve_forever, args=(0.01,), daemon=True).start()
         threading.Thread(target=self._accept, daemon=True).start()
 
     def close(self) -> None:
@@ -169,7 +170,7 @@ class Peer:
         assert caller.startswith("/") and ["TCPROS"] in protocols
         if topic not in self.answers:
             return 0, "no such topic", 0
-        return 1, "ready", ["TCPROS", "127.0.0.1", self.port]
+        return 1, "ready", self.place
 
     def _accept(self) -> None:
         while True:

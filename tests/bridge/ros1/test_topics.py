@@ -241,6 +241,22 @@ def test_publisher_with_another_md5sum_is_told_once(
     assert f"but {STRING_MD5} is known here; its messages are dropped" in "".join(seen)
 
 
+def test_publisher_without_a_place_is_told(
+    graph: Graph, peer: Peer, capfd: pytest.CaptureFixture[str], eventually: Eventually
+) -> None:
+    peer.place = ["TCPROS", "127.0.0.1", "odd"]
+    peer.publish_on("/hello", STRING, STRING_MD5)
+    node = graph.create_node("listener", rosout=False)
+    node.create_subscription("/hello", "std_msgs/msg/String", lambda message: None)
+    seen: list[str] = []
+
+    def told() -> bool:
+        seen.append(capfd.readouterr().err)
+        return "names no place for TCPROS: ['TCPROS', '127.0.0.1', 'odd']" in "".join(seen)
+
+    eventually(told)
+
+
 def test_connection_is_made_again_when_it_breaks(graph: Graph, peer: Peer, inbox: Any) -> None:
     peer.publish_on("/hello", STRING, STRING_MD5, string_bytes("x"))
     node = graph.create_node("listener", rosout=False)

@@ -6,12 +6,12 @@ import contextlib
 import socket
 import threading
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import Any, Protocol
 
 from gazelle.bridge.ros1.frames import FrameError, read_frame, read_header, write_header
 from gazelle.bridge.ros1.types import MessageKind, message_kind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
-from gazelle.errors import GazelleError
+from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import ANY_TYPE, Publisher
 
 __all__ = ["Inlet", "PublisherOf"]
@@ -121,9 +121,8 @@ class _Source:
     def _take(self) -> None:
         inlet = self._inlet
         found = call(self._uri, "requestTopic", inlet._subscriber, inlet.topic, [[_TCPROS]])
-        if not isinstance(found, list) or len(found) != 3 or found[0] != _TCPROS:
-            raise FrameError(f"{self._uri} does not offer {inlet.topic} over TCPROS")
-        with socket.create_connection((str(found[1]), int(found[2])), _CONNECT_S) as stream:
+        host, port = _place(found, self._uri)
+        with socket.create_connection((host, port), _CONNECT_S) as stream:
             self._stream = stream
             if self._ended.is_set():
                 return
@@ -162,12 +161,25 @@ class _Source:
             data = read_frame(stream)
             self.received += 1
             self.received_bytes += len(data)
-            publisher.publish(kind.from_bytes(data))
+            message = kind.from_bytes(data)
+            try:
+                publisher.publish(message)
+            except GraphError as error:
+                # The node has just unregistered the topic, or its name has changed hands.
+                raise ConnectionError(str(error)) from error
 
     def _tell(self, text: str) -> None:
         if not self._told:
             self._told = True
             self._inlet._notice(f"messages on {self._inlet.topic} do not reach the graph: {text}")
+
+
+def _place(found: Any, uri: str) -> tuple[str, int]:
+    """Return host and port of an answer to ``requestTopic``."""
+    well = isinstance(found, list) and len(found) == 3 and found[0] == _TCPROS
+    if not well or not isinstance(found[1], str) or not isinstance(found[2], int):
+        raise FrameError(f"{uri} names no place for {_TCPROS}: {found!r}")
+    return found[1], found[2]
 
 
 def _request(subscriber: str, topic: str) -> dict[str, str]:
