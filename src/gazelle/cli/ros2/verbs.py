@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any, NamedTuple
 
 from gazelle.cli.tool import hint
-from gazelle.errors import GazelleError
+from gazelle.errors import GazelleError, UserFileError
 
 __all__ = [
     "Command",
@@ -71,6 +71,9 @@ def guarded(action: Callable[[], int | None]) -> int:
         return stop.code if isinstance(stop.code, int) else 1
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    except UserFileError:
+        # Its findings are rendered with their places by whoever runs all commands.
+        raise
     except GazelleError as error:
         return fail(str(error))
 
