@@ -199,3 +199,23 @@ def test_a_folder_with_files_of_others_is_not_replaced_by_a_link(
     outcome = build(symlinks=True)["bot"]
     assert "Directory not empty" in outcome.errors[-1]
     assert (modules / "mine.py").is_file()
+
+
+def test_a_macro_that_makes_programs_is_named_where_it_is_called(make: Make, build: Build) -> None:
+    lists = """project(bot)
+function(program name)
+  add_executable(${name} src/${name}.cpp)
+  install(TARGETS ${name} DESTINATION lib/bot)
+endfunction()
+program(walk)
+ament_environment_hooks("${ament_cmake_package_templates_ENVIRONMENT_HOOK_LIBRARY_PATH}")
+ament_environment_hooks("${OWN_HOOKS}")
+ament_package()
+"""
+    make("bot", files={"CMakeLists.txt": lists})
+    outcome = build()["bot"]
+    assert outcome.code == 0
+    assert len(outcome.errors) == 2
+    assert "CMakeLists.txt:6:1" in outcome.errors[0]
+    assert "program(walk …) of package 'bot' makes compiled code" in outcome.errors[0]
+    assert "'${OWN_HOOKS}' is known to CMake only" in outcome.errors[1]

@@ -57,6 +57,7 @@ class CMakeLists:
         steps: its commands in order, those of included files and subfolders in their places.
         problem: where its syntax is wrong.
         hidden: commands that may do more than was read: own macros and files of elsewhere.
+        compiling: calls of own macros that make executables or libraries.
     """
 
     file: Path
@@ -65,6 +66,7 @@ class CMakeLists:
     steps: list[Step] = field(default_factory=list)
     problem: tuple[SyntaxProblem, SourceSpan] | None = None
     hidden: list[Step] = field(default_factory=list)
+    compiling: list[Step] = field(default_factory=list)
 
     def called(self, *names: str) -> tuple[Step, ...]:
         """Return the calls of these commands."""
@@ -166,8 +168,12 @@ class _Walker:
         handler = _HANDLERS.get(command.name)
         if handler is not None and words:
             handler(self, step)
-        elif command.name in self._own and _installs(self._own[command.name]):
-            self.lists.hidden.append(step)
+        elif command.name in self._own:
+            body = self._own[command.name]
+            if _installs(body):
+                self.lists.hidden.append(step)
+            if any(item.name in {"add_executable", "add_library"} for item in body):
+                self.lists.compiling.append(step)
 
     def _words(self, words: Iterable[Word]) -> list[str]:
         found: list[str] = []
@@ -282,7 +288,16 @@ def _end_of(commands: Sequence[Command], begin: int) -> int:
 
 
 def _installs(body: Iterable[Command]) -> bool:
-    return any(command.name in {"install", "catkin_install_python"} for command in body)
+    """Tell whether commands install something besides what a compiler makes."""
+    return any(
+        command.name == "catkin_install_python"
+        or (command.name == "install" and not _is_of_targets(command))
+        for command in body
+    )
+
+
+def _is_of_targets(command: Command) -> bool:
+    return bool(command.words) and command.words[0].text == "TARGETS"
 
 
 def _globbed(base: Path, pattern: str, *, recursive: bool) -> list[Path]:

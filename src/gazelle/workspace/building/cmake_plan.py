@@ -94,6 +94,10 @@ def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> N
         text = f"{kind} '{step.words[0]}'{code} of package '{package.name}' is compiled code; it "
         text += "is not built"
         plan.diagnostics.report("build.compiled-target", text, step.span)
+    for step in lists.compiling:
+        text = f"{step.name}({' '.join(step.words[:2])} …) of package '{package.name}' makes "
+        text += "compiled code; it is not built"
+        plan.diagnostics.report("build.compiled-target", text, step.span)
 
 
 def add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:

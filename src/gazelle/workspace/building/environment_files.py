@@ -16,6 +16,12 @@ def add_environment_file(
     package: SourcePackage, step: Step, word: str, folder: str, plan: Plan
 ) -> None:
     """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
+    if "${" in word:
+        # ament's own: the path of libraries, which nobody builds here, and PATH, which is set.
+        if not word.startswith("${ament_cmake_package_templates_"):
+            text = f"'{word}' is known to CMake only; it is left out"
+            plan.diagnostics.report("package.install-unread", text, step.span)
+        return
     file = package.path / step.folder / word
     if not is_file(file):
         text = f"{step.name}() names '{word}', and there is no such file"
