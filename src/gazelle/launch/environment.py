@@ -36,6 +36,7 @@ ROS_COMMANDS = (
     "rosrun",
     "rosservice",
     "rossrv",
+    "rostest",
     "rostopic",
     "rosversion",
     "roswtf",

@@ -34,7 +34,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_commands_and_subcommands() -> None:
-    assert candidates("gazelle", ["rost"]) == ["rostopic"]
+    assert candidates("gazelle", ["rostop"]) == ["rostopic"]
     assert candidates("gazelle", ["rostopic", "ec"]) == ["echo"]
     assert candidates("rosnode", ["k"]) == ["kill"]
     assert candidates("rosmsg", ["pack"]) == ["package", "packages"]

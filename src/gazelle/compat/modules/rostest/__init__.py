@@ -1,0 +1,3 @@
+"""rostest: tests as nodes, written as JUnit XML."""
+
+from gazelle.compat.rostest import *  # noqa: F403
