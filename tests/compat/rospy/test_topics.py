@@ -172,3 +172,35 @@ assert isinstance(got[0].data, numpy.ndarray) and got[0].data.tolist() == [1.0, 
 
 def test_numpy_messages_go_both_ways(passes: Run) -> None:
     passes(_NUMPY)
+
+
+def test_topics_may_be_made_before_the_node(passes: Callable[..., Any]) -> None:
+    passes(
+        """
+import rospy
+from std_msgs.msg import String
+got = []
+pub = rospy.Publisher('chatter', String, queue_size=10)
+sub = rospy.Subscriber('~private', String, lambda m: got.append(m.data))
+gone = rospy.Publisher('gone', String, queue_size=1)
+gone.unregister()
+try:
+    pub.publish('too early')
+except rospy.ROSException as error:
+    assert str(error) == 'ROS node has not been initialized yet. Please call init_node() first'
+else:
+    raise AssertionError('there is no node')
+assert pub.get_num_connections() == 0
+rospy.init_node('talker')
+assert pub.resolved_name == '/chatter' and sub.name == '/talker/private'
+other = rospy.Publisher('/talker/private', String, queue_size=10)
+while not got:
+    other.publish('now')
+    rospy.sleep(0.01)
+pub.publish('in time')
+try:
+    gone.publish('x')
+except rospy.ROSException as error:
+    assert 'unregistered' in str(error)
+"""
+    )

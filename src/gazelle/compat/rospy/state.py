@@ -37,6 +37,7 @@ class NodeState:
         self.reason = ""
         self._hooks: list[Callable[[], Any]] = []
         self._preshutdown: list[Callable[[str], Any]] = []
+        self._waiting: list[Callable[[Node], Any]] = []
         self._lock = threading.RLock()
         # Apart from the other one, which `init` holds when a signal comes in its middle.
         self._ending = threading.Lock()
@@ -107,7 +108,17 @@ class NodeState:
         if self.stopping.is_set():
             self.node.shutdown(self.reason)
             return
+        waiting, self._waiting = self._waiting, []
+        for command in waiting:
+            command(self.node)
         self._wait_for_clock()
+
+    def when_ready(self, command: Callable[[Node], Any]) -> None:
+        """Do something with the node: now, or as soon as `init_node` made it."""
+        if self.node is None:
+            self._waiting.append(command)
+        else:
+            command(self.node)
 
     def shut_down(self, reason: str) -> None:
         """Stop the node: hooks run once, sleeps end, the graph is left.

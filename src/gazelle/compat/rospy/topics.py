@@ -16,8 +16,8 @@ from gazelle.compat.rospy.errors import (
 )
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
+from gazelle.graph import Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
-from gazelle.graph import RawMessage
 from gazelle.graph import Subscription as _Subscription
 from gazelle.interfaces import (
     AnyMsg,
@@ -98,26 +98,27 @@ class Publisher(Topic):
                 SyntaxWarning,
                 stacklevel=2,
             )
-        node = STATE.require(f"Publisher('{name}')")
         self._listener = subscriber_listener
         self._count = 0
-        self._impl: _Publisher | None = node.create_publisher(
-            name, data_class, latch=latch, queue_size=queue_size or 10, copy_local=True
-        )
-        if subscriber_listener is not None:
-            node.graph.discovery.listen(lambda _entity, _is_new: self._tell_listener())
-            self._tell_listener()
+        self._is_unregistered = False
+        self._impl: _Publisher | None = None
+        STATE.when_ready(lambda node: self._open(node, name, latch, queue_size or 10))
 
     def publish(self, *args: Any, **kwds: Any) -> None:
         """Send a message, or one made of the arguments.
 
         Raises:
             TypeError: the arguments make no message of the topic's type.
-            ROSException: the topic was unregistered or the node is shut down.
+            ROSException: `init_node` was not called yet, the topic was unregistered or the node
+                is shut down.
             ROSSerializationException: a field's value does not fit its type.
         """
-        if self._impl is None:
+        if self._is_unregistered:
             raise ROSException("publish() to an unregistered() handle")
+        if self._impl is None:
+            raise ROSException(
+                "ROS node has not been initialized yet. Please call init_node() first"
+            )
         if STATE.stopping.is_set() and (STATE.node is None or STATE.node.closed):
             raise ROSException("publish() to a closed topic")
         message = message_of(self.data_class, args, kwds)
@@ -132,9 +133,21 @@ class Publisher(Topic):
 
     def unregister(self) -> None:
         """Stop offering the topic."""
+        self._is_unregistered = True
         if self._impl is not None:
             self._impl.unregister()
             self._impl = None
+
+    def _open(self, node: Node, name: str, latch: bool, queue_size: int) -> None:
+        if self._is_unregistered:
+            return
+        self._impl = node.create_publisher(
+            name, self.data_class, latch=latch, queue_size=queue_size, copy_local=True
+        )
+        self.name = self.resolved_name = self._impl.topic
+        if self._listener is not None:
+            node.graph.discovery.listen(lambda _entity, _is_new: self._tell_listener())
+            self._tell_listener()
 
     def _tell_listener(self) -> None:
         if self._listener is None or self._impl is None:
@@ -193,15 +206,9 @@ class Subscriber(Topic):
         self.reg_type = "sub"
         self.callback = callback
         self.callback_args = callback_args
-        raw = issubclass(data_class, AnyMsg)
-        node = STATE.require(f"Subscriber('{name}')")
-        self.impl: _Subscription | None = node.create_subscription(
-            name,
-            None if raw else data_class,
-            self._on_raw if raw else self._on_message,
-            queue_size=queue_size or 0,
-            raw=raw,
-        )
+        self._is_unregistered = False
+        self.impl: _Subscription | None = None
+        STATE.when_ready(lambda node: self._open(node, name, queue_size or 0))
 
     def get_num_connections(self) -> int:
         """Return how many publishers there are."""
@@ -209,9 +216,23 @@ class Subscriber(Topic):
 
     def unregister(self) -> None:
         """Stop receiving."""
+        self._is_unregistered = True
         if self.impl is not None:
             self.impl.unregister()
             self.impl = None
+
+    def _open(self, node: Node, name: str, queue_size: int) -> None:
+        if self._is_unregistered:
+            return
+        raw = issubclass(self.data_class, AnyMsg)
+        self.impl = node.create_subscription(
+            name,
+            None if raw else self.data_class,
+            self._on_raw if raw else self._on_message,
+            queue_size=queue_size,
+            raw=raw,
+        )
+        self.name = self.resolved_name = self.impl.topic
 
     def _on_raw(self, raw: RawMessage) -> None:
         """Turn the wire's bytes into the ROS 1 bytes that AnyMsg holds."""
@@ -266,6 +287,7 @@ def wait_for_message(topic: str, topic_type: type[Ros1Message], timeout: Any = N
             got.append(message)
         arrived.set()
 
+    STATE.require("wait_for_message")
     subscriber = Subscriber(topic, topic_type, take)
     STATE.add_early_hook(lambda _reason: arrived.set())
     try:
