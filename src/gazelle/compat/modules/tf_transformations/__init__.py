@@ -1,0 +1,3 @@
+"""tf_transformations: tf.transformations for ROS 2."""
+
+from gazelle.compat.tf.transformations import *  # noqa: F403
