@@ -76,15 +76,16 @@ def test_goes_on_until_its_end(robot: Node, run_until: Any) -> None:
     assert "publishing #1: std_msgs.msg.Empty()\n\n" in out
 
 
-def test_latched_for_those_who_come_later(robot: Node, run: Any) -> None:
+def test_latched_for_those_who_come_later(robot: Node, run: Any, end_commands: Any) -> None:
     heard: list[int] = []
 
     def come_later() -> None:
         ear = Ear(robot, "/n", "std_msgs/msg/Int32")
         heard.extend(one.data for one in ear.wait())
+        end_commands()
 
-    words = ("--qos-durability", "transient_local", "-1", "-w", "0", "--keep-alive", "0.5")
-    later = threading.Timer(0.2, come_later)
+    words = ("--qos-durability", "transient_local", "-1", "-w", "0", "--keep-alive", "20")
+    later = threading.Timer(0.3, come_later)
     later.start()
     assert run("ros2", "topic", "pub", *words, "/n", "std_msgs/msg/Int32", "data: 4").code == 0
     later.join()
