@@ -68,9 +68,7 @@ def test_a_new_python_package_builds_runs_and_has_nothing_to_complain_about(
     diagnostics = Diagnostics()
     (package,) = find_packages([tmp_path], diagnostics)
     assert package.manifest.description == 'it\'s "quoted" & <odd>'
-    outcome = build_package(
-        package, BuildOptions(tmp_path / "build", tmp_path / "install"), frozenset({"bot"})
-    )
+    outcome = build_package(package, BuildOptions(tmp_path / "build", tmp_path / "install"))
     assert (outcome.code, outcome.errors) == (0, ())
     prefix = tmp_path / "install/bot"
     done = subprocess.run(
@@ -110,7 +108,7 @@ def test_a_cmake_package_names_its_node_as_not_built(
         assert (tmp_path / "bot" / name).is_file()
     (package,) = find_packages([tmp_path], Diagnostics())
     options = BuildOptions(tmp_path / "build", tmp_path / "install")
-    outcome = build_package(package, options, frozenset({"bot"}))
+    outcome = build_package(package, options)
     assert outcome.code == 0
     found = [line for line in "\n".join(outcome.errors).splitlines() if "is not built" in line]
     assert len(found) == 2

@@ -60,8 +60,7 @@ def build(tmp_path: Path) -> Build:
         options = BuildOptions(
             tmp_path / "build", tmp_path / "install", merged, symlinks, definitions
         )
-        known = frozenset(item.name for item in packages)
-        outcomes = {item.name: build_package(item, options, known) for item in packages}
+        outcomes = {item.name: build_package(item, options) for item in packages}
         if options.install_base.is_dir():
             write_prefix_scripts(options.install_base, merged=merged, environ={})
         return outcomes

@@ -18,9 +18,8 @@ from gazelle.workspace.scaffold import KINDS, create_package
 def _build(top: Path, *, symlinks: bool) -> None:
     options = BuildOptions(top / "build", top / "install", symlinks=symlinks)
     packages = find_packages([top / "src"], Diagnostics())
-    known = frozenset(item.name for item in packages)
     for package in packages:
-        outcome = build_package(package, options, known)
+        outcome = build_package(package, options)
         assert (outcome.code, outcome.errors) == (0, ()), outcome.errors
 
 

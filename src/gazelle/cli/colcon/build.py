@@ -71,15 +71,13 @@ def _build_all(
     console: Console,
     log: Log,
 ) -> tuple[str, ...]:
-    known = frozenset(item.name for item in everything)
-
     def ended(outcome: Outcome) -> None:
         console.ended(outcome)
         log.keep(outcome)
 
     return run_jobs(
         chosen,
-        lambda package: build_package(package, build, known),
+        lambda package: build_package(package, build),
         everything=everything,
         workers=1 if options.executor == "sequential" else options.parallel_workers,
         started=console.started,

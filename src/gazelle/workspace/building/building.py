@@ -66,13 +66,12 @@ class Outcome(NamedTuple):
     errors: tuple[str, ...] = ()
 
 
-def build_package(package: SourcePackage, options: BuildOptions, known: frozenset[str]) -> Outcome:
+def build_package(package: SourcePackage, options: BuildOptions) -> Outcome:
     """Install a package below its prefix; nothing is installed when a rule of it cannot be met.
 
     Args:
         package: what to build.
         options: where to and how.
-        known: names of the packages of the workspace.
     """
     begin = time.monotonic()
     plan, layout = Plan(), Layout(options.prefix(package.name), site_packages(), options.symlinks)
@@ -87,7 +86,7 @@ def build_package(package: SourcePackage, options: BuildOptions, known: frozense
     if plan.diagnostics.errors:
         code = _PYTHON_CODE if package.build_type == "ament_python" else _CMAKE_CODE
     else:
-        add_package_scripts(package, layout, plan, known)
+        add_package_scripts(package, layout, plan)
         record = options.build_base / package.name / "install_manifest.txt"
         try:
             output = tuple(install(plan.items.values(), layout, record).lines)

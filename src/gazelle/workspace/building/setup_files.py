@@ -25,16 +25,13 @@ _SHELLS = ("sh", "bash", "zsh")
 _SAVED = "_gazelle_install"
 
 
-def add_package_scripts(
-    package: SourcePackage, layout: Layout, plan: Plan, known: frozenset[str]
-) -> None:
+def add_package_scripts(package: SourcePackage, layout: Layout, plan: Plan) -> None:
     """Plan ``share/<package>/package.*``, its hooks and colcon's index entry.
 
     Args:
         package: whose they are.
         layout: where its modules go.
         plan: everything else it installs; read for what the hooks have to name.
-        known: names of the workspace's packages; run dependencies among them are written down.
     """
     share = f"share/{package.name}"
     names = []
@@ -53,8 +50,7 @@ def add_package_scripts(
         for shell in _SHELLS:
             text = _package_shell(shell, share, built=str(layout.prefix / share), to=shell)
             plan.write(f"{share}/local_setup.{shell}", text)
-    needs = sorted(package.depends("run") & known - {package.name})
-    plan.write(f"{_INDEX}/{package.name}", ":".join(needs))
+    plan.write(f"{_INDEX}/{package.name}", ":".join(sorted(package.depends("run"))))
 
 
 def write_prefix_scripts(
