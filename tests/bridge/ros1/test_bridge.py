@@ -108,9 +108,12 @@ def test_shutdown_from_ros1_ends_the_node(graph: Graph, peer: Peer, eventually: 
 
 def test_ending_a_node_of_ros1_reaches_it(graph: Graph, peer: Peer, eventually: Eventually) -> None:
     peer.publish_on("/hello", STRING, STRING_MD5)
-    eventually(lambda: "/peer" in graph.node_names())
+    peer.call("registerSubscriber", "/in", STRING, peer.uri)
+    eventually(lambda: graph.subscriptions_info("/in"))
     assert graph.kill_node("/peer", "enough")
     eventually(lambda: ("shutdown", ("/ros1_bridge", "enough")) in peer.updates)
+    peer.call("unregisterPublisher", "/hello", peer.uri)
+    eventually(lambda: not graph.subscriptions_info("/in"))
 
 
 def test_newer_node_of_the_same_name_ends_the_older(

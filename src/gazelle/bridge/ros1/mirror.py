@@ -77,6 +77,8 @@ class Mirror:
         """Announce these topics and services and no others."""
         with self._lock:
             if self._closed or self._node.closed:
+                # The node's own things end with it, what was only announced does not.
+                self._settle_subscribers({})
                 return
             for topic in set(self._voices) - set(traits.publishers):
                 self._voices.pop(topic).publisher.unregister()

@@ -1,10 +1,11 @@
 """A node of the graph as ROS 1 sees it: a slave server, and registrations at the master.
 
-Source: http://wiki.ros.org/ROS/Slave_API. Names starting with ``get`` are part of it.
+Source: http://wiki.ros.org/ROS/Slave_API.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import socket
 import threading
@@ -174,7 +175,9 @@ class Presence:
 
     def _unregister(self, what: str, name: str) -> None:
         uri = self._endpoint.service_uri if what == "Service" else self.uri
-        self._ask(f"unregister{what}", self.name, name, uri)
+        # One that another process has taken over is not ours to remove; the master knows.
+        with contextlib.suppress(RemoteRefusedError):
+            self._ask(f"unregister{what}", self.name, name, uri)
         self._registered.discard((what, name))
 
     def _take(self, stream: socket.socket) -> None:
