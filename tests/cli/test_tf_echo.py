@@ -35,6 +35,23 @@ def test_output_is_that_of_ros(robot: Node, run_until, recorded) -> None:
     assert out.startswith(block)
 
 
+def test_tf2_echo_of_ros2_shows_the_matrix_too(robot: Node, run_until) -> None:
+    robot.create_publisher("/tf", "tf2_msgs/TFMessage", latch=True).publish(_transforms())
+    out = run_until("0.000  1.000", "tf_echo", "--tf2", "base_link", "laser_tip", "100")
+    assert out.splitlines()[:10] == [
+        "At time 1795226385.509000000",
+        "- Translation: [0.250, 0.000, 0.150]",
+        "- Rotation: in Quaternion [0.034, 0.106, 0.144, 0.983]",
+        "- Rotation: in RPY (radian) [0.100, 0.200, 0.300]",
+        "- Rotation: in RPY (degree) [5.730, 11.459, 17.189]",
+        "- Matrix:",
+        "  0.936 -0.275  0.218  0.250",
+        "  0.290  0.956 -0.037  0.000",
+        " -0.199  0.098  0.975  0.150",
+        "  0.000  0.000  0.000  1.000",
+    ]
+
+
 def test_precision_is_a_parameter(robot: Node, run_until) -> None:
     robot.create_publisher("/tf", "tf2_msgs/TFMessage", latch=True).publish(_transforms())
     words = ["base_link", "laser_tip", "_precision:=1", "_rate:=100"]

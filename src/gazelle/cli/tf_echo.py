@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.tool import Tool, ToolError, joined, run_tool
@@ -16,7 +17,11 @@ if TYPE_CHECKING:
     from gazelle.graph.tf import StampedPose, TransformBuffer
     from gazelle.nodes.arguments import NodeArguments
 
-__all__ = ["main", "run", "transform_text"]
+    _Text = Callable[..., str]
+
+__all__ = ["main", "ros2_transform_text", "run", "transform_text"]
+
+_ROS2_FLAG = "--tf2"
 
 _USAGE = """Usage: tf_echo source_frame target_frame [echo_rate]
 
@@ -30,9 +35,10 @@ _BAD_ARGUMENTS = 255
 
 
 def main(argv: list[str]) -> int:
-    """Run ``tf_echo``; ends with Ctrl-C."""
-    line = parse_command_line(argv)
-    tool = Tool("tf_echo", {"echo": lambda _words: _client(line.rest, line.params)}, _USAGE)
+    """Run ``tf_echo``, with ``--tf2`` ROS 2's ``tf2_echo``; ends with Ctrl-C."""
+    line = parse_command_line([word for word in argv if word != _ROS2_FLAG])
+    text = ros2_transform_text if _ROS2_FLAG in argv else transform_text
+    tool = Tool("tf_echo", {"echo": lambda _words: _client(line.rest, line.params, text)}, _USAGE)
     return run_tool(tool, ["echo"])
 
 
@@ -44,7 +50,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         print(error, file=sys.stderr)
         return _BAD_ARGUMENTS
     node = graph.create_node("tf_echo", namespace=arguments.namespace, anonymous=True)
-    _echo(node, source, target, rate_hz=rate_hz, precision=precision, stop=stop)
+    show = partial(transform_text, precision=precision)
+    _echo(node, source, target, rate_hz=rate_hz, show=show, stop=stop)
     return 0
 
 
@@ -61,7 +68,29 @@ def transform_text(found: StampedPose, precision: int = 3) -> str:
     )
 
 
-def _client(words: list[str], params: Mapping[str, Any]) -> int:
+def ros2_transform_text(found: StampedPose, precision: int = 3) -> str:
+    """Return the lines as ROS 2's ``tf2_echo`` prints them, the matrix behind."""
+    rpy = found.pose.rpy_rad
+    degrees = [math.degrees(angle) for angle in rpy]
+    sec, nanosec = divmod(found.stamp_ns, 1_000_000_000)
+    rows = [
+        "".join(f" {value:{precision + 3}.{precision}f}" for value in row)
+        for row in found.pose.matrix().tolist()
+    ]
+    lines = [
+        # The nanoseconds have no zeros in front there either.
+        f"At time {sec}.{nanosec}",
+        f"- Translation: {_vector(found.pose.position_m, precision)}",
+        f"- Rotation: in Quaternion {_vector(found.pose.quat_xyzw, precision)}",
+        f"- Rotation: in RPY (radian) {_vector(rpy, precision)}",
+        f"- Rotation: in RPY (degree) {_vector(degrees, precision)}",
+        "- Matrix:",
+        *rows,
+    ]
+    return "\n".join(lines)
+
+
+def _client(words: list[str], params: Mapping[str, Any], text: _Text) -> int:
     try:
         source, target, rate_hz, precision = _settings(words, params)
     except ToolError as error:
@@ -71,7 +100,8 @@ def _client(words: list[str], params: Mapping[str, Any]) -> int:
     with joined() as graph:
         node = graph.create_node("tf_echo", anonymous=True)
         graph.clock.follow(node)
-        _echo(node, source, target, rate_hz=rate_hz, precision=precision, stop=stop)
+        show = partial(text, precision=precision)
+        _echo(node, source, target, rate_hz=rate_hz, show=show, stop=stop)
     return 0
 
 
@@ -102,7 +132,7 @@ def _echo(
     target: str,
     *,
     rate_hz: float,
-    precision: int,
+    show: Callable[[StampedPose], str],
     stop: threading.Event,
 ) -> None:
     from gazelle.graph.tf import TransformBuffer, TransformListener
@@ -112,7 +142,7 @@ def _echo(
     TransformListener(buffer, node)
     buffer.can_transform(source, target, timeout_s=_FIRST_S)
     while not stop.is_set():
-        print(_report(buffer, source, target, node.clock.now_ns(), precision), flush=True)
+        print(_report(buffer, source, target, node.clock.now_ns(), show), flush=True)
         try:
             if not node.clock.sleep(round(1e9 / rate_hz)):
                 return
@@ -120,11 +150,17 @@ def _echo(
             continue
 
 
-def _report(buffer: TransformBuffer, source: str, target: str, now_ns: int, precision: int) -> str:
+def _report(
+    buffer: TransformBuffer,
+    source: str,
+    target: str,
+    now_ns: int,
+    show: Callable[[StampedPose], str],
+) -> str:
     from gazelle.graph.tf import TransformError, frames_as_string
 
     try:
-        return transform_text(buffer.lookup_transform(source, target), precision)
+        return show(buffer.lookup_transform(source, target))
     except TransformError as error:
         secs, nsecs = divmod(now_ns, 1_000_000_000)
         return (

@@ -22,7 +22,7 @@ _COMMANDS = {
     **{(name, name): name for name in ("rosmsg", "rosnode", "rosparam", "rosservice", "rostopic")},
     ("dynamic_reconfigure", "dynparam"): "dynparam",
     ("tf", "tf_echo"): "tf_echo",
-    ("tf2_ros", "tf2_echo"): "tf_echo",
+    ("tf2_ros", "tf2_echo"): "tf_echo --tf2",
     ("tf", "tf_monitor"): "tf_monitor",
     ("tf2_ros", "tf2_monitor"): "tf_monitor",
     ("tf", "view_frames"): "view_frames",
