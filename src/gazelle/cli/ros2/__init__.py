@@ -35,6 +35,7 @@ _COMMANDS = {
     "multicast": _Command("gazelle.cli.ros2.multicast", "Various multicast related sub-commands"),
     "node": _Command("gazelle.cli.ros2.node", "Various node related sub-commands"),
     "param": _Command("gazelle.cli.ros2.param", "Various param related sub-commands"),
+    "pkg": _Command("gazelle.cli.ros2.pkg", "Various package related sub-commands"),
     "run": _Command("gazelle.cli.ros2.run", "Run a package specific executable"),
     "service": _Command("gazelle.cli.ros2.service", "Various service related sub-commands"),
     "topic": _Command("gazelle.cli.ros2.topic", "Various topic related sub-commands"),
