@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gazelle.compat.tf import transformations as tft
+from gazelle.compat.tf.matrices import compose_matrix
 
 _ORDERS = [
     frame + "".join(axes)
@@ -83,7 +84,7 @@ def test_matrices_compose_invert_and_turn_about_points() -> None:
         tft.translation_matrix((1, 2, 3)), tft.euler_matrix(0.1, 0.2, 0.3)
     )
     assert tft.is_same_transform(matrix @ tft.inverse_matrix(matrix), tft.identity_matrix())
-    composed = tft.compose_matrix(angles=(0.1, 0.2, 0.3), translate=(1, 2, 3))
+    composed = compose_matrix(angles=(0.1, 0.2, 0.3), translate=(1, 2, 3))
     assert np.allclose(composed, matrix)
     assert np.allclose(tft.translation_from_matrix(matrix), [1, 2, 3])
     about = tft.rotation_matrix(math.pi / 2, (0, 0, 1), point=(1, 0, 0))

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.geometry import Pose
 
 __all__ = [
-    "compose_matrix",
     "concatenate_matrices",
     "euler_from_matrix",
     "euler_from_quaternion",
@@ -222,27 +221,6 @@ def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
     """Return whether two matrices perform the same transformation."""
     first, second = np.asarray(matrix0, float), np.asarray(matrix1, float)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
-
-
-def compose_matrix(
-    scale: ArrayLike | None = None, shear: None = None, angles: Sequence[float] | None = None,
-    translate: ArrayLike | None = None, perspective: None = None,
-) -> Matrix:  # fmt: skip
-    """Return the matrix of scale, angles (sxyz) and translation.
-
-    Raises:
-        ValueError: shear or perspective is given; rigid bodies have neither.
-    """
-    if shear is not None or perspective is not None:
-        raise ValueError("shear and perspective are not supported")
-    matrix = np.identity(4)
-    if translate is not None:
-        matrix = matrix @ translation_matrix(translate)
-    if angles is not None:
-        matrix = matrix @ euler_matrix(angles[0], angles[1], angles[2])
-    if scale is not None:
-        matrix = matrix @ np.diag([*np.asarray(scale, float)[:3], 1.0])
-    return matrix
 
 
 def vector_norm(data: ArrayLike, axis: int | None = None) -> Any:

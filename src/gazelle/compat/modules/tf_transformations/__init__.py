@@ -1,3 +1,4 @@
 """tf_transformations: tf.transformations for ROS 2."""
 
+from gazelle.compat.tf.matrices import *  # noqa: F403
 from gazelle.compat.tf.transformations import *  # noqa: F403

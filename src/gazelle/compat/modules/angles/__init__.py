@@ -1,0 +1,3 @@
+"""angles."""
+
+from gazelle.compat.tf.angles import *  # noqa: F403
