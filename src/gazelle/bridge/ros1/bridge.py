@@ -214,7 +214,7 @@ class Bridge:
     def _end_parameters(self) -> None:
         if self._sync is not None:
             try:
-                self._sync.close()
+                self._sync.close(is_lost=self._lost)
             except RemoteError:
                 self._lost = True
 

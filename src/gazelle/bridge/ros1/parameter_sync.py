@@ -72,14 +72,17 @@ class ParameterSync:
         """Take a change that the master tells of; an empty dictionary means it was deleted."""
         self._mailbox.put((self._receive, name.rstrip("/") or _ROOT, value))
 
-    def close(self) -> None:
+    def close(self, *, is_lost: bool = False) -> None:
         """Pass on nothing more.
+
+        Args:
+            is_lost: the master does not answer, so it is not asked.
 
         Raises:
             RemoteError: the master does not answer any more.
         """
         self._mailbox.close()
-        if self._uri:
+        if self._uri and not is_lost:
             self._ask("unsubscribeParam", self._name, self._uri, _ROOT)
 
     def _receive(self, name: str, value: Any) -> None:
