@@ -219,3 +219,17 @@ ament_package()
     assert "CMakeLists.txt:6:1" in outcome.errors[0]
     assert "program(walk …) of package 'bot' makes compiled code" in outcome.errors[0]
     assert "'${OWN_HOOKS}' is known to CMake only" in outcome.errors[1]
+
+
+def test_an_old_record_never_removes_sources_behind_a_link(
+    make: Make, build: Build, tmp_path: Path
+) -> None:
+    folder = make("bot", files=_FILES)
+    build(symlinks=True)
+    record = tmp_path / "build/bot/install_manifest.txt"
+    modules = tmp_path / "install/bot" / site_packages() / "bot"
+    record.write_text(f"{record.read_text()}{modules}/__init__.py\n{tmp_path}/mine.txt\n")
+    (tmp_path / "mine.txt").write_text("mine")
+    assert build(symlinks=True)["bot"].code == 0
+    assert (folder / "bot/__init__.py").is_file()
+    assert (tmp_path / "mine.txt").is_file()

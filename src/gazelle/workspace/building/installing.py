@@ -71,6 +71,9 @@ def remove_recorded(
         path = Path(text)
         if text in keep or prefix not in path.parents or ".." in path.parts:
             continue
+        # Behind a linked folder lie the user's sources.
+        if any(part.is_symlink() for part in path.parents if prefix in part.parents):
+            continue
         if path.is_symlink() or path.is_file():
             path.unlink()
             done.say("Removing", path)
