@@ -26,8 +26,11 @@ __all__ = ["message_generation"]
 Generation = Literal[1, 2]
 
 _IMPORT = r"^[ \t]*(?:import|from)[ \t]+(?:{})\b"
-_ROS1 = re.compile(_IMPORT.format("rospy|roslib|actionlib|dynamic_reconfigure"), re.MULTILINE)
-_ROS2 = re.compile(_IMPORT.format("rclpy|ament_index_python|launch_ros"), re.MULTILINE)
+_ROS1 = re.compile(
+    _IMPORT.format("rospy|roslib|rosbag|actionlib|dynamic_reconfigure"), re.MULTILINE
+)
+_ROS2_MODULES = "rclpy|ament_index_python|launch_ros|rosbag2_py|rosidl_runtime_py|sensor_msgs_py"
+_ROS2 = re.compile(_IMPORT.format(_ROS2_MODULES), re.MULTILINE)
 _LEVELS = 4
 
 

@@ -1,3 +1,8 @@
-"""rostest: tests as nodes, written as JUnit XML."""
+"""rostest."""
 
-from gazelle.compat.rostest import *  # noqa: F403
+from gazelle.compat.unit_tests import rosrun
+from gazelle.compat.unit_tests import unitrun as unitrun
+
+run = rosrun
+
+__all__ = ["rosrun", "run", "unitrun"]

@@ -1,5 +1,5 @@
-"""rosunit: tests without a graph, written as JUnit XML."""
+"""rosunit."""
 
-from gazelle.compat.rostest import unitrun
+from gazelle.compat.unit_tests import unitrun
 
 __all__ = ["unitrun"]
