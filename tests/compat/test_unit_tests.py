@@ -49,5 +49,9 @@ def test_rosunit_runs_cases_without_ros(program: Callable[..., Any]) -> None:
 
 def test_programs_of_rosbag2_get_messages_of_ros2(passes: Callable[..., Any]) -> None:
     passes(
-        "import rosbag2_py\nfrom std_msgs.msg import String\nassert hasattr(String, 'FIELDS')\nassert not hasattr(String, '_slot_types')"
+        """
+import rosbag2_py
+from std_msgs.msg import String
+assert hasattr(String, 'FIELDS') and not hasattr(String, '_slot_types')
+"""
     )

@@ -32,6 +32,8 @@ _ROS1 = re.compile(
 _ROS2_MODULES = "rclpy|ament_index_python|launch_ros|rosbag2_py|rosidl_runtime_py|sensor_msgs_py"
 _ROS2 = re.compile(_IMPORT.format(_ROS2_MODULES), re.MULTILINE)
 _LEVELS = 4
+_INSTALLED = ("site-packages", "dist-packages")
+_PREFIX_LEVELS = 3
 
 
 def message_generation() -> Generation:
@@ -89,12 +91,23 @@ def _text(file: str | None) -> str:
 def _of_package(file: str | None) -> Generation | None:
     if file is None or file.startswith("<"):
         return None
-    for folder in Path(file).resolve().parents[:_LEVELS]:
+    path = Path(file).resolve()
+    folders = [*path.parents[:_LEVELS], *_share_folders(path)]
+    for folder in folders:
         manifest = folder / "package.xml"
         if manifest.is_file():
             text = manifest.read_text(encoding="utf-8", errors="replace")
             return _either("catkin" in text, "ament" in text)
     return None
+
+
+def _share_folders(path: Path) -> list[Path]:
+    """Return ``PREFIX/share/PACKAGE`` of a module in ``PREFIX/lib/pythonX.Y/site-packages``."""
+    parts = path.parts
+    place = next((parts.index(name) for name in _INSTALLED if name in parts[:-1]), 0)
+    if place < _PREFIX_LEVELS:
+        return []
+    return [Path(*parts[: place - 2], "share", Path(parts[place + 1]).stem)]
 
 
 def _either(ros1: bool, ros2: bool) -> Generation | None:

@@ -69,7 +69,9 @@ def _report(name: str, result: unittest.TestResult, seconds: float) -> str:
     rows = []
     for kind, found in (("failure", result.failures), ("error", result.errors)):
         for case, text in found:
-            last = quoteattr(text.strip().splitlines()[-1])
+            # unittest writes its comparison below the line that says what was raised.
+            said = [line for line in text.splitlines() if line[:1].isalpha()]
+            last = quoteattr(said[-1] if said else text)
             case_name = quoteattr(case.id())
             rows.append(f"  <testcase name={case_name}><{kind} message={last}/></testcase>")
     counts = f'tests="{result.testsRun}" failures="{len(result.failures)}"'
