@@ -97,6 +97,8 @@ def test_arrays_of_ros2_may_be_structured_organised_and_chosen() -> None:
         ros2.create_cloud(Header2(), fields, np.zeros((2, 3)))
     with pytest.raises(AssertionError, match="do not match for all fields"):
         ros2.create_cloud(Header2(), fields[:1], points)
+    with pytest.raises(AssertionError, match="the cloud has no fields"):
+        ros2.read_points_numpy(message_type("sensor_msgs/PointCloud2")())
     wrong = [Field2(name="x", datatype=9, count=1)]
     with pytest.raises(ValueError, match="field 'x' has datatype 9; known are 1 to 8"):
         ros2.create_cloud(Header2(), wrong, [])

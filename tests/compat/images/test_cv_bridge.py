@@ -110,6 +110,7 @@ def test_compressed_image_comes_back(kind: str) -> None:
             "Unsupported conversion from [bgr8] to [yuv",
         ),
         (lambda: find_encoding("brg8"), "Unrecognized image encoding [brg8]; did you mean"),
+        (lambda: find_encoding(""), "Unrecognized image encoding []"),
         (
             lambda: BRIDGE.cv2_to_imgmsg(BGR, "mono8"),
             "encoding specified as mono8, but image has incompatible type 8UC3",

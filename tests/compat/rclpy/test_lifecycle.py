@@ -40,6 +40,7 @@ def test_callbacks_decide_where_a_transition_ends(passes: Callable[..., Any]) ->
     done = passes(
         PROGRAM
         + """
+assert str(TransitionCallbackReturn.ERROR) == 'TransitionCallbackReturnType.ERROR'
 S, F, E = (TransitionCallbackReturn[n] for n in ('SUCCESS', 'FAILURE', 'ERROR'))
 state = lambda: node._machine.state.label
 assert node.trigger_configure() is S and state() == 'inactive'

@@ -84,6 +84,6 @@ def _columns(known: Sequence[str], cloud: Any, wanted: Iterable[str]) -> list[st
     for name in wanted:
         if not any(field.name == name for field in cloud.fields):
             hint = did_you_mean(name, [field.name for field in cloud.fields])
-            raise ValueError(f"the cloud has no field '{name}'; {hint}")
+            raise ValueError(f"the cloud has no field '{name}'; {hint}".rstrip("; "))
         columns += [one for one in known if one == name or one.rpartition("_")[0] == name]
     return columns

@@ -81,6 +81,7 @@ def read_points_numpy(
         AssertionError: the fields are of several types.
     """
     points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
+    _check(bool(points.dtype.names), "the cloud has no fields")
     kinds = {points.dtype[name] for name in points.dtype.names or ()}
     text = "All fields need to have the same datatype. Use `read_points()` otherwise."
     _check(len(kinds) <= 1, text)

@@ -129,7 +129,7 @@ class CvBridge:
         image, name = _checked(cvim)
         if dst_format not in _FORMATS:
             hint = did_you_mean(dst_format, _FORMATS)
-            raise CvBridgeError(f"image format '{dst_format}' is not known; {hint}")
+            raise CvBridgeError(f"image format '{dst_format}' is not known; {hint}".rstrip("; "))
         if name not in ("8UC1", "8UC3", "8UC4", "16UC1"):
             raise CvBridgeError(f"an image of type {name} cannot be stored as {dst_format}")
         if image.ndim == 3 and image.shape[2] == 1:

@@ -78,6 +78,6 @@ def find_encoding(name: str) -> Encoding:
     match = _PLAIN.fullmatch(name)
     if match is None:
         hint = did_you_mean(name, [*_NAMED, "8UC1", "8UC3", "16UC1", "32FC1", "64FC1"])
-        raise CvBridgeError(f"Unrecognized image encoding [{name}]; {hint}")
+        raise CvBridgeError(f"Unrecognized image encoding [{name}]; {hint}".rstrip("; "))
     dtype = _DTYPES[match[1]]
     return Encoding(dtype, int(match[2] or 1), "", np.dtype(dtype).itemsize * 8)

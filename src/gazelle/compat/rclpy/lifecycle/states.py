@@ -27,6 +27,9 @@ class TransitionCallbackReturn(enum.IntEnum):
     FAILURE = 98
     ERROR = 99
 
+    def __str__(self) -> str:
+        return f"TransitionCallbackReturnType.{self.name}"
+
     def to_label(self) -> str:
         """Return the label of the transition that follows."""
         return f"transition_{self.name.lower()}"
