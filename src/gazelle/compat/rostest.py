@@ -14,7 +14,7 @@ __all__ = ["rosrun", "run", "unitrun"]
 
 
 def rosrun(package: str, test_name: str, test: Any, sysargs: Sequence[str] | None = None) -> None:
-    """Run a test case as a ``<test>`` node; ends the process with 1 when it fails.
+    """Run a test case as a ``<test>`` node, which ends with it; exit code 1 when it fails.
 
     Args:
         package: the package it belongs to.
@@ -22,7 +22,12 @@ def rosrun(package: str, test_name: str, test: Any, sysargs: Sequence[str] | Non
         test: a ``TestCase`` class, or its name ``module.Class``.
         sysargs: the command line, ``sys.argv`` by default.
     """
-    _run(package, test_name, test, sys.argv if sysargs is None else sysargs)
+    from gazelle.compat.rospy.client import signal_shutdown
+
+    try:
+        _run(package, test_name, test, sys.argv if sysargs is None else sysargs)
+    finally:
+        signal_shutdown("test complete")
 
 
 def unitrun(

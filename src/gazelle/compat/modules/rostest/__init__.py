@@ -1,8 +1,3 @@
-"""rostest."""
+"""rostest: tests as nodes, written as JUnit XML."""
 
-from gazelle.compat.unit_tests import rosrun
-from gazelle.compat.unit_tests import unitrun as unitrun
-
-run = rosrun
-
-__all__ = ["rosrun", "run", "unitrun"]
+from gazelle.compat.rostest import *  # noqa: F403

@@ -1,5 +1,5 @@
-"""rosunit."""
+"""rosunit: tests without a graph, written as JUnit XML."""
 
-from gazelle.compat.unit_tests import unitrun
+from gazelle.compat.rostest import unitrun
 
 __all__ = ["unitrun"]
