@@ -10,7 +10,14 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["cloud_points", "dtype_from_fields", "make_cloud", "point_class", "xyz32_fields"]
+__all__ = [
+    "cloud_points",
+    "dtype_from_fields",
+    "make_cloud",
+    "packed",
+    "point_class",
+    "xyz32_fields",
+]
 
 _FORMATS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 
@@ -80,7 +87,7 @@ def make_cloud(
     cloud.is_bigendian = False
     cloud.point_step = point_step
     cloud.row_step = point_step * cloud.width
-    cloud.data = np.ascontiguousarray(points).tobytes()
+    cloud.data = packed(points).tobytes()
     return cloud
 
 
@@ -88,6 +95,14 @@ def point_class(names: Sequence[str]) -> Callable[..., Any]:
     """Return a named tuple with the fields of a cloud."""
     make: Callable[..., Callable[..., Any]] = namedtuple
     return make("Point", names)
+
+
+def packed(points: NDArray[Any]) -> NDArray[Any]:
+    """Return a copy whose gaps between fields are zeros; numpy leaves them as they come."""
+    found = np.zeros(points.shape, points.dtype)
+    for name in points.dtype.names or ():
+        found[name] = points[name]
+    return found
 
 
 def xyz32_fields(kind: Any) -> list[Any]:

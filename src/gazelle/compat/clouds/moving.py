@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.compat.clouds.layout import cloud_points
+from gazelle.compat.clouds.layout import cloud_points, packed
 from gazelle.compat.tf.conversions import pose_of
 from gazelle.compat.tf.interface import TransformRegistration
 from gazelle.interfaces import message_type, ros1_message_type
@@ -21,7 +21,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     Raises:
         ValueError: the cloud has no x, y and z.
     """
-    points = cloud_points(cloud).copy()
+    points = packed(cloud_points(cloud))
     if not {"x", "y", "z"} <= set(points.dtype.names or ()):
         raise ValueError(
             f"the cloud has no x, y and z; it has {', '.join(points.dtype.names or ())}"
