@@ -35,5 +35,5 @@ def test_word_in_place_of_a_number_is_named() -> None:
 
 def test_period_given_to_tf2_is_told_with_what_the_original_makes_of_it() -> None:
     words = ["0", "0", "0", "0", "0", "0", "laser", "camera", "100"]
-    with pytest.raises(LaunchError, match="takes no period: leave out '100'.*'camera' -> '100'"):
+    with pytest.raises(LaunchError, match=r"takes no period: leave out '100'.*'camera' -> '100'"):
         parse_arguments(words, with_period=False)

@@ -115,7 +115,7 @@ ENTRIES = (
         "xacro.decimal-comma",
         "error",
         "A number is written with a decimal comma",
-        "Python reads '0,5' as a text or as two numbers. xacro goes on with that, often in silence.",
+        "Python reads '0,5' as a text or as two numbers. xacro goes on with it, often in silence.",
         "write the decimal sign as a dot",
         "can't multiply sequence by non-int of type 'float'",
     ),
@@ -138,7 +138,7 @@ ENTRIES = (
         "xacro.not-expanded",
         "warning",
         "Something of xacro is left in the result",
-        "xacro goes by the prefix 'xacro:' since ROS Melodic and passes everything else through, so "
+        "xacro goes by the prefix 'xacro:' since ROS Melodic and passes everything else through: "
         "the robot lacks what should stand there.",
         "write the prefix 'xacro:'",
         "Deprecated: xacro tag 'macro' w/o 'xacro:' xml namespace prefix",
