@@ -8,7 +8,7 @@ from optparse import OptionParser
 from typing import NamedTuple
 
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.tool import BAGS_LATER, Tool, ToolError, add_flag, hint, option_parser, run_tool
+from gazelle.cli.tool import Tool, ToolError, add_flag, hint, option_parser, run_tool
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import (
     definition,
@@ -73,7 +73,7 @@ def _show(mode: _Mode, words: list[str]) -> int:
     parser.add_option("-b", "--bag", metavar="BAGFILE", help="show message from .bag file")
     options, args = parser.parse_args(words)
     if options.bag:
-        raise ToolError(BAGS_LATER)
+        return _show_of_bag(options.bag, args, raw=options.raw)
     name = _one(parser, args, f"{mode.word} type").removesuffix(f".{mode.part}")
     if "::" in name or "." in name:
         parser.error(
@@ -91,6 +91,22 @@ def _show(mode: _Mode, words: list[str]) -> int:
     for one in found:
         print(f"[{one}]:")
         print(_text(mode, one, raw=options.raw))
+    return 0
+
+
+def _show_of_bag(path: str, args: list[str], *, raw: bool) -> int:
+    """Print types as a bag defines them; all of them when none is named."""
+    from gazelle.bag import ros1_name_of
+    from gazelle.cli.rostopic.bag import opened
+
+    kinds = {ros1_name_of(one): one for one in opened(path).connections}
+    wanted = [name for name in kinds if not args or args[0] in (name, name.split("/")[1])]
+    if args and not wanted:
+        raise ToolError(f"type [{args[0]}] is not in bag file [{path}]{hint(args[0], kinds)}")
+    for name in wanted:
+        if len(wanted) > 1 or not args or "/" not in args[0]:
+            print(f"[{name}]:")
+        print(kinds[name].definition if raw else show_message(name))
     return 0
 
 

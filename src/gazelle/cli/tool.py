@@ -16,7 +16,6 @@ from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.names import parse_command_line, resolve
 
 __all__ = [
-    "BAGS_LATER",
     "Tool",
     "ToolError",
     "add_flag",
@@ -27,7 +26,6 @@ __all__ = [
     "run_tool",
 ]
 
-BAGS_LATER = "unable to use bag file: this version of Gazelle does not read bags"
 _USAGE_CODE = 64
 _NO_MASTER = "Unable to communicate with master!"
 

@@ -7,14 +7,13 @@ import threading
 from collections.abc import Callable
 from functools import partial
 from optparse import OptionParser, Values
-from typing import Any
+from typing import Any, Protocol
 
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, wait_for_topic
 from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
 from gazelle.cli.text.fields import FieldError, field_type, field_value
-from gazelle.cli.tool import BAGS_LATER, ToolError, add_flag, global_name, joined, option_parser
-from gazelle.graph import Clock
+from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
 from gazelle.interfaces import Time, strify
 
 __all__ = ["Echo", "expression", "run"]
@@ -31,16 +30,23 @@ def run(words: list[str]) -> int:
     """Print the messages of a topic until there were enough."""
     parser = _parser()
     options, args = parser.parse_args(words)
-    if options.bag or options.all_topics:
-        raise ToolError(BAGS_LATER)
-    if len(args) != 1:
+    if options.all_topics and not options.bag:
+        parser.error("Display all option is only valid when echoing from bag files")
+    if len(args) != 1 and not (options.all_topics and not args):
         parser.error("you may only specify one input topic" if args else "topic must be specified")
     count = _whole(parser, options.msg_count, "COUNT must be an integer")
     width = _whole(parser, options.width, "NUM_WIDTH must be an integer")
     if width is not None and width < 2:
         parser.error("Fixed width for numeric values must be at least 2")
-    word = global_name(args[0], "rostopic")
+    word = global_name(args[0], "rostopic") if args else ""
     wanted = expression(options.filter_expr, word) if options.filter_expr else None
+    if options.bag:
+        from gazelle.cli.rostopic.bag import BagClock, echo_bag
+
+        def make(topic: FoundTopic, clock: BagClock) -> Echo:
+            return Echo(topic, options, clock, count=count, width=width, wanted=wanted)
+
+        return echo_bag(options.bag, word, make, options)
     with joined() as graph:
         node, ended = join_as_node(graph)
         topic = wait_for_topic(graph, word)
@@ -76,6 +82,10 @@ def expression(text: str, topic: str) -> Callable[[Any], bool]:
     return wanted
 
 
+class _Clock(Protocol):
+    def now_ns(self) -> int: ...
+
+
 class Echo:
     """Prints each message it is called with.
 
@@ -89,7 +99,7 @@ class Echo:
         self,
         topic: FoundTopic,
         options: Values,
-        clock: Clock,
+        clock: _Clock,
         *,
         count: int | None = None,
         width: int | None = None,

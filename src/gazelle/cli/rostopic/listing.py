@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from gazelle.cli.processes import Processes
 from gazelle.cli.ros_types import shown_type
-from gazelle.cli.tool import BAGS_LATER, ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import add_flag, global_name, joined, option_parser
 from gazelle.graph import Graph, TopicInfo
 
 __all__ = ["run"]
@@ -37,7 +37,9 @@ def run(words: list[str]) -> int:
     if options.publishers and options.subscribers:
         parser.error("you may only specify one of -p, -s")
     if options.bag:
-        raise ToolError(BAGS_LATER)
+        from gazelle.cli.rostopic.bag import list_bag
+
+        return list_bag(options.bag, global_name(args[0], "rostopic") if args else "")
     with joined() as graph:
         topics = graph.topics()
         if args:

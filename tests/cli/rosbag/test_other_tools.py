@@ -1,0 +1,33 @@
+"""``-b`` of rostopic and rosmsg."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gazelle.cli import rosmsg, rostopic
+
+pytestmark = pytest.mark.reference
+
+
+def test_rostopic_lists_and_echoes_a_bag(
+    oracles_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = str(oracles_dir / "ros_live" / "t.bag")
+    assert rostopic.main(["list", "-b", bag]) == 0
+    assert capsys.readouterr().out == "/tf_static\n/joint_states\n/tf\n"
+    assert rostopic.main(["echo", "-b", bag, "-n", "1", "-p", "/joint_states/position"]) == 0
+    assert capsys.readouterr().out == (
+        "%time,field0,field1,field2\n1795226405809618176,0.0,0.0,0.0\n"
+    )
+    assert rostopic.main(["echo", "-b", bag, "/joint_stats"]) == 1
+    assert "did you mean '/joint_states'" in capsys.readouterr().err
+
+
+def test_rosmsg_shows_a_type_of_a_bag(
+    oracles_dir: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = str(oracles_dir / "ros_live" / "t.bag")
+    assert rosmsg.main(["rosmsg", "show", "-b", bag, "sensor_msgs/JointState"]) == 0
+    assert capsys.readouterr().out.startswith("std_msgs/Header header\n  uint32 seq\n")
