@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,7 @@ from gazelle.interfaces import message_type
 __all__ = ["PlayOptions", "Player"]
 
 _LONGEST_WAIT_S = 0.05
+_SWITCH_S = 0.0002
 _LAST_PART_NS = 1_000_000
 _CLOCK = "rosgraph_msgs/msg/Clock"
 
@@ -101,6 +103,15 @@ class Player:
 
     def play(self) -> None:
         """Publish everything once."""
+        usual_s = sys.getswitchinterval()
+        # The thread that reads ahead must not keep this one waiting for 5 ms at a time.
+        sys.setswitchinterval(_SWITCH_S)
+        try:
+            self._play()
+        finally:
+            sys.setswitchinterval(usual_s)
+
+    def _play(self) -> None:
         options = self._options
         start_ns = self.start_ns + int(options.start_s * 1e9)
         end_ns = None
