@@ -12,7 +12,7 @@ def test_codes_are_sorted_and_well_formed():
     codes = list(all_entries())
     assert codes == sorted(codes)
     assert not [
-        code for code in codes if not re.fullmatch(r"[a-z0-9]+\.[a-z0-9]+(-[a-z0-9]+)*", code)
+        code for code in codes if not re.fullmatch(r"[a-z0-9_]+\.[a-z0-9]+(-[a-z0-9]+)*", code)
     ]
 
 

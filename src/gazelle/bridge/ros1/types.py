@@ -22,7 +22,7 @@ from gazelle.interfaces import (
     to_ros1,
     wire_type,
 )
-from gazelle.interfaces.convert import CONVERTED
+from gazelle.interfaces.conversion import CONVERTED
 from gazelle.interfaces.definition import Array
 from gazelle.interfaces.naming import ros1_name
 

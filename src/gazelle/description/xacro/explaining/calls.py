@@ -134,11 +134,12 @@ def _endless(failure: Failure) -> Finding:
     files = list(failure.files)
     span = _endless_place(failure)
     if len(set(files)) < len(files):
-        last = files[-1]
-        start = max(index for index, name in enumerate(files[:-1]) if name == last)
-        message = "files include each other without end: " + " → ".join(files[start:])
+        first = next(name for name in files if files.count(name) > 1)
+        start = files.index(first)
+        circle = files[start : files.index(first, start + 1) + 1]
+        message = "files include each other without end: " + " → ".join(circle)
         fix = "include the file once, from the file above both"
-        return Finding("xacro.recursion", message, span, fix, last)
+        return Finding("xacro.recursion", message, span, fix, files[-1])
     message = "macros or properties call each other without end"
     names = [_name_of(macro) for macro in failure.macro_stack]
     repeated = [name for name in names if names.count(name) > 1]
