@@ -19,7 +19,7 @@ from gazelle.bag import (
 )
 from gazelle.bag.copying import copy_bag
 from gazelle.diagnostics import Diagnostics
-from gazelle.interfaces import from_ros1, library
+from gazelle.interfaces import from_ros1
 
 
 @pytest.mark.parametrize("middle", ["b.mcap", "b.db3"])
@@ -53,9 +53,7 @@ def test_a_type_that_nothing_defines_is_left_out_and_told(tmp_path: Path) -> Non
     assert "topic /odd (no_such_msgs/msg/Odd) is left out" in told.message
 
 
-def test_a_bag_defines_the_types_that_nothing_else_does(monkeypatch: pytest.MonkeyPatch) -> None:
-    # Other tests of this process go on with the types they know.
-    monkeypatch.setattr(library, "_user_packages", dict(library._user_packages))
+def test_a_bag_defines_the_types_that_nothing_else_does() -> None:
     text = "bag_only_msgs/Part[] parts\n" + "=" * 80 + "\nMSG: bag_only_msgs/Part\nint32 size\n"
     one = Connection(0, "/whole", "bag_only_msgs/Whole", Encoding.ROS1, text, "1" * 32)
     assert learn_definitions([one]) == ()

@@ -1,11 +1,20 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
+import numpy as np
 import pytest
+import trimesh
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.geometry import MESH_SUFFIXES, MeshError, load_mesh, load_mesh_reported
+from gazelle.geometry import (
+    MESH_SUFFIXES,
+    MeshError,
+    load_mesh,
+    load_mesh_reported,
+    mesh_mass_properties,
+)
 
 
 def test_an_unchanged_file_is_read_once(write, binary_stl):
@@ -61,3 +70,19 @@ def test_notes_are_reported_with_the_file(write, binary_stl):
     load_mesh_reported(path, diagnostics)
     (found,) = diagnostics.by_code("mesh.extra-bytes")
     assert found.message.startswith(f"mesh '{path}': 4 bytes after")
+
+
+def test_mesh_for_computing_has_the_same_body_as_the_one_for_drawing(tmp_path: Path) -> None:
+    path = tmp_path / "sphere.stl"
+    trimesh.creation.icosphere(subdivisions=2).export(path)
+    plain, smooth = load_mesh(path, smooth=False), load_mesh(path)
+    assert len(plain.vertices_m) == 162
+    np.testing.assert_allclose(np.linalg.norm(plain.parts[0].normals, axis=1), 1.0)
+    ours, other = (
+        mesh_mass_properties(plain, mass_kg=2.0),
+        mesh_mass_properties(smooth, mass_kg=2.0),
+    )
+    np.testing.assert_allclose(ours.inertia_kg_m2, other.inertia_kg_m2, atol=1e-12)
+    # Once there are normals to draw with, everybody gets them.
+    assert load_mesh(path, smooth=False) is plain
+    assert load_mesh(path) is smooth

@@ -6,17 +6,48 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry.mesh import MeshMaterial, MeshPart
-from gazelle.geometry.shading import group_points, group_rows, rounded_normals, smooth_corners
+from gazelle.geometry.shading import (
+    face_normals,
+    group_points,
+    group_rows,
+    rounded_normals,
+    smooth_corners,
+    unit_rows,
+)
 
 __all__ = ["part_from_corners", "part_from_soup"]
 
 
 def part_from_soup(
-    corners_m: NDArray[np.float64], *, name: str = "", material: MeshMaterial | None = None
+    corners_m: NDArray[np.float64],
+    *,
+    name: str = "",
+    material: MeshMaterial | None = None,
+    smooth: bool = True,
 ) -> MeshPart:
-    """Make a part of loose triangles (M, 3, 3): equal vertices shared, normals computed."""
+    """Make a part of loose triangles (M, 3, 3): equal vertices shared, normals computed.
+
+    Args:
+        corners_m: the triangles.
+        name: submesh name.
+        material: or None.
+        smooth: normals of a smooth surface with its edges; False gives each vertex the normal of
+            one of its faces, which is soon done and not fit to be drawn.
+    """
     flat = np.ascontiguousarray(corners_m, dtype=np.float64).reshape(-1, 3)
-    return part_from_corners(flat, group_points(flat), name=name, material=material)
+    if smooth:
+        return part_from_corners(flat, group_points(flat), name=name, material=material)
+    vertex_of_corner = group_points(flat)
+    first = np.zeros(int(vertex_of_corner.max(initial=0)) + 1, np.intp)
+    first[vertex_of_corner[::-1]] = np.arange(len(flat))[::-1]
+    normals = unit_rows(face_normals(flat.reshape(-1, 3, 3)))
+    return MeshPart(
+        name=name,
+        vertices_m=np.ascontiguousarray(flat[first]),
+        faces=vertex_of_corner.reshape(-1, 3).astype(np.int32),
+        normals=np.ascontiguousarray(normals[first // 3]),
+        material=material,
+    )
 
 
 def part_from_corners(

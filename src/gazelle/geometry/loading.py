@@ -39,18 +39,21 @@ class _Key(NamedTuple):
     path: str
     mtime_ns: int
     size: int
+    is_smooth: bool
 
 
 _loaded: dict[_Key, Mesh] = {}
 _lock = Lock()
 
 
-def load_mesh(path: str | os.PathLike[str]) -> Mesh:
+def load_mesh(path: str | os.PathLike[str], *, smooth: bool = True) -> Mesh:
     """Load a mesh file; the same unchanged file is read once per process.
 
     Args:
         path: ``.stl`` (text or binary), ``.dae``, ``.obj`` (with ``.mtl``), ``.gltf`` or ``.glb``;
             upper and lower case alike. A wrong suffix is found out from the content.
+        smooth: normals are those of a smooth surface; False saves their computing, most of the
+            time of an STL, for those who do not draw.
 
     Returns:
         the mesh; its arrays are read-only, since it is shared.
@@ -61,21 +64,25 @@ def load_mesh(path: str | os.PathLike[str]) -> Mesh:
     file = Path(path)
     try:
         info = file.stat()
-        key = _Key(str(file.absolute()), info.st_mtime_ns, info.st_size)
+        key = _Key(str(file.absolute()), info.st_mtime_ns, info.st_size, smooth)
         with _lock:
-            known = _loaded.get(key)
+            known = _loaded.get(key) or _loaded.get(key._replace(is_smooth=True))
         if known is not None:
             return known
         data = read_limited(file, _MOST_BYTES)
     except OSError as error:
         raise MeshError(file, f"cannot be read: {error.strerror or error}") from error
-    mesh = _read(data, file)
+    mesh = _read(data, file, smooth)
     with _lock:
         return _loaded.setdefault(key, mesh)
 
 
 def load_mesh_reported(
-    path: str | os.PathLike[str], diagnostics: Diagnostics, span: SourceSpan | None = None
+    path: str | os.PathLike[str],
+    diagnostics: Diagnostics,
+    span: SourceSpan | None = None,
+    *,
+    smooth: bool = True,
 ) -> Mesh | None:
     """Load a mesh file; report what is wrong with it instead of raising.
 
@@ -83,13 +90,14 @@ def load_mesh_reported(
         path: the file.
         diagnostics: receives ``mesh.unreadable`` and the mesh's notes.
         span: where the file is referred to; the mesh file itself when None.
+        smooth: as in `load_mesh`.
 
     Returns:
         None when the file cannot be used.
     """
     place = span or SourceSpan(str(path))
     try:
-        mesh = load_mesh(path)
+        mesh = load_mesh(path, smooth=smooth)
     except MeshError as error:
         diagnostics.report("mesh.unreadable", str(error), place)
         return None
@@ -98,11 +106,13 @@ def load_mesh_reported(
     return mesh
 
 
-def _read(data: bytes, file: Path) -> Mesh:
+def _read(data: bytes, file: Path, smooth: bool) -> Mesh:
     try:
         # Numbers that are too large show below; numpy would say so on standard error.
         with np.errstate(all="ignore"):
-            mesh = _reader(data, file)(data, file)
+            reader = _reader(data, file)
+            is_flat = reader is read_stl and not smooth
+            mesh = read_stl(data, file, smooth=False) if is_flat else reader(data, file)
     except (MemoryError, RecursionError) as error:
         raise MeshError(file, "what it asks for does not fit into the memory") from error
     for part in mesh.parts:

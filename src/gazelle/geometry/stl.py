@@ -18,11 +18,16 @@ _TRIANGLE = np.dtype(
 )
 
 
-def read_stl(data: bytes, file: Path) -> Mesh:
+def read_stl(data: bytes, file: Path, *, smooth: bool = True) -> Mesh:
     """Read an STL file's bytes; lengths are taken as metres, as ROS and Gazebo do.
 
     The stored facet normals are not used: many exporters write zeros. They are computed from
     the vertices' order.
+
+    Args:
+        data: the file's bytes.
+        file: its name, for messages.
+        smooth: as in `part_from_soup`.
 
     Raises:
         MeshError: truncated, malformed or empty.
@@ -33,7 +38,7 @@ def read_stl(data: bytes, file: Path) -> Mesh:
     if not np.isfinite(corners).all():
         bad = int(np.flatnonzero(~np.isfinite(corners).all(axis=(1, 2)))[0])
         raise MeshError(file, f"triangle {bad} has a coordinate that is not a finite number")
-    return Mesh((part_from_soup(corners),), file, notes)
+    return Mesh((part_from_soup(corners, smooth=smooth),), file, notes)
 
 
 def _is_ascii(data: bytes) -> bool:

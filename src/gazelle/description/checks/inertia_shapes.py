@@ -149,7 +149,7 @@ def _mesh(shape: Shape, diagnostics: Diagnostics) -> Mesh | MeshPart | None:
 def _loaded(shape: MeshShape, diagnostics: Diagnostics) -> Mesh | None:
     if shape.path is None:
         return None
-    mesh = load_mesh_reported(shape.path, diagnostics, shape.span)
+    mesh = load_mesh_reported(shape.path, diagnostics, shape.span, smooth=False)
     if mesh is not None and shape.submesh:
         mesh = mesh.submesh(shape.submesh, shape.center_submesh)
     return None if mesh is None else _scaled(mesh, shape.scale)

@@ -121,7 +121,7 @@ def _mesh_body(
             return mesh_mass_properties(part, density_kg_m3=density)
         if shape.path is None:
             return None
-        mesh = load_mesh_reported(shape.path, context.diagnostics, shape.span)
+        mesh = load_mesh_reported(shape.path, context.diagnostics, shape.span, smooth=False)
         if mesh is not None and shape.submesh:
             mesh = mesh.submesh(shape.submesh, shape.center_submesh)
         if mesh is None:

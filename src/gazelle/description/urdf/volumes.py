@@ -73,7 +73,7 @@ def _mesh_body(
 
     if shape.path is None:
         return None
-    mesh = load_mesh_reported(shape.path, context.diagnostics, shape.span or span)
+    mesh = load_mesh_reported(shape.path, context.diagnostics, shape.span or span, smooth=False)
     if mesh is None:
         return None
     sized = mesh.scaled(shape.scale)
