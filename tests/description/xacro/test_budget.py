@@ -96,6 +96,18 @@ def test_macros_that_double_are_ended(tmp_path: Path, monkeypatch: pytest.Monkey
     ]
 
 
+def test_blocks_that_double_are_ended(tmp_path: Path) -> None:
+    twice = '<xacro:insert_block name="b"/>' * 2
+    macros = f'<xacro:macro name="m0" params="**b">{twice}</xacro:macro>' + "".join(
+        f'<xacro:macro name="m{n + 1}" params="**b"><xacro:m{n}><x>{twice}</x></xacro:m{n}>'
+        "</xacro:macro>"
+        for n in range(29)
+    )
+    assert _errors(tmp_path, f"{macros}<xacro:m29><x><a/></x></xacro:m29>") == [
+        "the file expands to too much: more than 20000 copies of elements [limits.expansion]"
+    ]
+
+
 def test_time_and_size_of_the_expansion_have_limits(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

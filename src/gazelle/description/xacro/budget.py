@@ -1,4 +1,4 @@
-"""What one run of xacro may use up: real robots take a hundredth of it."""
+"""What one run of xacro may use up: the largest public robots take a tenth of it."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from gazelle.limits import Budget, LimitError, compile_limited, read_text_limite
 __all__ = ["ExpansionLimitError", "Spending"]
 
 _MOST_SECONDS = 10
-_MOST_CALLS = 50_000
-_MOST_TEXTS = 1_000_000
+_MOST_CALLS = 5_000
+_MOST_COPIES = 20_000
+_MOST_TEXTS = 200_000
 _MOST_CHARACTERS = 64 << 20
 
 
@@ -31,7 +32,8 @@ class Spending:
 
     def __init__(self) -> None:
         self.expressions = Budget()
-        self._calls = self._texts = self._characters = 0
+        self._calls = self._texts = self._characters = self._copies = 0
+        self._most_copies = scaled(_MOST_COPIES)
         self._end_s = time.thread_time() + scaled(_MOST_SECONDS)
         self._most_texts = scaled(_MOST_TEXTS)
         self._most_characters = scaled(_MOST_CHARACTERS)
@@ -50,6 +52,12 @@ class Spending:
             return function(element, *rest)
 
         return call
+
+    def copied(self) -> None:
+        """Count an element that is copied from a macro's body or from a block."""
+        self._copies += 1
+        if self._copies > self._most_copies:
+            raise ExpansionLimitError(f"more than {self._most_copies} copies of elements")
 
     def texts(self, eval_text: Callable[[str, Any], Any]) -> Callable[[str, Any], Any]:
         """Count the texts that are evaluated, and pass those without a dollar sign through.

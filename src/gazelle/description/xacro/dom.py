@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from types import FrameType
 from typing import Any, NamedTuple
@@ -34,16 +35,22 @@ class _Stamp(NamedTuple):
     via: tuple[SourceSpan, ...]
 
 
+def _ignored() -> None:
+    """Hear of a copy."""
+
+
 class Tracker:
     """Parses files into DOM documents and stamps every element with its place.
 
     Attributes:
         calls: places of the includes and macro calls being worked on, outermost first.
         files: the files parsed, in order.
+        on_copy: called for each element that is copied.
     """
 
     def __init__(self, repairs: Repairs) -> None:
         self.calls: list[SourceSpan] = []
+        self.on_copy: Callable[[], None] = _ignored
         self.files: list[str] = []
         self._repairs = repairs
         self._via: tuple[SourceSpan, ...] = ()
@@ -88,6 +95,7 @@ class Tracker:
     def handle(self, _operation: int, _key: str, stamp: _Stamp, _source: Any, copy: Any) -> None:
         """Stamp a copy that minidom has just made of a stamped element."""
         if copy is not None:
+            self.on_copy()
             copy.setUserData(_KEY, _Stamp(stamp.base, self._via or stamp.via), self)
 
     def via(self) -> tuple[SourceSpan, ...]:

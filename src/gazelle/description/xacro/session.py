@@ -125,6 +125,7 @@ def _replacements(
     library: Any, session: Session, root_dir: str, verbosity: int
 ) -> list[tuple[Any, str, Any]]:
     tracker, spending = session.tracker, session.spending
+    tracker.on_copy = spending.copied
     return [
         (library, "parse", _parser(library, session)),
         (library, "safe_eval", _remembering_evaluator(library, spending)),
