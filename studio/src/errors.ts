@@ -1,0 +1,27 @@
+/** What the server says went wrong. */
+
+import { isObject, textOf, textsOf, type Json } from './json';
+
+/** An error of a call or stream: the message, what to do about it, and the names that do exist. */
+export class CallError extends Error {
+  constructor(message: string, readonly hint = '', readonly known: readonly string[] = []) {
+    super(message);
+    this.name = 'CallError';
+  }
+
+  /** Reads the protocol's `{"message", "hint", "known"}`. */
+  static from(value: Json | undefined): CallError {
+    if (!isObject(value)) return new CallError('The server gave no reason.');
+    return new CallError(
+      textOf(value, 'message', 'The server gave no reason.'),
+      textOf(value, 'hint'),
+      textsOf(value, 'known'),
+    );
+  }
+}
+
+/** Any thrown thing as a `CallError`. */
+export function asCallError(problem: unknown): CallError {
+  if (problem instanceof CallError) return problem;
+  return new CallError(problem instanceof Error ? problem.message : String(problem));
+}

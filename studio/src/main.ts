@@ -1,0 +1,7 @@
+/** Starts the page. */
+
+import { Connection, socketUrl } from './connection';
+import { registerAll } from './panels/catalogue';
+
+registerAll();
+new Connection(socketUrl());
