@@ -7,9 +7,10 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
+from gazelle.bag.texts import TextShare
+from gazelle.bridge.mirrors import Mirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
 from gazelle.bridge.ros1.crossing import Crossing
-from gazelle.bridge.ros1.mirrors import Mirrors
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
 from gazelle.bridge.ros1.peers import MasterPeer, find_master
 from gazelle.bridge.ros1.presence import Presence, Wishes
@@ -76,11 +77,14 @@ class Bridge:
         self._book = TypeBook(self._notice, self._explain)
         self._services = ServiceTypes(self.master.ask, self._dirty.set, self._book, self._notice)
         uri = self.master.uri
-        self._mirrors = Mirrors(graph, self._node, self._call, self._end_in_ros1)
+        self._mirrors: Mirrors[MessageKind, ServiceKind] = Mirrors(
+            graph, self._node, self._call, self._end_in_ros1
+        )
         self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
         self._own = Presence(self._crossing, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
         self._crossing.own_uris.add(self._own.uri)
         self._sync = self._joined_parameters()
+        self._texts = TextShare(graph)
         graph.discovery.listen(lambda entity, is_there: self._dirty.set())
         self._dirty.set()
         self._thread = threading.Thread(target=self._run, name="ros1 bridge", daemon=True)
@@ -103,6 +107,7 @@ class Bridge:
         self._dirty.set()
         self._thread.join(_ENDING_S)
         self._services.close()
+        self._texts.close()
         self._end_parameters()
         self._end_presences()
         self._mirrors.close()

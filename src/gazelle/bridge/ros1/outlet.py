@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.bridge.ros1.frames import send_all, write_header
 from gazelle.bridge.ros1.link import Link
-from gazelle.bridge.ros1.tap import Sample, Tap
 from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind
+from gazelle.bridge.tap import Sample, Tap
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE
 

@@ -64,6 +64,11 @@ class MessageKind(NamedTuple):
     message_class: Any
     has_header: bool
 
+    @property
+    def reliable(self) -> bool:
+        """True: ROS 1 has no other."""
+        return True
+
     def to_frame(self, cdr: bytes, sequence: int) -> Frame:
         """Return a message of the graph as ROS 1 sends it; the sequence goes into its header.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
-from gazelle.bridge.ros1.mirror import Traits
+from gazelle.bridge.mirror import Traits
 from gazelle.bridge.ros1.outlet import Offer
 from gazelle.bridge.ros1.presence import Wishes
 from gazelle.bridge.ros1.registry import State
@@ -105,7 +105,7 @@ def traits_of(
     skipped: frozenset[str],
     services: Mapping[str, ServiceKind],
     book: TypeBook,
-) -> dict[str, Traits]:
+) -> dict[str, Traits[MessageKind, ServiceKind]]:
     """Return what each node of ROS 1 offers and wants, by name.
 
     Args:
@@ -115,12 +115,12 @@ def traits_of(
         services: types of services that are known.
         book: looks types up.
     """
-    found: dict[str, Traits] = {}
+    found: dict[str, Traits[MessageKind, ServiceKind]] = {}
 
     def crosses(node: str, name: str) -> bool:
         return node not in own and name not in skipped and is_legal(name)
 
-    def traits(node: str) -> Traits:
+    def traits(node: str) -> Traits[MessageKind, ServiceKind]:
         return found.setdefault(node, Traits({}, {}, {}))
 
     for node, topic in state.publishers:

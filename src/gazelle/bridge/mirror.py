@@ -1,23 +1,46 @@
-"""A node of ROS 1 as the graph sees it: its name, topics and services."""
+"""A node of real ROS as the graph sees it: its name, topics and services."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
-from gazelle.bridge.ros1.types import MessageKind, ServiceKind
 from gazelle.graph.keys import ANY_TYPE, NO_HASH, Entity, Kind, token
 from gazelle.graph.wire import hash_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node, Publisher, ServiceServer
 
-__all__ = ["Mirror", "Traits"]
+__all__ = ["M", "Mirror", "OfMessage", "OfService", "S", "Traits"]
 
 
-class Traits(NamedTuple):
-    """What a node of ROS 1 offers and wants.
+class OfMessage(Protocol):
+    """What a mirror must know of a message type."""
+
+    @property
+    def message_class(self) -> Any:
+        """Class of the messages on the graph."""
+
+    @property
+    def reliable(self) -> bool:
+        """Whether slow subscriptions are waited for."""
+
+
+class OfService(Protocol):
+    """What a mirror must know of a service type."""
+
+    @property
+    def service_class(self) -> Any:
+        """The service as the graph knows it."""
+
+
+M = TypeVar("M", bound=OfMessage)
+S = TypeVar("S", bound=OfService)
+
+
+class Traits(NamedTuple, Generic[M, S]):
+    """What a node of real ROS offers and wants.
 
     Attributes:
         publishers: types by topic.
@@ -25,22 +48,22 @@ class Traits(NamedTuple):
         services: types by name.
     """
 
-    publishers: dict[str, MessageKind]
+    publishers: dict[str, M]
     subscribers: dict[str, str]
-    services: dict[str, ServiceKind]
+    services: dict[str, S]
 
 
-class _Voice(NamedTuple):
-    kind: MessageKind
+class _Voice(NamedTuple, Generic[M]):
+    kind: M
     latched: bool
     publisher: Publisher
 
 
-class Mirror:
+class Mirror(Generic[M, S]):
     """Stands for one node.
 
     Attributes:
-        name: the node's name in ROS 1.
+        name: the node's name in ROS.
         shares: whether the graph shows it under a name that others have too.
     """
 
@@ -49,7 +72,7 @@ class Mirror:
         graph: Graph,
         name: str,
         node: Node,
-        answer: Callable[[str, ServiceKind, Any], Any],
+        answer: Callable[[str, S, Any], Any],
         *,
         shares: bool,
     ) -> None:
@@ -57,9 +80,9 @@ class Mirror:
 
         Args:
             graph: where.
-            name: the node's name in ROS 1.
+            name: the node's name in ROS.
             node: whose name is shown.
-            answer: (service, type, request) → response, asked of ROS 1.
+            answer: (service, type, request) → response, asked of ROS.
             shares: `node` belongs to others too and stays when this ends.
         """
         self.name = name
@@ -69,11 +92,11 @@ class Mirror:
         self.shares = shares
         self._lock = threading.RLock()
         self._closed = False
-        self._voices: dict[str, _Voice] = {}
+        self._voices: dict[str, _Voice[M]] = {}
         self._tokens: dict[tuple[str, str], Any] = {}
-        self._services: dict[str, tuple[ServiceKind, ServiceServer]] = {}
+        self._services: dict[str, tuple[S, ServiceServer]] = {}
 
-    def settle(self, traits: Traits) -> None:
+    def settle(self, traits: Traits[M, S]) -> None:
         """Announce these topics and services and no others."""
         with self._lock:
             if self._closed or self._node.closed:
@@ -87,7 +110,7 @@ class Mirror:
             self._settle_subscribers(dict(traits.subscribers))
             self._settle_services(traits.services)
 
-    def voice(self, topic: str, kind: MessageKind, latched: bool | None) -> Publisher | None:
+    def voice(self, topic: str, kind: M, latched: bool | None) -> Publisher | None:
         """Return what publishes on a topic for the node; None after `close`.
 
         Args:
@@ -105,7 +128,9 @@ class Mirror:
                 return known.publisher
             if known is not None:
                 known.publisher.unregister()
-            made = self._node.create_publisher(topic, kind.message_class, latch=wanted)
+            made = self._node.create_publisher(
+                topic, kind.message_class, latch=wanted, reliable=kind.reliable
+            )
             self._voices[topic] = _Voice(kind, wanted, made)
             return made
 
@@ -151,7 +176,7 @@ class Mirror:
             liveliness = self._graph.session.liveliness()
             self._tokens[topic, type_name] = liveliness.declare_token(text)
 
-    def _settle_services(self, wanted: Mapping[str, ServiceKind]) -> None:
+    def _settle_services(self, wanted: Mapping[str, S]) -> None:
         for name in list(self._services):
             if wanted.get(name) != self._services[name][0]:
                 self._services.pop(name)[1].unregister()
@@ -162,5 +187,5 @@ class Mirror:
                 )
                 self._services[name] = (kind, server)
 
-    def _answerer(self, name: str, kind: ServiceKind) -> Callable[[Any], Any]:
+    def _answerer(self, name: str, kind: S) -> Callable[[Any], Any]:
         return lambda request: self._answer(name, kind, request)

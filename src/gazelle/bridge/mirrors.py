@@ -1,13 +1,12 @@
-"""All nodes of ROS 1 that the graph shows."""
+"""All nodes of real ROS that the graph shows."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
-from gazelle.bridge.ros1.mirror import Mirror, Traits
-from gazelle.bridge.ros1.types import MessageKind, ServiceKind
+from gazelle.bridge.mirror import M, Mirror, S, Traits
 from gazelle.graph import Kind, Publisher
 from gazelle.graph.names import is_legal, is_legal_base, split
 
@@ -17,14 +16,14 @@ if TYPE_CHECKING:
 __all__ = ["Mirrors"]
 
 
-class Mirrors:
+class Mirrors(Generic[M, S]):
     """Makes and ends mirrors; safe to use from many threads."""
 
     def __init__(
         self,
         graph: Graph,
         node: Node,
-        answer: Callable[[str, ServiceKind, Any], Any],
+        answer: Callable[[str, S, Any], Any],
         on_kill: Callable[[str, str], None],
     ) -> None:
         """Start with none.
@@ -32,23 +31,23 @@ class Mirrors:
         Args:
             graph: where.
             node: the bridge's own, which stands for nodes that cannot have their own name.
-            answer: (service, type, request) → response, asked of ROS 1.
-            on_kill: (node, reason), called when somebody on the graph ends a node of ROS 1.
+            answer: (service, type, request) → response, asked of ROS.
+            on_kill: (node, reason), called when somebody on the graph ends a node of ROS.
         """
         self._graph = graph
         self._node = node
         self._answer = answer
         self._on_kill = on_kill
         self._lock = threading.RLock()
-        self._mirrors: dict[str, Mirror] = {}
+        self._mirrors: dict[str, Mirror[M, S]] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the nodes in ROS 1, sorted."""
+        """Names of the nodes in ROS, sorted."""
         with self._lock:
             return tuple(sorted(self._mirrors))
 
-    def settle(self, traits: dict[str, Traits]) -> None:
+    def settle(self, traits: dict[str, Traits[M, S]]) -> None:
         """Show these nodes, with what they offer and want, and no others."""
         with self._lock:
             gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
@@ -60,8 +59,8 @@ class Mirrors:
         for name, one in traits.items():
             self._mirror(name).settle(one)
 
-    def voice(self, name: str, topic: str, kind: MessageKind, latched: bool) -> Publisher | None:
-        """Return what publishes on a topic for a node of ROS 1, see `Mirror.voice`."""
+    def voice(self, name: str, topic: str, kind: M, latched: bool) -> Publisher | None:
+        """Return what publishes on a topic for a node of ROS, see `Mirror.voice`."""
         return self._mirror(name).voice(topic, kind, latched)
 
     def forget_latched(self, topic: str) -> None:
@@ -75,14 +74,14 @@ class Mirrors:
         """Show none."""
         self.settle({})
 
-    def _mirror(self, name: str) -> Mirror:
+    def _mirror(self, name: str) -> Mirror[M, S]:
         with self._lock:
             known = self._mirrors.get(name)
             if known is not None:
                 return known
             shares = self._must_share(name)
             node = self._node if shares else self._make_node(name)
-            made = Mirror(self._graph, name, node, self._answer, shares=shares)
+            made: Mirror[M, S] = Mirror(self._graph, name, node, self._answer, shares=shares)
             self._mirrors[name] = made
             return made
 
