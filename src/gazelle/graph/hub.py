@@ -19,6 +19,7 @@ __all__ = ["HubKeeper", "close_session"]
 _PAUSE_S = 0.05
 _RETRY_S = 0.2
 _CHECK_S = 0.5
+_CLOSE_S = 5.0
 
 
 class HubKeeper:
@@ -98,9 +99,13 @@ class HubKeeper:
         threading.Thread(target=self._watch, name="gazelle-hub", daemon=True).start()
         return True
 
+    def settle(self) -> None:
+        """Ask for nobody any more: the process' own session is about to end."""
+        self._relinker.close()
+
     def close(self) -> None:
         """Give the hub up; another process takes it over."""
-        self._relinker.close()
+        self.settle()
         with self._lock:
             self._ended.set()
             hub, self._hub = self._hub, None
@@ -139,5 +144,16 @@ class HubKeeper:
 
 
 def close_session(session: Any) -> None:
-    """Leave; what the session declared disappears for all others."""
-    session.close()
+    """Leave; what the session declared disappears for all others.
+
+    The transport's own threads may be in the middle of a link that just broke; they get some
+    seconds, and the process' end takes the rest.
+    """
+    closing = threading.Thread(target=session.close, name="gazelle-close", daemon=True)
+    try:
+        closing.start()
+    except RuntimeError:
+        # Python 3.12 and later start no thread at the process' very end.
+        session.close()
+    else:
+        closing.join(_CLOSE_S)

@@ -21,6 +21,7 @@ __all__ = ["Relinker"]
 
 _PAUSE_S = (0.3, 0.6)
 _ASK_S = 1.0
+_LAST_QUESTION_S = 2.0
 _DESCRIPTORS = 1024
 
 
@@ -35,6 +36,7 @@ class Relinker:
         """
         self._port = port
         self._ended = threading.Event()
+        self._asking = threading.Lock()
         self._linked: set[str] = set()
 
     def linked(self, zid: str) -> None:
@@ -44,16 +46,22 @@ class Relinker:
     def lost(self, zid: str) -> None:
         """Note a lost link; join the hub again if that process still lives."""
         self._linked.discard(zid)
+        if self._ended.is_set():
+            return
         threading.Thread(target=self._look_after, args=(zid,), daemon=True).start()
 
     def close(self) -> None:
-        """Look after nothing more."""
+        """Look after nothing more; a question that is under way is waited for."""
         self._ended.set()
+        # Not beside the end of the session that it asks about.
+        if self._asking.acquire(timeout=_LAST_QUESTION_S):
+            self._asking.release()
 
     def _look_after(self, zid: str) -> None:
         self._ended.wait(random.uniform(*_PAUSE_S))
-        if not self._ended.is_set() and zid not in self._linked and self._lives(zid):
-            _cut(self._port)
+        with self._asking:
+            if not self._ended.is_set() and zid not in self._linked and self._lives(zid):
+                _cut(self._port)
 
     def _lives(self, zid: str) -> bool:
         """Ask the hub as a client would: peers are told of nobody they have no link to."""

@@ -20,6 +20,7 @@ __all__ = ["Guard", "end_groups", "guard"]
 
 _PATIENCE_S = 2.0
 _POLL_S = 0.05
+_LONGEST_S = 2 * _PATIENCE_S
 
 
 class Guard:
@@ -51,7 +52,12 @@ class Guard:
         assert self.popen.stdin is not None
         with contextlib.suppress(BrokenPipeError):
             self.popen.stdin.close()
-        self.popen.wait()
+        try:
+            self.popen.wait(_LONGEST_S)
+        except subprocess.TimeoutExpired:
+            # Whoever holds the other end of the pipe keeps it from hearing of the end.
+            self.popen.kill()
+            self.popen.wait()
 
     def _write(self, number: int) -> None:
         assert self.popen.stdin is not None

@@ -34,6 +34,7 @@ _RULE = "=" * 80
 _ALL_DIED = "all processes on machine have died, roslaunch will exit"
 _HOST_DEATHS = 3
 _OFTEN_S = 60.0
+_WAIT_S = 1.0
 
 
 class StopTimes:
@@ -173,13 +174,22 @@ class Supervisor:
                 if not only_core and not self._has_work():
                     self._console.bold(_ALL_DIED)
                     break
-                if not self._handle(self._events.get()):
+                if not self._handle(self._next_event()):
                     break
         finally:
             self.shutdown()
             for number, handler in previous.items():
                 signal.signal(number, handler)
         return self._exit_code
+
+    def _next_event(self) -> Any:
+        """Return the next event.
+
+        A signal that comes just before the wait begins does not end it, so the wait is cut up.
+        """
+        while True:
+            with contextlib.suppress(queue.Empty):
+                return self._events.get(timeout=_WAIT_S)
 
     def _has_work(self) -> bool:
         """Return whether a node other than the core's runs or is about to."""

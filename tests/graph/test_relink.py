@@ -1,0 +1,54 @@
+"""Looking after a process whose link is lost."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+
+from gazelle.graph import relink
+from gazelle.graph.relink import Relinker
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.Event]:
+    """Let the question about a lost process begin and end at the test's word."""
+    begun, answered = threading.Event(), threading.Event()
+
+    def lives(_self: Relinker, _zid: str) -> bool:
+        begun.set()
+        assert answered.wait(10.0)
+        return False
+
+    monkeypatch.setattr(Relinker, "_lives", lives)
+    monkeypatch.setattr(relink, "_PAUSE_S", (0.0, 0.0))
+    return begun, answered
+
+
+def test_close_waits_for_a_question_that_is_under_way(
+    asked: tuple[threading.Event, threading.Event],
+) -> None:
+    begun, answered = asked
+    relinker = Relinker(port=1)
+    relinker.lost("abc")
+    assert begun.wait(10.0)
+    closing = threading.Thread(target=relinker.close)
+    closing.start()
+    closing.join(0.05)
+    assert closing.is_alive()
+    answered.set()
+    closing.join(10.0)
+    assert not closing.is_alive()
+
+
+def test_nothing_is_asked_after_the_close(
+    asked: tuple[threading.Event, threading.Event],
+) -> None:
+    begun, answered = asked
+    answered.set()
+    relinker = Relinker(port=1)
+    relinker.close()
+    before = threading.active_count()
+    relinker.lost("abc")
+    assert threading.active_count() == before
+    assert not begun.is_set()
