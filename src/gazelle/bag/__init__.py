@@ -21,7 +21,6 @@ from gazelle.bag.types import (
     message_class,
     ros1_connection,
     ros1_name_of,
-    ros2_definition,
     wire_name_of,
 )
 
@@ -43,7 +42,6 @@ __all__ = [
     "open_bag",
     "ros1_connection",
     "ros1_name_of",
-    "ros2_definition",
     "storage_of",
     "wire_name_of",
 ]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import tempfile
 from collections.abc import Callable, Iterable
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +17,13 @@ from gazelle.interfaces import (
     definition,
     from_cdr,
     from_ros1,
+    keep_text,
     md5sum,
     message_type,
     ros1_definition,
     ros1_message_type,
     ros1_type_of,
+    ros2_definition,
     to_cdr,
     to_ros1,
     type_hash,
@@ -37,11 +38,9 @@ __all__ = [
     "message_class",
     "ros1_connection",
     "ros1_name_of",
-    "ros2_definition",
     "wire_name_of",
 ]
 
-_RULE = "=" * 80
 _PART = re.compile(r"^=+\s*\nMSG:\s*(\S+)[^\n]*\n", re.MULTILINE)
 
 
@@ -93,22 +92,6 @@ def cdr_connection(topic: str, type_name: str, *, qos: str = "") -> Connection:
     return Connection(0, topic, type_name, Encoding.CDR, text, qos=qos, type_hash=digest)
 
 
-@lru_cache(maxsize=512)
-def ros2_definition(name: str) -> str:
-    """Return a message's text and those of all it contains, as ``ros2msg`` schemas have it.
-
-    Raises:
-        NotFoundError: nothing defines it.
-    """
-    root = definition(name, Generation.ROS2)
-    text = root.text.rstrip("\n") + "\n"
-    for item in _contained(name, []):
-        package, _, bare = item.split("/")
-        body = definition(item, Generation.ROS2).text.rstrip("\n")
-        text += f"{_RULE}\nMSG: {package}/{bare}\n{body}\n"
-    return text
-
-
 def message_class(connection: Connection) -> Any:
     """Return the class in which messages of a connection are read, in its generation's form.
 
@@ -138,7 +121,7 @@ def converter(connection: Connection, encoding: Encoding) -> Callable[[bytes], b
 def learn_definitions(connections: Iterable[Connection]) -> tuple[str, ...]:
     """Let a bag define its types where nothing else does, or where it does it differently.
 
-    From then on this process reads those types as the bag has them.
+    From then on this process reads those types as the bag has them, and writes their texts so.
 
     Returns:
         Names of the types that are known here with another definition.
@@ -146,12 +129,17 @@ def learn_definitions(connections: Iterable[Connection]) -> tuple[str, ...]:
     differing = []
     for one in {(item.type_name, item.md5sum): item for item in connections}.values():
         known = _known_sum(one)
-        if not one.definition or known == one.md5sum or (known and not one.md5sum):
+        if not one.definition:
             continue
-        if known:
-            differing.append(one.type_name)
-        _teach(one)
+        if known != one.md5sum and not (known and not one.md5sum):
+            if known:
+                differing.append(one.type_name)
+            _teach(one)
+        keep_text(one.type_name, _GENERATIONS[one.encoding], one.definition)
     return tuple(differing)
+
+
+_GENERATIONS = {Encoding.ROS1: Generation.ROS1, Encoding.CDR: Generation.ROS2}
 
 
 def _known_sum(one: Connection) -> str:
@@ -166,7 +154,7 @@ def _known_sum(one: Connection) -> str:
 
 def _teach(one: Connection) -> None:
     """Define a type; what it contains only where that is not known, or differs too."""
-    generation = Generation.ROS1 if one.encoding is Encoding.ROS1 else Generation.ROS2
+    generation = _GENERATIONS[one.encoding]
     first, *rest = _PART.split(one.definition)
     parts = list(zip(rest[::2], rest[1::2], strict=True))
     _define(one.type_name, first, generation)
@@ -196,12 +184,3 @@ def _learned() -> Path:
     if not _folders:
         _folders.append(tempfile.TemporaryDirectory(prefix="gazelle_bag_types_"))
     return Path(_folders[0].name)
-
-
-def _contained(name: str, found: list[str]) -> list[str]:
-    for item in definition(name, Generation.ROS2).fields:
-        base = item.type.base
-        if item.type.is_message and base not in found:
-            found.append(base)
-            _contained(base, found)
-    return found

@@ -16,7 +16,6 @@ from gazelle.interfaces.message import Message, message_type
 from gazelle.interfaces.naming import ros1_type_of, wire_type
 from gazelle.interfaces.ros1_digest import (
     md5sum,
-    ros1_definition,
     service_md5sum,
     show_message,
     show_service,
@@ -34,6 +33,7 @@ from gazelle.interfaces.services import (
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify
+    from gazelle.interfaces.full_text import keep_text, kept_text, ros1_definition, ros2_definition
     from gazelle.interfaces.plain import fill, time_keys, to_plain
     from gazelle.interfaces.rihs01 import type_hash
 
@@ -60,6 +60,8 @@ __all__ = [
     "fill",
     "from_cdr",
     "from_ros1",
+    "keep_text",
+    "kept_text",
     "known_types",
     "md5sum",
     "message_type",
@@ -67,6 +69,7 @@ __all__ = [
     "ros1_message_type",
     "ros1_service_type",
     "ros1_type_of",
+    "ros2_definition",
     "service_md5sum",
     "service_type",
     "show_message",
@@ -82,6 +85,10 @@ __all__ = [
 
 _LATER = {
     "fill": "plain",
+    "keep_text": "full_text",
+    "kept_text": "full_text",
+    "ros1_definition": "full_text",
+    "ros2_definition": "full_text",
     "strify": "echo_text",
     "time_keys": "plain",
     "to_plain": "plain",

@@ -1,4 +1,4 @@
-"""MD5 sums and full texts of ROS 1 types, and the listing that ``rosmsg show`` prints.
+"""MD5 sums of ROS 1 types, and the listing that ``rosmsg show`` prints.
 
 The algorithm is documented at http://wiki.ros.org/ROS/Technical%20Overview (message
 serialization and msg MD5 sums): constants first, no comments, nested messages by their sum.
@@ -10,11 +10,8 @@ from collections.abc import Iterator
 
 from gazelle.interfaces.definition import Definition, Generation
 from gazelle.interfaces.lookup import definition, split_name
-from gazelle.interfaces.naming import ros1_name
 
-__all__ = ["md5sum", "ros1_definition", "service_md5sum", "show_message", "show_service"]
-
-_RULE = "=" * 80
+__all__ = ["md5sum", "service_md5sum", "show_message", "show_service"]
 
 
 def md5sum(name: str) -> str:
@@ -38,19 +35,6 @@ def service_md5sum(name: str) -> str:
     full = "/".join(split_name(name, "srv"))
     parts = (_definition(f"{full}{suffix}") for suffix in ("_Request", "_Response"))
     return _md5("".join(_md5_text(part) for part in parts))
-
-
-def ros1_definition(name: str) -> str:
-    """Return a message's text and, behind rules of ``=``, those of all it contains.
-
-    Raises:
-        NotFoundError: nothing defines it.
-    """
-    root = _definition(name)
-    text = root.text + "\n"
-    for item in _contained(root, []):
-        text += f"\n{_RULE}\nMSG: {ros1_name(item)}\n{_definition(item).text}\n"
-    return text
 
 
 def show_message(name: str, indent: str = "") -> str:
@@ -89,16 +73,6 @@ def _md5_text(source: Definition) -> str:
         word = md5sum(kind.base) if kind.is_message else kind.text(Generation.ROS1)
         lines.append(f"{word} {item.name}")
     return "\n".join(lines)
-
-
-def _contained(source: Definition, found: list[str]) -> list[str]:
-    """All messages inside, each once, in the order of genmsg: depth first."""
-    for item in source.fields:
-        base = item.type.base
-        if item.type.is_message and base not in found:
-            found.append(base)
-            _contained(_definition(base), found)
-    return found
 
 
 def _shown(source: Definition, indent: str) -> Iterator[str]:

@@ -40,9 +40,9 @@ class _Lazy:
         self._name = name
 
     def __get__(self, instance: object, owner: type[Ros1Message]) -> str:
-        from gazelle.interfaces import ros1_digest
+        from gazelle.interfaces import full_text, ros1_digest
 
-        compute = {"_md5sum": ros1_digest.md5sum, "_full_text": ros1_digest.ros1_definition}
+        compute = {"_md5sum": ros1_digest.md5sum, "_full_text": full_text.ros1_definition}
         text = compute[self._name](owner.TYPE_NAME)
         setattr(owner, self._name, text)
         return text

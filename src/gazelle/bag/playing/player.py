@@ -12,6 +12,7 @@ from gazelle.bag.playing.messages import Outgoing, ahead, outgoing
 from gazelle.bag.playing.timeline import Timeline
 from gazelle.bag.qos import read_qos
 from gazelle.bag.records import BagReader, Connection
+from gazelle.bag.texts import TextShare
 from gazelle.bag.types import wire_name_of
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher
@@ -94,6 +95,7 @@ class Player:
         self._publishers: dict[tuple[int, int], Publisher] = {}
         self._clock: Publisher | None = None
         self._clock_ns = 0
+        self._texts = TextShare(node.graph)
         self._announce()
 
     @property

@@ -150,10 +150,10 @@ def _connection_record(one: Connection) -> bytes:
         "md5sum": one.md5sum.encode(),
         "message_definition": one.definition.encode(),
     }
-    if one.callerid:
-        inner["callerid"] = one.callerid.encode()
-    if one.latching:
-        inner["latching"] = b"1"
+    if one.callerid or one.latching:
+        # What rosbag record gets from a publisher, and writes by name.
+        inner |= {"callerid": one.callerid.encode(), "latching": b"1" if one.latching else b"0"}
+        inner = dict(sorted(inner.items()))
     return _record(header, pack_fields(**inner))
 
 

@@ -13,6 +13,7 @@ from gazelle.bridge.ros1.types import MessageKind, message_kind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import ANY_TYPE, Publisher
+from gazelle.interfaces import Generation, keep_text
 
 __all__ = ["Inlet", "PublisherOf"]
 
@@ -150,6 +151,8 @@ class _Source:
                 f"{header.get('md5sum')}, but {kind.md5} is known here; its messages are dropped\n"
                 f"  fix: put the package that defines it into the workspace of the bridge"
             )
+        # The publisher's own words for the type, comments and all: bags keep them.
+        keep_text(kind.ros1_name, Generation.ROS1, header.get("message_definition", ""))
         latched = header.get("latching") == "1"
         publisher = self._inlet._publisher_of(header.get("callerid", ""), topic, kind, latched)
         if publisher is None:

@@ -7,12 +7,14 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
+from gazelle.bag.texts import fetch_text
 from gazelle.bridge.ros1.frames import send_all, write_header
 from gazelle.bridge.ros1.link import Link
 from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind
 from gazelle.bridge.tap import Sample, Tap
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE
+from gazelle.interfaces import Generation, ros1_definition
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
@@ -65,6 +67,7 @@ class Outlet:
         link = Link(stream, header.get("callerid", ""), self.topic)
         self._add(link, offer.node)
         try:
+            fetch_text(self._graph, offer.kind.ros1_name, Generation.ROS1)
             link.start(write_header(_answer(offer, self.topic, name)))
             link.wait()
         finally:
@@ -158,7 +161,7 @@ def _answer(offer: Offer, topic: str, name: str) -> dict[str, str]:
         "callerid": name,
         "latching": str(int(offer.latched)),
         "md5sum": offer.kind.md5,
-        "message_definition": offer.kind.text,
+        "message_definition": ros1_definition(offer.kind.ros1_name),
         "topic": topic,
         "type": offer.kind.ros1_name,
     }

@@ -15,7 +15,6 @@ from gazelle.interfaces import (
     from_ros1,
     md5sum,
     message_type,
-    ros1_definition,
     ros1_message_type,
     ros1_type_of,
     service_md5sum,
@@ -52,7 +51,6 @@ class MessageKind(NamedTuple):
         ros1_name: ``sensor_msgs/LaserScan``.
         wire_name: ``sensor_msgs/msg/LaserScan``, the name on the graph.
         md5: its sum in ROS 1.
-        text: its full definition in ROS 1.
         message_class: what carries it from one side to the other.
         has_header: whether ROS 1's bytes start with a sequence number.
     """
@@ -60,7 +58,6 @@ class MessageKind(NamedTuple):
     ros1_name: str
     wire_name: str
     md5: str
-    text: str
     message_class: Any
     has_header: bool
 
@@ -121,7 +118,7 @@ def message_kind(name: str) -> MessageKind:
         bool(fields) and fields[0].type.base == _HEADER and fields[0].type.array is Array.ONE
     )
     message_class = view(full if full in CONVERTED else wire)
-    return MessageKind(ros1, wire, md5sum(full), ros1_definition(full), message_class, has_header)
+    return MessageKind(ros1, wire, md5sum(full), message_class, has_header)
 
 
 @lru_cache(maxsize=1024)

@@ -1,0 +1,88 @@
+"""Texts of definitions from the process that brought messages in to the one that records them.
+
+A bridge and a player know the text that a message's type came with. They answer for it on the
+graph; who writes connections of ROS 1 asks once for each type.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gazelle.bag.records import Connection, Encoding
+from gazelle.bag.types import learn_definitions
+from gazelle.errors import GazelleError
+from gazelle.graph.delivery import Mailbox
+from gazelle.interfaces import Generation, keep_text, kept_text, md5sum, type_hash
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph
+
+__all__ = ["TextShare", "fetch_text"]
+
+_ASK_S = 0.5
+_ANY = "*"
+_KEY = "@gazelle/{}/definition/{}"  # 1/pkg/Name/MD5 or 2/pkg/Name/HASH
+
+
+class TextShare:
+    """Answers with the texts that came into this process."""
+
+    def __init__(self, graph: Graph) -> None:
+        """Start to answer."""
+        import zenoh
+
+        self._mailbox = Mailbox(_answer, size=0, name="definition texts")
+        # Direct: zenoh's own callback threads would keep a process from ending.
+        callback = zenoh.handlers.Callback(self._mailbox.put, None, indirect=False)
+        key = _KEY.format(graph.domain, "**")
+        self._queryable: Any = graph.session.declare_queryable(key, callback)
+
+    def close(self) -> None:
+        """Answer no more."""
+        self._queryable.undeclare()
+        self._mailbox.close()
+
+
+def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
+    """Keep the text that another process has of a type, or learn the type from it.
+
+    Nothing happens when no process has one; what is known here counts then.
+
+    Args:
+        graph: where to ask.
+        name: ``pkg/Name``.
+        generation: whose text.
+    """
+    meaning = _meaning(name, generation)
+    key = _KEY.format(graph.domain, f"{int(generation)}/{name}/{meaning or _ANY}")
+    for reply in graph.session.get(key, timeout=_ASK_S):
+        if reply.ok is None:
+            continue
+        text = reply.ok.payload.to_bytes().decode("utf-8", "replace")
+        if not meaning:
+            found = str(reply.ok.key_expr).rpartition("/")[2]
+            learn_definitions([Connection(0, "", name, _ENCODINGS[generation], text, found)])
+        if keep_text(name, generation, text):
+            return
+
+
+_ENCODINGS = {Generation.ROS1: Encoding.ROS1, Generation.ROS2: Encoding.CDR}
+
+
+def _meaning(name: str, generation: Generation) -> str:
+    try:
+        return md5sum(name) if generation is Generation.ROS1 else type_hash(name)
+    except GazelleError:
+        return ""
+
+
+def _answer(query: Any) -> None:
+    start, _, rest = str(query.key_expr).rpartition("/definition/")
+    words = rest.split("/")
+    if len(words) == 4 and words[0] in ("1", "2"):
+        generation, name = Generation(int(words[0])), f"{words[1]}/{words[2]}"
+        text, meaning = kept_text(name, generation), _meaning(name, generation)
+        if text and words[3] in (meaning, _ANY):
+            key = f"{start}/definition/{words[0]}/{name}/{meaning}"
+            query.reply(key, text.encode())
+    query.drop()
