@@ -60,6 +60,7 @@ COMMANDS: dict[str, Command] = {
     "urdf_to_graphiz": Command("gazelle.cli.urdf_to_graphiz", "old name of urdf_to_graphviz"),
     "gz": Command("gazelle.cli.sdf.gz", "gz of Gazebo 11: topic, model, world, stats, joint, sdf"),
     "ign": Command("gazelle.cli.sdf.ign", "ign sdf of Fortress: print, check, draw SDF files"),
+    "studio": Command("gazelle.cli.studio", "open the browser page on a running graph"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
     "catkin_create_pkg": Command("gazelle.cli.catkin_create_pkg", "write a package for ROS 1"),

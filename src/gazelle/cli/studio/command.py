@@ -1,0 +1,67 @@
+"""Serves the page until Ctrl-C."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+import webbrowser
+
+from gazelle.graph import Graph
+from gazelle.studio import Server, Studio
+
+__all__ = ["main"]
+
+_LOOK_S = 0.5
+
+
+def main(argv: list[str]) -> int:
+    """Run until Ctrl-C, SIGTERM or ``rosnode kill``."""
+    options = _parser().parse_args(argv)
+    stop = threading.Event()
+    signal.signal(signal.SIGTERM, lambda *_: stop.set())
+    with Graph.open() as graph:
+        studio = Studio(graph)
+        studio.node.on_shutdown(lambda _reason: stop.set())
+        with Server(studio, host=options.host, port=options.port) as server:
+            print(f"Studio: {server.url}", flush=True)
+            if options.browser:
+                _open_browser(server.url)
+            _wait(stop)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="gazelle studio",
+        description="Serves the page that shows worlds, robots, topics and plots of a graph.",
+    )
+    parser.add_argument(
+        "--port", type=int, help="TCP port, 0 for any; the first free one from 8090 on otherwise"
+    )
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address to listen on; for others than this machine the URL carries a token",
+    )
+    parser.add_argument(
+        "--no-browser", dest="browser", action="store_false", help="only print the URL"
+    )
+    return parser
+
+
+def _open_browser(url: str) -> None:
+    """A machine without a browser is none of our business: the URL was printed."""
+    try:
+        webbrowser.open(url)
+    except (webbrowser.Error, OSError) as error:
+        print(f"no browser could be started ({error}); open the URL yourself", file=sys.stderr)
+
+
+def _wait(stop: threading.Event) -> None:
+    try:
+        while not stop.wait(_LOOK_S):
+            pass
+    except KeyboardInterrupt:
+        return

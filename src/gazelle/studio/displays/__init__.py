@@ -1,0 +1,1 @@
+"""Messages → what the page draws."""

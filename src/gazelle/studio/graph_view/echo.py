@@ -1,0 +1,51 @@
+"""``topic.echo``: the messages of a topic as trees."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.studio.json_text import message_value
+from gazelle.studio.pacing import Pace
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.stamps import stamp_s
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["open_echo"]
+
+
+def open_echo(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``topic.echo``."""
+    echo = _Echo(studio, channel, params.number("rate_hz", 10.0, least=0.01, most=1000.0))
+    return OpenStream(studio.taps.listen(params.text("topic"), echo.take))
+
+
+class _Echo:
+    def __init__(self, studio: Studio, channel: Channel, rate_hz: float) -> None:
+        self._studio = studio
+        self._channel = channel
+        self._pace = Pace(channel, self._offer, rate_hz)
+        self._count = 0
+        self._last: Sample | None = None
+
+    def take(self, sample: Sample) -> None:
+        """Runs in the transport's thread."""
+        self._count += 1
+        self._last = sample
+        self._pace()
+
+    def _offer(self) -> None:
+        self._channel.offer(self._value)
+
+    def _value(self) -> Any:
+        sample = self._last
+        if sample is None:
+            return None
+        message = sample.message()
+        return {
+            "type": sample.raw.type_name,
+            "stamp_s": stamp_s(message, sample.info),
+            "count": self._count,
+            "message": message_value(message),
+        }

@@ -1,0 +1,84 @@
+"""``rosout``: what nodes say."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.graph.console import Level, level_of
+from gazelle.studio.errors import StudioError
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.stamps import seconds
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["Console", "open_rosout"]
+
+_KEPT = 200
+_TOPIC = "/rosout"
+_LEVELS = (10, 20, 30, 40, 50)
+_WORDS = tuple(level.name.lower() for level in Level)
+
+
+def open_rosout(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``rosout``: the last 200 first."""
+    word = params.text("level", "debug").lower()
+    try:
+        least = list(Level).index(level_of(word))
+    except KeyError:
+        raise StudioError(f"there is no level '{word}'", known=_WORDS) from None
+    return OpenStream(studio.shared(Console).follow(channel, least))
+
+
+class Console:
+    """Keeps what nodes said last, from the first look on."""
+
+    def __init__(self, studio: Studio) -> None:
+        """Listen to ``/rosout`` of a Studio's graph."""
+        self._kept: deque[dict[str, Any]] = deque(maxlen=_KEPT)
+        self._followers: list[tuple[Channel, int]] = []
+        self._lock = threading.Lock()
+        studio.on_close(studio.taps.listen(_TOPIC, self._take))
+
+    def follow(self, channel: Channel, least: int) -> Callable[[], None]:
+        """Send a channel what was kept and what comes, of this level's number and above."""
+        follower = (channel, least)
+        with self._lock:
+            for record in self._kept:
+                _add(follower, record)
+            self._followers.append(follower)
+
+        def leave() -> None:
+            with self._lock:
+                self._followers.remove(follower)
+
+        return leave
+
+    def _take(self, sample: Sample) -> None:
+        record = _record(sample.message())
+        with self._lock:
+            self._kept.append(record)
+            for follower in self._followers:
+                _add(follower, record)
+
+
+def _add(follower: tuple[Channel, int], record: dict[str, Any]) -> None:
+    channel, least = follower
+    if _WORDS.index(record["level"]) >= least:
+        channel.add(record)
+
+
+def _record(message: Any) -> dict[str, Any]:
+    place = max((number for number in range(5) if _LEVELS[number] <= message.level), default=0)
+    return {
+        "stamp_s": seconds(message.stamp),
+        "level": _WORDS[place],
+        "name": message.name,
+        "message": message.msg,
+        "file": message.file,
+        "function": message.function,
+        "line": message.line,
+    }

@@ -1,0 +1,135 @@
+"""The graph value: nodes, topics, services and actions with their ties."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from gazelle.graph import Entity, Kind
+from gazelle.graph.actions.listing import actions_of
+from gazelle.graph.introspection import services_of, topics_of
+from gazelle.graph.names import is_hidden, split
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, OpenStream
+
+__all__ = ["OWN_PREFIX", "Topology", "get_graph", "graph_value", "open_graph"]
+
+OWN_PREFIX = "/_gazelle/"
+"""Names of Gazelle's own; nobody is shown them."""
+
+_GATHER_S = 0.1
+
+
+def get_graph(studio: Studio, _params: Params) -> Any:
+    """``graph.get``."""
+    return graph_value(studio.graph.entities())
+
+
+def open_graph(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``graph``: the value now and at every change."""
+    topology = studio.shared(Topology)
+    return OpenStream(topology.follow(channel))
+
+
+class Topology:
+    """Tells channels when the graph changes; changes that come together are told once."""
+
+    def __init__(self, studio: Studio) -> None:
+        """Listen to the graph of a Studio until that closes."""
+        self._studio = studio
+        self._channels: list[Channel] = []
+        self._lock = threading.Lock()
+        self._dirty = threading.Event()
+        self._closed = False
+        studio.graph.discovery.listen(self._on_change)
+        studio.on_close(self._close)
+        threading.Thread(target=self._run, name="studio graph", daemon=True).start()
+
+    def follow(self, channel: Channel) -> Any:
+        """Send a channel the value now and at every change; returns what ends that."""
+        channel.send(graph_value(self._studio.graph.entities()))
+        with self._lock:
+            self._channels.append(channel)
+        self._dirty.set()
+        return lambda: self._leave(channel)
+
+    def _leave(self, channel: Channel) -> None:
+        with self._lock:
+            self._channels.remove(channel)
+
+    def _on_change(self, entity: Entity, _is_there: bool) -> None:
+        if not entity.name.startswith(OWN_PREFIX):
+            self._dirty.set()
+
+    def _close(self) -> None:
+        self._closed = True
+        self._dirty.set()
+
+    def _run(self) -> None:
+        pause = threading.Event()
+        last: Any = None
+        while self._dirty.wait() and not self._closed:
+            pause.wait(_GATHER_S)
+            self._dirty.clear()
+            with self._lock:
+                channels = tuple(self._channels)
+            value = graph_value(self._studio.graph.discovery.known()) if channels else None
+            if value is None or value == last:
+                continue
+            last = value
+            for channel in channels:
+                channel.send(value)
+
+
+def graph_value(entities: tuple[Entity, ...]) -> dict[str, Any]:
+    """Return the graph value of docs/studio_protocol.md."""
+    shown = [
+        one
+        for one in entities
+        if not one.name.startswith(OWN_PREFIX) and not one.node.startswith(OWN_PREFIX)
+    ]
+    return {
+        "nodes": _nodes(shown),
+        "topics": [
+            {
+                "name": topic.name,
+                "type": topic.type_name,
+                "publishers": sorted(set(topic.publishers)),
+                "subscribers": sorted(set(topic.subscriptions)),
+                "hidden": is_hidden(topic.name),
+            }
+            for topic in topics_of(shown, include_hidden=True)
+        ],
+        "services": [
+            {"name": one.name, "type": one.type_name, "nodes": sorted(set(one.servers))}
+            for one in services_of(shown)
+        ],
+        "actions": [
+            {
+                "name": one.name,
+                "type": one.type_name,
+                "servers": sorted(set(one.servers)),
+                "clients": sorted(set(one.clients)),
+            }
+            for one in actions_of(tuple(shown))
+        ],
+    }
+
+
+def _nodes(entities: list[Entity]) -> list[dict[str, Any]]:
+    ends: dict[str, dict[Kind, set[str]]] = {}
+    for one in entities:
+        of_node = ends.setdefault(one.node, {})
+        of_node.setdefault(one.kind, set()).add(one.name)
+    return [
+        {
+            "name": name,
+            "namespace": split(name)[0],
+            "publishes": sorted(of_node.get(Kind.PUBLISHER, ())),
+            "subscribes": sorted(of_node.get(Kind.SUBSCRIPTION, ())),
+            "serves": sorted(of_node.get(Kind.SERVICE, ())),
+        }
+        for name, of_node in sorted(ends.items())
+        if Kind.NODE in of_node
+    ]

@@ -1,0 +1,90 @@
+"""Definitions of messages, services and actions as trees of fields."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.errors import NotFoundError
+from gazelle.interfaces import Definition, Field, Generation, definition, known_types
+from gazelle.interfaces.definition import Array
+from gazelle.interfaces.lookup import split_name
+from gazelle.studio.errors import StudioError
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = ["field_tree", "get_type", "list_types"]
+
+_KINDS = ("msg", "srv", "action")
+_PARTS = {
+    "msg": {"": ""},
+    "srv": {"request": "_Request", "response": "_Response"},
+    "action": {"goal": "_Goal", "result": "_Result", "feedback": "_Feedback"},
+}
+_RULE = "\n---\n"
+
+
+def get_type(_studio: Studio, params: Params) -> Any:
+    """``type.get``: text and fields; those of a service are ``request`` and ``response``."""
+    name = params.text("type")
+    package, part, bare = split_name(name)
+    for kind in (part, *_KINDS) if name.count("/") == 1 else (part,):
+        try:
+            return _described(f"{package}/{kind}/{bare}", kind)
+        except NotFoundError as error:
+            missing = error
+    raise missing
+
+
+def list_types(_studio: Studio, params: Params) -> list[str]:
+    """``type.list``."""
+    kind = params.text("kind", "msg")
+    if kind not in _KINDS:
+        raise StudioError(f"there is no kind '{kind}' of type", known=_KINDS)
+    return list(known_types(kind))
+
+
+def field_tree(full: str) -> list[dict[str, Any]]:
+    """Return the fields of a message with those of all messages inside."""
+    return [_field(item) for item in definition(full, Generation.ROS2).fields]
+
+
+def _described(full: str, kind: str) -> dict[str, Any]:
+    parts = {word: definition(full + end, Generation.ROS2) for word, end in _PARTS[kind].items()}
+    fields: list[dict[str, Any]] = []
+    for word, part in parts.items():
+        tree = [_field(item) for item in part.fields]
+        if not word:
+            fields = tree
+            continue
+        whole = {"name": word, "type": part.name, "array": None, "default": None, "fields": tree}
+        fields.append(whole | _constants(part))
+    text = _RULE.join(part.text for part in parts.values())
+    value = {"type": full, "kind": kind, "text": text, "fields": fields}
+    return value | (_constants(parts[""]) if "" in parts else {})
+
+
+def _field(item: Field) -> dict[str, Any]:
+    array: int | str | None = None
+    if item.type.array is not Array.ONE:
+        array = item.type.size if item.type.array is Array.FIXED else "[]"
+    value: dict[str, Any] = {
+        "name": item.name,
+        "type": item.type.base,
+        "array": array,
+        "default": item.default,
+    }
+    if item.type.is_message:
+        inner = definition(item.type.base, Generation.ROS2)
+        value["fields"] = [_field(one) for one in inner.fields]
+        value |= _constants(inner)
+    return value
+
+
+def _constants(part: Definition) -> dict[str, Any]:
+    if not part.constants:
+        return {}
+    return {
+        "constants": [
+            {"name": one.name, "type": one.type, "value": one.value} for one in part.constants
+        ]
+    }

@@ -1,0 +1,1 @@
+"""Robot descriptions → scene values, and the meshes and textures they name."""

@@ -1,0 +1,168 @@
+"""The server itself: a thread with an event loop that answers HTTP and WebSockets."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+from http import HTTPStatus
+from typing import Self
+from urllib.parse import urlsplit
+
+from websockets.asyncio.server import Server as WebSocketServer
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.http11 import Request, Response
+
+from gazelle.errors import GazelleError
+from gazelle.studio.connection import Connection
+from gazelle.studio.files import answer_to, response
+from gazelle.studio.security import Guard, guard_for
+from gazelle.studio.session import Studio
+from gazelle.studio.workers import in_thread
+
+__all__ = ["DEFAULT_PORT", "Server"]
+
+DEFAULT_PORT = 8090
+_PORTS_TRIED = 20
+_LONGEST_MESSAGE_BYTES = 32 << 20
+_WRITE_LIMIT_BYTES = 1 << 20
+_STARTING_S = 10.0
+
+
+class Server:
+    """Serves the page of a Studio from a thread of its own.
+
+    Attributes:
+        studio: what it serves.
+        url: what to open in a browser.
+    """
+
+    def __init__(self, studio: Studio, *, host: str = "127.0.0.1", port: int | None = None) -> None:
+        """Listen.
+
+        Args:
+            studio: it is closed together with the server.
+            host: address; any but this machine's own is reached with a token only.
+            port: TCP port, 0 for any free one; None takes the first free one from 8090 on.
+
+        Raises:
+            GazelleError: the address or port cannot be listened on.
+        """
+        self.studio = studio
+        self._host = host
+        self._ports = range(port, port + 1) if port is not None else _default_ports()
+        self._loop = asyncio.new_event_loop()
+        self._started = threading.Event()
+        self._stop = asyncio.Event()
+        self._error: OSError | None = None
+        self._guard = Guard(host, 0, "")
+        self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
+        self._thread.start()
+        self._started.wait(_STARTING_S)
+        self._check_listening()
+        self.url = self._url()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exc_info: object) -> None:
+        self.close()
+
+    @property
+    def port(self) -> int:
+        """The port listened on."""
+        return self._guard.port
+
+    @property
+    def token(self) -> str:
+        """What the URL must carry, empty on this machine's own address."""
+        return self._guard.token
+
+    def close(self) -> None:
+        """Close all pages' connections, stop listening and leave the graph."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._stop.set)
+            self._thread.join()
+        self.studio.close()
+
+    def _check_listening(self) -> None:
+        if self._error is not None:
+            self._thread.join()
+            raise GazelleError(_cannot_listen(self._host, self._ports, self._error))
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_until_complete(self._serve())
+        finally:
+            self._started.set()
+            self._loop.close()
+
+    async def _serve(self) -> None:
+        server = await self._listening()
+        if server is None:
+            return
+        async with server:
+            self._started.set()
+            await self._stop.wait()
+
+    async def _listening(self) -> WebSocketServer | None:
+        for port in self._ports:
+            try:
+                server = await serve(
+                    self._talk,
+                    self._host,
+                    port,
+                    process_request=self._answer,
+                    compression=None,
+                    max_size=_LONGEST_MESSAGE_BYTES,
+                    write_limit=_WRITE_LIMIT_BYTES,
+                    server_header=None,
+                    close_timeout=1,
+                    logger=_quiet_logger(),
+                )
+            except OSError as error:
+                self._error = error
+                continue
+            self._error = None
+            bound = next(iter(server.sockets)).getsockname()[1]
+            self._guard = guard_for(self._host, bound)
+            return server
+        return None
+
+    async def _talk(self, socket: ServerConnection) -> None:
+        await Connection(self.studio, socket).run()
+
+    async def _answer(self, _socket: ServerConnection, request: Request) -> Response | None:
+        """Refuse strangers, serve files; None lets a WebSocket through."""
+        reason = self._guard.refusal(request.path, request.headers)
+        if reason:
+            return response(HTTPStatus.FORBIDDEN, f"403: {reason}\n".encode())
+        if urlsplit(request.path).path == "/ws":
+            if request.headers.get("Upgrade", "").lower() == "websocket":
+                return None
+            return response(HTTPStatus.UPGRADE_REQUIRED, b"this path is a WebSocket\n")
+        return await in_thread(answer_to, self.studio, request, self._guard)
+
+    def _url(self) -> str:
+        host = f"[{self._host}]" if ":" in self._host else self._host
+        end = f"?token={self.token}" if self.token else ""
+        return f"http://{host}:{self.port}/{end}"
+
+
+def _default_ports() -> range:
+    return range(DEFAULT_PORT, DEFAULT_PORT + _PORTS_TRIED)
+
+
+def _cannot_listen(host: str, ports: range, error: OSError) -> str:
+    which = f"port {ports[0]}" if len(ports) == 1 else f"ports {ports[0]} to {ports[-1]}"
+    reason = error.strerror or str(error)
+    return f"cannot listen on {host}, {which}: {reason}\n  fix: choose another one with --port"
+
+
+def _quiet_logger() -> logging.Logger:
+    """The library logs every port scanner's broken handshake with a stack."""
+    logger = logging.getLogger("gazelle.studio.websockets")
+    logger.setLevel(logging.CRITICAL)
+    logger.propagate = False
+    return logger

@@ -1,0 +1,96 @@
+"""What all pages of one server share: the graph, its listeners, and what was made for them."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from gazelle._version import __version__
+from gazelle.graph import Graph
+from gazelle.studio.json_text import json_text
+from gazelle.studio.taps import Taps
+from gazelle.studio.workers import Workers
+
+if TYPE_CHECKING:
+    from gazelle.studio.connection import Connection
+    from gazelle.studio.files import Route
+
+__all__ = ["Studio"]
+
+_WORKERS = 2
+_T = TypeVar("_T")
+
+
+class Studio:
+    """One Studio: a node on the graph and the pages that look through it.
+
+    Attributes:
+        graph: the graph.
+        node: the node that subscribes, publishes and calls for all pages.
+        taps: the topics listened to.
+        workers: threads that make frames.
+        pages: the open connections.
+        routes: first part of a path → who answers it.
+    """
+
+    def __init__(self, graph: Graph, *, routes: dict[str, Route] | None = None) -> None:
+        """Join as a node of a name of its own.
+
+        Args:
+            graph: the graph; it stays open when Studio is closed.
+            routes: answers to HTTP paths besides the page's files.
+        """
+        self.graph = graph
+        self.node = graph.create_node("studio", anonymous=True, rosout=False)
+        graph.clock.follow(self.node)
+        self.taps = Taps(self.node)
+        self.workers = Workers(_WORKERS)
+        self.pages: set[Connection] = set()
+        self.routes: dict[str, Route] = dict(routes or {})
+        self.session_name = f"{graph.zid}-{self.node.entity.node_id}"
+        self._lock = threading.RLock()
+        self._shared: dict[Any, Any] = {}
+        self._closers: list[Callable[[], None]] = []
+        self._panels: list[tuple[str, dict[str, Any]]] = []
+
+    def hello(self) -> dict[str, Any]:
+        """Return the first frame of a connection."""
+        with self._lock:
+            panels = [name for name, _ in self._panels]
+        return {
+            "op": "hello",
+            "version": __version__,
+            "session": self.session_name,
+            "node": self.node.name,
+            "graph": {"port": self.graph.port, "domain": self.graph.domain},
+            "panels": panels,
+        }
+
+    def show(self, panel: str, params: dict[str, Any] | None = None) -> None:
+        """Ask for a panel: on the pages that are open, else on the first that opens."""
+        pages = tuple(self.pages)
+        if not pages:
+            with self._lock:
+                self._panels.append((panel, params or {}))
+        for page in pages:
+            page.post(json_text({"op": "show", "panel": panel, "params": params or {}}))
+
+    def shared(self, make: Callable[[Studio], _T]) -> _T:
+        """Return what a function makes, made once for this Studio; parts keep their state so."""
+        with self._lock:
+            if make not in self._shared:
+                self._shared[make] = make(self)
+            found: _T = self._shared[make]
+            return found
+
+    def on_close(self, closer: Callable[[], None]) -> None:
+        """Call something when Studio closes."""
+        self._closers.append(closer)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        for closer in reversed(self._closers):
+            closer()
+        self.workers.close()
+        self.node.shutdown("Studio was closed")
