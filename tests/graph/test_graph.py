@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.errors import NotFoundError
-from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, TopicInfo
+from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo
 from gazelle.interfaces import message_type, service_type
 
 String = message_type("std_msgs/msg/String")
@@ -128,7 +128,7 @@ def test_publishers_and_subscriptions_of_a_topic(
     assert (publisher.node, publisher.type_name, publisher.qos) == (
         "/a",
         "std_msgs/msg/String",
-        (False, True, 3),
+        Qos(False, True, 3),
     )
     (subscription,) = eventually(lambda: graph.subscriptions_info("/x"))
     assert subscription.node == "/b"

@@ -49,6 +49,11 @@ def test_qos_as_rmw_zenoh_writes_it() -> None:
     assert Qos(reliable=False, latched=True, depth=10).to_key() == "2:1:,10:,:,:,,"
     assert Qos.from_key("1:2:1,5:,:,:,,") == Qos(True, False, 5)
     assert Qos.from_key("") == Qos()
+    assert Qos(depth=0).to_key() == "::2,:,:,:,,"
+    assert Qos.from_key("::2,7:9223372036,854775807:,:,,") == Qos(depth=0)
+    full = Qos(False, True, 3, 1_500_000_000, 20, True, 2_000_000_001)
+    assert full.to_key() == "2:1:,3:1,500000000:0,20:3,2,1"
+    assert Qos.from_key(full.to_key()) == full
 
 
 def test_attachment_is_the_33_bytes_of_rmw_zenoh() -> None:

@@ -205,7 +205,8 @@ def test_message_info_names_the_publisher(
     eventually(lambda: publisher.matched and listener.graph.publisher_count("/chatter"))
     publisher.publish(String())
     _, info = inbox.wait_for(1)[0]
-    assert info == MessageInfo(1, info.stamp_ns, "/talker", "std_msgs/msg/String")
+    assert info == MessageInfo(1, info.stamp_ns, "/talker", "std_msgs/msg/String", info.gid)
+    assert len(info.gid) == 16 and any(info.gid)
 
 
 def test_full_queue_drops_the_oldest(talker: Node) -> None:

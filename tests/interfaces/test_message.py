@@ -8,6 +8,7 @@ import pytest
 
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import known_types, message_type
+from gazelle.interfaces.definition import Array, FieldType
 
 
 def test_both_spellings_give_one_class():
@@ -72,7 +73,13 @@ def test_copies_and_pickles_are_equal_and_separate():
 def test_field_types_are_listed_as_rclpy_does():
     found = message_type("sensor_msgs/Imu").get_fields_and_field_types()
     assert found["header"] == "std_msgs/Header"
-    assert found["orientation_covariance"] == "float64[9]"
+    assert found["orientation_covariance"] == "double[9]"
+    found = message_type("rcl_interfaces/ParameterDescriptor").get_fields_and_field_types()
+    assert found["read_only"] == "boolean"
+    assert found["integer_range"] == "sequence<rcl_interfaces/IntegerRange, 1>"
+    found = message_type("rcl_interfaces/ParameterValue").get_fields_and_field_types()
+    assert found["byte_array_value"] == "sequence<octet>"
+    assert FieldType("string", Array.SEQUENCE, 5, 10).idl == "sequence<string<10>, 5>"
 
 
 @pytest.mark.parametrize(

@@ -82,6 +82,11 @@ class Discovery:
         with self._changed:
             self._listeners.append(listener)
 
+    def ignore(self, listener: Callable[[Entity, bool], None]) -> None:
+        """Call a listener no more."""
+        with self._changed:
+            self._listeners = [one for one in self._listeners if one != listener]
+
     def wait_for(
         self, condition: Callable[[Iterable[Entity]], bool], timeout_s: float | None
     ) -> bool:

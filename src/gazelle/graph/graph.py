@@ -159,6 +159,7 @@ class Graph:
         remappings: Mapping[str, str] | None = None,
         anonymous: bool = False,
         rosout: bool = True,
+        is_ros2: bool = False,
     ) -> Node:
         """Add a node; one of the same name anywhere on the graph is told to shut down.
 
@@ -168,13 +169,14 @@ class Graph:
             remappings: names as in ``a:=b`` arguments.
             anonymous: make the name unique.
             rosout: announce ``/rosout``, where `Node.log` goes.
+            is_ros2: names follow ROS 2, where they may start with ``_``.
 
         Raises:
             IllegalNameError: the name is not legal.
         """
         if self._closed:
             raise GraphError("the graph is closed")
-        own = check_node_name(anonymous_name(name) if anonymous else name)
+        own = check_node_name(anonymous_name(name) if anonymous else name, is_ros2=is_ros2)
         if namespace is None:
             namespace = self._environ.get("ROS_NAMESPACE", "")
         namespace = resolve(namespace or "/", "/")
@@ -311,6 +313,8 @@ class Graph:
         if self._control is not None:
             self._control.close()
         self.parameter_share.close()
+        if self._keeper is not None:
+            self._keeper.settle()
         close_session(self.session)
         self.calls.wait_until_none(_LAST_CALLS_S)
         if self._keeper is not None:

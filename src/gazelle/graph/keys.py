@@ -40,6 +40,10 @@ _SPACE = "@ros2_lv"
 _OWN_SPACE = "@gazelle"
 _ATTACHMENT = struct.Struct("<qqB16s")
 _DEFAULT_DEPTH = 42
+_KEEP_ALL = "2"
+_MANUAL = "3"
+_S_TO_NS = 1_000_000_000
+_INFINITE_NS = 2**63 - 1
 
 
 class Kind(enum.StrEnum):
@@ -53,27 +57,70 @@ class Kind(enum.StrEnum):
 
 
 class Qos(NamedTuple):
-    """The part of a ROS 2 quality of service that this graph acts on."""
+    """A ROS 2 quality of service; the graph acts on the first three, the rest is told.
+
+    Attributes:
+        reliable: slow subscriptions are waited for.
+        latched: late subscriptions get the last message (transient local).
+        depth: most messages kept, 0 for all of them (keep all).
+        deadline_ns: longest time between two messages, 0 for no limit.
+        lifespan_ns: how long a message counts, 0 for ever.
+        manual: the publisher itself says that it lives.
+        lease_ns: how often it has to say so, 0 for never.
+    """
 
     reliable: bool = True
     latched: bool = False
     depth: int = _DEFAULT_DEPTH
+    deadline_ns: int = 0
+    lifespan_ns: int = 0
+    manual: bool = False
+    lease_ns: int = 0
 
     def to_key(self) -> str:
         """Write as in a token: only what differs from the default (reliable, volatile)."""
-        reliability = "" if self.reliable else "2"
-        durability = "1" if self.latched else ""
-        depth = "" if self.depth == _DEFAULT_DEPTH else str(self.depth)
-        return f"{reliability}:{durability}:,{depth}:,:,:,,"
+        depth = "" if self.depth in (0, _DEFAULT_DEPTH) else str(self.depth)
+        parts = (
+            "" if self.reliable else "2",
+            "1" if self.latched else "",
+            f"{'' if self.depth else _KEEP_ALL},{depth}",
+            _duration_key(self.deadline_ns),
+            _duration_key(self.lifespan_ns),
+            f"{_MANUAL if self.manual else ''},{_duration_key(self.lease_ns)}",
+        )
+        return ":".join(parts)
 
     @classmethod
     def from_key(cls, text: str) -> Qos:
         """Read what `to_key` or ``rmw_zenoh`` wrote; unknown parts count as default."""
-        parts = [*text.split(":"), "", "", ""]
-        depth = parts[2].partition(",")[2]
+        parts = [*text.split(":"), "", "", "", "", ""]
+        history, _, depth = parts[2].partition(",")
+        liveliness, _, lease = parts[5].partition(",")
+        kept = int(depth) if depth.isdigit() else _DEFAULT_DEPTH
         return cls(
-            parts[0] != "2", parts[1] == "1", int(depth) if depth.isdigit() else _DEFAULT_DEPTH
+            parts[0] != "2",
+            parts[1] == "1",
+            0 if history == _KEEP_ALL else kept,
+            _duration_ns(parts[3]),
+            _duration_ns(parts[4]),
+            liveliness == _MANUAL,
+            _duration_ns(lease),
         )
+
+
+def _duration_key(duration_ns: int) -> str:
+    if not duration_ns:
+        return ","
+    seconds, nanoseconds = divmod(duration_ns, _S_TO_NS)
+    return f"{seconds},{nanoseconds}"
+
+
+def _duration_ns(text: str) -> int:
+    seconds, _, nanoseconds = text.partition(",")
+    if not (seconds.isdigit() or nanoseconds.isdigit()):
+        return 0
+    found = int(seconds or 0) * _S_TO_NS + int(nanoseconds or 0)
+    return 0 if found >= _INFINITE_NS else found
 
 
 DEFAULT_QOS = Qos()

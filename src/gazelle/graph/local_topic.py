@@ -32,10 +32,10 @@ class LocalTopic:
         with self.lock:
             self.publishers = tuple(one for one in self.publishers if one is not publisher)
 
-    def add_subscription(self, subscription: Subscription) -> None:
-        """Add a subscription and hand it what the publishers of this process latched."""
+    def add_subscription(self, subscription: Subscription, *, latched: bool) -> None:
+        """Add a subscription and, if `latched`, hand it what publishers of this process latched."""
         with self.lock:
-            for publisher in self.publishers:
+            for publisher in self.publishers if latched else ():
                 publisher.hand_latched(subscription)
             self.subscriptions = (*self.subscriptions, subscription)
 

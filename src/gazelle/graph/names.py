@@ -84,8 +84,8 @@ def check_name(name: str, kind: str = "name") -> str:
     raise IllegalNameError(f"illegal {kind} '{name}': {_complaint(name)}")
 
 
-def check_node_name(name: str) -> str:
-    """Return a node's own name if it is legal.
+def check_node_name(name: str, *, is_ros2: bool = False) -> str:
+    """Return a node's own name if it is legal; ROS 2 takes one that starts with ``_`` as well.
 
     Raises:
         IllegalNameError: it is empty, has a namespace, or has an illegal character.
@@ -99,7 +99,7 @@ def check_node_name(name: str) -> str:
         )
     if "~" in name:
         raise IllegalNameError(f"illegal node name '{name}': node names may not contain '~'")
-    if is_legal_base(name):
+    if is_legal_base(name.lstrip("_") if is_ros2 else name):
         return name
     raise IllegalNameError(f"illegal node name '{name}': {_complaint(name)}")
 

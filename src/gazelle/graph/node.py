@@ -105,6 +105,7 @@ class Node:
         reliable: bool = True,
         queue_size: int = 10,
         copy_local: bool = False,
+        qos: Qos | None = None,
     ) -> Publisher:
         """Offer a topic.
 
@@ -117,11 +118,15 @@ class Node:
             queue_size: told to others; sending does not queue.
             copy_local: give subscriptions of this process a copy, for callers that go on
                 changing the message, as rospy's users may.
+            qos: told to others in place of `reliable` and `queue_size`, which act all the same.
         """
         message_class = wire.resolve_type(message_type)
-        qos = Qos(reliable, latch, queue_size)
-        entity = self._entity(Kind.PUBLISHER, topic, wire.type_name_of(message_class), qos=qos)
-        return self._keep(Publisher(self.graph, entity, message_class, copy_local=copy_local))
+        told = qos or Qos(reliable, latch, queue_size)
+        entity = self._entity(Kind.PUBLISHER, topic, wire.type_name_of(message_class), qos=told)
+        made = Publisher(
+            self.graph, entity, message_class, copy_local=copy_local, reliable=reliable
+        )
+        return self._keep(made)
 
     def create_subscription(
         self,
@@ -134,6 +139,7 @@ class Node:
         with_info: bool = False,
         inline: bool = False,
         announced: str = "",
+        qos: Qos | None = None,
     ) -> Subscription:
         """Receive a topic.
 
@@ -147,12 +153,14 @@ class Node:
             inline: call back in the thread that publishes (same process) or receives; the
                 callback must be short and must not wait for the graph.
             announced: the type that a subscription of any type shows to others.
+            qos: told to others; without it latched messages come, as in ROS 1, with it only when
+                it asks for them.
         """
         message_class = wire.resolve_type(message_type)
         any_type = announced or ANY_TYPE
         type_name = any_type if message_class is None else wire.type_name_of(message_class)
-        qos = Qos(depth=queue_size)
-        entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, qos=qos)
+        told = qos or Qos(depth=queue_size)
+        entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, qos=told)
         return self._keep(
             Subscription(
                 self.graph,
@@ -163,6 +171,7 @@ class Node:
                 with_info=with_info,
                 inline=inline,
                 queue_size=queue_size,
+                takes_latched=qos is None or qos.latched,
                 on_error=self._on_error,
             )
         )

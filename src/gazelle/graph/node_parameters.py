@@ -80,6 +80,7 @@ class NodeParameters:
         *,
         descriptors: Mapping[str, Descriptor] | None = None,
         allow_undeclared: bool = False,
+        strict: bool = False,
         run: Callable[[Callable[[], Any]], Any] = _at_once,
         now_ns: Callable[[], int] = lambda: 0,
     ) -> None:
@@ -92,6 +93,7 @@ class NodeParameters:
             on_set: hears changes before they count; returns why they are refused, or nothing.
             descriptors: what is said about them.
             allow_undeclared: setting a name that is not declared declares it.
+            strict: refuse 3 for 3.0, in rclpy's words.
             run: runs a request's work, for example in the thread that owns the parameters.
             now_ns: stamp of events.
         """
@@ -100,6 +102,7 @@ class NodeParameters:
         self._descriptors = dict(descriptors or {})
         self._on_set = on_set
         self._allow_undeclared = allow_undeclared
+        self._strict = strict
         self._now_ns = now_ns
         self._closables: list[_Closable] = []
         self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
@@ -167,9 +170,11 @@ class NodeParameters:
         if known.read_only:
             return f"parameter '{name}' cannot be set because it is read-only", value
         now = parameter_type(self.values[name])
-        value = _widened(value, now)
+        value = value if self._strict else _widened(value, now)
         wanted = now if now.check(value) else parameter_type(value)
         if wanted is not now and not known.dynamic_typing and now is not ParameterType.NOT_SET:
+            if self._strict:
+                return f"Wrong parameter type, expected '{now}' got '{wanted}'", value
             text = f"Wrong parameter type, parameter {{{name}}} is of type {{{now.word}}}, setting"
             return f"{text} it to {{{wanted.word}}} is not allowed.", value
         if not known.allows(value):

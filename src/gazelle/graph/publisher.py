@@ -30,7 +30,13 @@ class Publisher:
     """
 
     def __init__(
-        self, graph: Graph, entity: Entity, message_class: Any, *, copy_local: bool
+        self,
+        graph: Graph,
+        entity: Entity,
+        message_class: Any,
+        *,
+        copy_local: bool,
+        reliable: bool,
     ) -> None:
         """Declare the topic; use `Node.create_publisher`."""
         self.topic = entity.name
@@ -49,7 +55,9 @@ class Publisher:
         key = topic_key(graph.domain, self.topic, entity.type_name, entity.type_hash)
         graph.local.gids.add(self.gid)
         self._local = graph.local.topic(self.topic)
-        self._matcher, self._sender = _declare(graph.session, key, entity)
+        self._matcher, self._sender = _declare(
+            graph.session, key, reliable=reliable, latched=self.latch
+        )
         self._local.add_publisher(self)
         self._token: Any = graph.session.liveliness().declare_token(text)
 
@@ -152,7 +160,7 @@ class Publisher:
         return Attachment(self._sequence, time.time_ns(), self.gid)
 
 
-def _declare(session: Any, key: str, entity: Entity) -> tuple[Any, Any]:
+def _declare(session: Any, key: str, *, reliable: bool, latched: bool) -> tuple[Any, Any]:
     """Return the publisher that knows whether anybody listens, and the one that sends.
 
     They differ for latched topics: an advanced publisher keeps the last message for late
@@ -161,10 +169,10 @@ def _declare(session: Any, key: str, entity: Entity) -> tuple[Any, Any]:
     import zenoh
     import zenoh.ext
 
-    block = zenoh.CongestionControl.BLOCK if entity.qos.reliable else zenoh.CongestionControl.DROP
+    block = zenoh.CongestionControl.BLOCK if reliable else zenoh.CongestionControl.DROP
     remote = zenoh.Locality.REMOTE
     plain = session.declare_publisher(key, congestion_control=block, allowed_destination=remote)
-    if not entity.qos.latched:
+    if not latched:
         return plain, plain
     return plain, zenoh.ext.declare_advanced_publisher(
         session,

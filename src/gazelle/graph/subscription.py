@@ -33,12 +33,14 @@ class MessageInfo(NamedTuple):
         stamp_ns: wall time of publishing, nanoseconds since 1970.
         publisher: global name of the node, empty when it is gone already.
         type_name: ``pkg/msg/Name``.
+        gid: 16 bytes that name the publisher.
     """
 
     sequence: int
     stamp_ns: int
     publisher: str
     type_name: str
+    gid: bytes = bytes(16)
 
 
 class Subscription:
@@ -63,6 +65,7 @@ class Subscription:
         with_info: bool,
         inline: bool,
         queue_size: int,
+        takes_latched: bool,
         on_error: Callable[[str], None],
     ) -> None:
         """Declare the interest; use `Node.create_subscription`."""
@@ -82,10 +85,10 @@ class Subscription:
         self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
         self._take = self._handle if inline else self._mailbox.put
         self._local = graph.local.topic(self.topic)
-        self._local.add_subscription(self)
-        self._subscriber: Any = _declare(
-            graph.session, topic_selector(graph.domain, self.topic), self._on_sample
-        )
+        self._local.add_subscription(self, latched=takes_latched)
+        declare = _declare if takes_latched else _declare_plain
+        selector = topic_selector(graph.domain, self.topic)
+        self._subscriber: Any = declare(graph.session, selector, self._on_sample)
         self._token: Any = graph.session.liveliness().declare_token(token(graph.domain, entity))
 
     @property
@@ -173,7 +176,8 @@ class Subscription:
         name = type_or_name if isinstance(type_or_name, str) else wire.type_name_of(type_or_name)
         entity = self._graph.entity_with_gid(attachment.gid)
         publisher = entity.node if entity else ""
-        return MessageInfo(attachment.sequence, attachment.stamp_ns, publisher, name)
+        sequence, stamp_ns, gid = attachment
+        return MessageInfo(sequence, stamp_ns, publisher, name, gid)
 
     def _accepts(self, type_name: str) -> bool:
         own = self.entity.type_name
@@ -208,4 +212,14 @@ def _declare(session: Any, selector: str, callback: Callable[[Any], None]) -> An
         zenoh.handlers.Callback(callback, None, indirect=False),
         allowed_origin=zenoh.Locality.REMOTE,
         history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=1),
+    )
+
+
+def _declare_plain(session: Any, selector: str, callback: Callable[[Any], None]) -> Any:
+    import zenoh
+
+    return session.declare_subscriber(
+        selector,
+        zenoh.handlers.Callback(callback, None, indirect=False),
+        allowed_origin=zenoh.Locality.REMOTE,
     )

@@ -70,6 +70,15 @@ NUMPY_NAMES: dict[str, str] = {
 """numpy's name of every `struct` letter, without the byte order."""
 
 
+_IDL_NAMES = {
+    "bool": "boolean",
+    "byte": "octet",
+    "char": "uint8",
+    "float32": "float",
+    "float64": "double",
+}
+
+
 class FieldType(NamedTuple):
     """The type of a field.
 
@@ -95,6 +104,21 @@ class FieldType(NamedTuple):
     def is_string(self) -> bool:
         """Whether the base is a string, narrow or wide."""
         return self.base in ("string", "wstring")
+
+    @property
+    def idl(self) -> str:
+        """The type in the words of IDL, as ``get_fields_and_field_types`` of ROS 2 has it."""
+        base = _IDL_NAMES.get(self.base, self.base)
+        if self.is_message:
+            package, _, name = base.split("/")
+            base = f"{package}/{name}"
+        elif self.string_bound:
+            base = f"{base}<{self.string_bound}>"
+        if self.array is Array.ONE:
+            return base
+        if self.array is Array.FIXED:
+            return f"{base}[{self.size}]"
+        return f"sequence<{base}, {self.size}>" if self.size else f"sequence<{base}>"
 
     def text(self, generation: Generation) -> str:
         """Return the type as that generation writes it."""

@@ -69,7 +69,7 @@ class Message:
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
         """Return the types as text by field name, as rclpy's messages do."""
-        return {item.name: item.type.text(Generation.ROS2) for item in cls.FIELDS}
+        return {item.name: item.type.idl for item in cls.FIELDS}
 
 
 def canonical_name(name: str, part: str = "msg") -> str:

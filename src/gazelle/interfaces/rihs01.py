@@ -11,7 +11,7 @@ from gazelle.interfaces import library
 from gazelle.interfaces.definition import Array, Field, FieldType, Generation
 from gazelle.interfaces.lookup import definition, split_name
 
-__all__ = ["type_hash"]
+__all__ = ["type_description", "type_hash"]
 
 _IDS = {
     "int8": 2,
@@ -51,15 +51,27 @@ def type_hash(name: str, part: str = "msg") -> str:
     return _type_hash("/".join(split_name(name, part)), library.revision())
 
 
-@cache
-def _type_hash(name: str, revision: int) -> str:
+def type_description(name: str) -> dict[str, Any]:
+    """Return what is hashed: ``type_description_interfaces/msg/TypeDescription`` as dictionaries.
+
+    Args:
+        name: full name of a message, service or action, or of a part of these two.
+
+    Raises:
+        NotFoundError: nothing defines it.
+    """
     referenced: dict[str, Any] = {}
     main = _description(name, referenced)
     referenced.pop(name, None)
-    described = {
+    return {
         "type_description": main,
         "referenced_type_descriptions": [referenced[key] for key in sorted(referenced)],
     }
+
+
+@cache
+def _type_hash(name: str, revision: int) -> str:
+    described = type_description(name)
     text = json.dumps(described, ensure_ascii=True, separators=(", ", ": "))
     return "RIHS01_" + hashlib.sha256(text.encode()).hexdigest()
 

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.graph.parameter_tree import ParameterTree
+
+if TYPE_CHECKING:
+    from gazelle.graph import Qos
 
 __all__ = ["LocalNode", "LocalParameters", "LocalPublisher", "LocalService", "LocalSubscription"]
 
@@ -132,8 +135,9 @@ class LocalNode:
         latch: bool = False,
         reliable: bool = True,
         queue_size: int = 10,
+        qos: Qos | None = None,
     ) -> LocalPublisher:
-        """Offer a topic; `reliable` and `queue_size` mean nothing without a transport."""
+        """Offer a topic; all but `latch` means nothing without a transport."""
         publisher = LocalPublisher(self, _absolute(topic), message_type, latch)
         self._publishers.append(publisher)
         return publisher

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from gazelle.graph import Qos
 
 __all__ = ["NodePort", "ParameterPort", "PublisherPort", "ServicePort", "SubscriptionPort"]
 
@@ -73,6 +76,7 @@ class NodePort(Protocol):
         latch: bool = ...,
         reliable: bool = ...,
         queue_size: int = ...,
+        qos: Qos | None = ...,
     ) -> PublisherPort:
         """Offer a topic."""
         ...

@@ -96,6 +96,91 @@ assert matched[1] == (1, 0, 0, -1), matched
     )
 
 
+def test_incompatible_quality_of_service_is_warned_of(program: Callable[..., Any]) -> None:
+    """Sentences of rclpy 9.1.2, with what is different here; the policies are Fast DDS's."""
+    running = program(
+        HEAD
+        + """
+from rclpy.duration import Duration
+got = []
+node.create_subscription(String, 'scan', got.append, 10)
+pub = node.create_publisher(String, 'scan', qos_profile_sensor_data)
+eager = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                   deadline=Duration(seconds=1))
+node.create_publisher(String, '/late', 1)
+node.create_subscription(String, '/late', print, eager)
+pub.publish(String(data='x'))
+for _ in range(40):
+    rclpy.spin_once(node, timeout_sec=0.01)
+assert got == [String(data='x')]
+print('fine')
+"""
+    )
+    assert running.wait() == 0, running.text
+    rest = "in ROS 2 (here they are). Last incompatible policy: "
+    for line in (
+        "[WARN] ",
+        "New publisher discovered on topic 'scan', offering incompatible QoS. "
+        f"No messages will be received from it {rest}RELIABILITY",
+        "New subscription discovered on topic 'scan', requesting incompatible QoS. "
+        f"No messages will be sent to it {rest}RELIABILITY",
+        f"topic '/late', offering incompatible QoS. No messages will be received from it {rest}"
+        "DEADLINE",
+    ):
+        assert line in running.text
+    assert running.text.count("incompatible QoS") == 4
+
+
+def test_quality_of_service_is_told_as_it_was_given(passes: Callable[..., Any]) -> None:
+    passes(
+        HEAD
+        + """
+from rclpy.duration import Duration
+from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
+mine = QoSProfile(depth=7, reliability=ReliabilityPolicy.BEST_EFFORT,
+                  deadline=Duration(seconds=1.5), liveliness=LivelinessPolicy.MANUAL_BY_TOPIC)
+node.create_subscription(String, 'told', print, mine)
+(info,) = node.get_subscriptions_info_by_topic('told')
+assert info.qos_profile == mine, info.qos_profile
+assert info.endpoint_type == TopicEndpointTypeEnum.SUBSCRIPTION
+lines = str(info).splitlines()
+assert lines[:3] == ['Node name: program', 'Node namespace: /', 'Topic type: std_msgs/msg/String']
+assert lines[6:] == ['QoS profile:', '  Reliability: BEST_EFFORT',
+    '  History (Depth): KEEP_LAST (7)', '  Durability: VOLATILE', '  Lifespan: Infinite',
+    '  Deadline: 1500000000 nanoseconds', '  Liveliness: MANUAL_BY_TOPIC',
+    '  Liveliness lease duration: Infinite'], lines
+node.create_subscription(String, 'all', print, QoSProfile(history=HistoryPolicy.KEEP_ALL))
+assert '  History (Depth): KEEP_ALL' in str(node.get_subscriptions_info_by_topic('all')[0])
+"""
+    )
+
+
+def test_callback_of_two_arguments_gets_where_a_message_came_from(
+    passes: Callable[..., Any],
+) -> None:
+    passes(
+        HEAD
+        + """
+import time
+got = []
+start = time.time_ns()
+node.create_subscription(String, 'chat', lambda message, info: got.append(info), 10)
+pub = node.create_publisher(String, 'chat', 10)
+for _ in range(2):
+    pub.publish(String(data='x'))
+spin(lambda: len(got) == 2)
+(end,) = node.get_publishers_info_by_topic('chat')
+for number, info in enumerate(got, 1):
+    assert sorted(info) == ['publication_sequence_number', 'publisher_gid',
+        'received_timestamp', 'reception_sequence_number', 'source_timestamp'], info
+    assert start <= info['source_timestamp'] <= info['received_timestamp'] <= time.time_ns()
+    assert info['publication_sequence_number'] == number
+    assert list(info['publisher_gid']['data']) == end.endpoint_gid
+    assert info['publisher_gid']['implementation_identifier'] == 'rmw_zenoh_cpp'
+"""
+    )
+
+
 def test_guard_condition_calls_once_for_several_triggers(passes: Callable[..., Any]) -> None:
     passes(
         HEAD
@@ -161,7 +246,7 @@ with rclpy.init(args=['p', 'mine', '--ros-args', '-r', 'a:=b']):
         assert node.count_services('/n/get_parameters') == 1
         latched = rclpy.qos.qos_profile_action_status_default
         node.create_publisher(String, 'once', latched).publish(String(data='x'))
-        ok, message = wait_for_message(String, node, 'once', time_to_wait=5)
+        ok, message = wait_for_message(String, node, 'once', qos_profile=latched, time_to_wait=5)
         assert ok and message.data == 'x'
         assert wait_for_message(String, node, 'never', time_to_wait=0.01) == (False, None)
         assert node.create_publisher(String, 'once', latched).wait_for_all_acked()

@@ -1,4 +1,4 @@
-"""Lifecycle nodes; the listed transitions and events are those of rclpy 11.1 with rcl_lifecycle."""
+"""Lifecycle nodes; transitions and events listed are those of rclpy 9.1.2 with rcl_lifecycle."""
 
 from __future__ import annotations
 

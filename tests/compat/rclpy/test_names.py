@@ -1,4 +1,4 @@
-"""Names that rclpy (rmw and rcl) takes and refuses; texts are those of rclpy 11.1."""
+"""Names that rclpy (rmw and rcl) takes and refuses; texts are those of rclpy 9.1.2."""
 
 from __future__ import annotations
 

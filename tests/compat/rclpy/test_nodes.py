@@ -137,13 +137,20 @@ publisher = node.create_publisher(String, 'chat', latched)
 publisher.publish(String(data='early'))
 got = []
 node.create_subscription(String, 'chat', lambda m, info: got.append((m.data, info)), latched)
-raw = []
-node.create_subscription(String, 'chat', raw.append, 1, raw=True)
+raw, late = [], []
+node.create_subscription(String, 'chat', raw.append, latched, raw=True)
+node.create_subscription(String, 'chat', late.append, 1)
 while len(got) < 1 or len(raw) < 1:
     rclpy.spin_once(node, timeout_sec=1)
 assert got[0][0] == 'early' and got[0][1]['source_timestamp'] > 0
 assert isinstance(raw[0], bytes)
-assert wait_for_message(String, node, 'chat', time_to_wait=5)[1].data == 'early'
+found = wait_for_message(String, node, 'chat', qos_profile=latched, time_to_wait=5)
+assert found[1].data == 'early'
+assert wait_for_message(String, node, 'chat', time_to_wait=0.05) == (False, None)
+publisher.publish(String(data='now'))
+while not late:
+    rclpy.spin_once(node, timeout_sec=1)
+assert late == [String(data='now')]
 assert wait_for_message(String, node, 'silence', time_to_wait=0.05) == (False, None)
 info = node.get_publishers_info_by_topic('chat')[0]
 assert info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL

@@ -42,7 +42,6 @@ __all__ = [
 
 _PARTS = {"msg": message_type, "srv": service_type, "action": action_type}
 _ELLIPSIS = "..."
-_IDL = {"float64": "double", "float32": "float", "bool": "boolean", "byte": "octet"}
 
 
 def get_message(identifier: str) -> Any:
@@ -234,22 +233,11 @@ def _shown(value: Any, kind: str, length: int | None, *, no_arr: bool, no_str: b
     if not isinstance(value, bytes | bytearray | list | tuple | np.ndarray):
         return to_plain(value)
     if no_arr:
-        return f"<{_idl(kind)}, length: {len(value)}>"
-    inner = kind.partition("[")[0].removeprefix("sequence<").rstrip(">")
+        return f"<{kind}, length: {len(value)}>"
     cut = len(value) if length is None else length
     items = value.tolist() if isinstance(value, np.ndarray) else list(value)
-    shown = [_shown(one, inner, length, no_arr=no_arr, no_str=no_str) for one in items[:cut]]
+    shown = [_shown(one, "", length, no_arr=no_arr, no_str=no_str) for one in items[:cut]]
     return [*shown, _ELLIPSIS] if len(items) > cut else shown
-
-
-def _idl(kind: str) -> str:
-    """Return an array's type as rosidl's Python classes name it: ``sequence<double>``."""
-    base, _, size = kind.partition("[")
-    base = _IDL.get(base, base)
-    size = size.rstrip("]")
-    if not size:
-        return f"sequence<{base}>"
-    return f"sequence<{base}, {size[2:]}>" if size.startswith("<=") else f"{base}[{size}]"
 
 
 def _as_dict(value: Any) -> Any:

@@ -44,7 +44,7 @@ class Duration:
         return f"Duration(nanoseconds={self._nanoseconds})"
 
     def __str__(self) -> str:
-        return f"{self._nanoseconds} nanoseconds"
+        return "Infinite" if self == Infinite else f"{self._nanoseconds} nanoseconds"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Duration) and self._nanoseconds == other.nanoseconds

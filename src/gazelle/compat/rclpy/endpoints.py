@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import inspect
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
-from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile
+from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, announced_qos
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
@@ -20,7 +21,9 @@ if TYPE_CHECKING:
     from gazelle.compat.rclpy.event_handler import EventWatch
     from gazelle.compat.rclpy.node import Node
 
-__all__ = ["Client", "Publisher", "Service", "Subscription", "check_type"]
+__all__ = ["RMW_IDENTIFIER", "Client", "Publisher", "Service", "Subscription", "check_type"]
+
+RMW_IDENTIFIER = "rmw_zenoh_cpp"
 
 
 class Publisher:
@@ -33,12 +36,12 @@ class Publisher:
         self.events: EventWatch | None = None
         self._node = node
         self._impl = node.graph_node.create_publisher(
-            topic,
+            node.resolve_topic_name(topic, only_expand=True),
             msg_type,
             latch=qos.is_latched,
             reliable=qos.is_reliable,
-            queue_size=qos.depth,
             copy_local=True,
+            qos=announced_qos(qos),
         )
 
     @property
@@ -109,11 +112,17 @@ class Subscription:
         self.events: EventWatch | None = None
         self._node = node
         depth = None if qos.history is HistoryPolicy.KEEP_ALL else max(qos.depth, 1)
-        self._messages: deque[tuple[Any, MessageInfo]] = deque(maxlen=depth)
+        self._messages: deque[tuple[Any, MessageInfo, int]] = deque(maxlen=depth)
         self._wants_info = _takes_two(callback)
         group.add_entity(self)
         self._impl = node.graph_node.create_subscription(
-            topic, msg_type, self._on_message, raw=raw, with_info=True, inline=True
+            node.resolve_topic_name(topic, only_expand=True),
+            msg_type,
+            self._on_message,
+            raw=raw,
+            with_info=True,
+            inline=True,
+            qos=announced_qos(qos),
         )
 
     @property
@@ -124,12 +133,12 @@ class Subscription:
     def take(self) -> Callable[[], Any] | None:
         """Return the call with the oldest message that waits."""
         try:
-            message, info = self._messages.popleft()
+            message, info, received_ns = self._messages.popleft()
         except IndexError:
             return None
         callback = self.callback
         if self._wants_info:
-            details = {"source_timestamp": info.stamp_ns, "received_timestamp": info.stamp_ns}
+            details = _details(info, received_ns)
             return lambda: callback(message, details)
         return lambda: callback(message)
 
@@ -149,7 +158,7 @@ class Subscription:
             message = message.data
         if self.events is not None:
             self.events.note()
-        self._messages.append((message, info))
+        self._messages.append((message, info, time.time_ns()))
         self._node.post(self)
 
 
@@ -170,7 +179,8 @@ class Service:
         self.callback_group = group
         self._node = node
         group.add_entity(self)
-        self._impl = node.graph_node.create_service(srv_name, srv_type, self._on_request)
+        full = node.resolve_service_name(srv_name, only_expand=True)
+        self._impl = node.graph_node.create_service(full, srv_type, self._on_request)
 
     @property
     def service_name(self) -> str:
@@ -197,7 +207,8 @@ class Client:
         self.srv_name = srv_name
         self.callback_group = group
         self._node = node
-        self._impl = node.graph_node.create_client(srv_name, srv_type)
+        full = node.resolve_service_name(srv_name, only_expand=True)
+        self._impl = node.graph_node.create_client(full, srv_type)
 
     @property
     def service_name(self) -> str:
@@ -293,6 +304,20 @@ def check_type(kind: Any, part: str) -> None:
         fits = hasattr(kind, "Goal")
     if not fits:
         raise AttributeError(f"{kind!r} is no {part} type of ROS 2")
+
+
+def _details(info: MessageInfo, received_ns: int) -> dict[str, Any]:
+    """Return rclpy's `MessageInfo`, a dictionary; wall times in nanoseconds since 1970."""
+    return {
+        "source_timestamp": info.stamp_ns,
+        "received_timestamp": received_ns,
+        "publication_sequence_number": info.sequence,
+        "reception_sequence_number": None,
+        "publisher_gid": {
+            "implementation_identifier": RMW_IDENTIFIER,
+            "data": info.gid,
+        },
+    }
 
 
 def _takes_two(callback: Callable[..., Any]) -> bool:

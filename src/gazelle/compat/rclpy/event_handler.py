@@ -13,7 +13,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.compat.rclpy.clock import Clock
 from gazelle.compat.rclpy.duration import Infinite
-from gazelle.compat.rclpy.qos import QoSPolicyKind, QoSProfile
+from gazelle.compat.rclpy.qos import (
+    QoSPolicyKind,
+    QoSProfile,
+    announced_qos,
+    clashing_policy,
+)
 from gazelle.compat.rclpy.time import ClockType
 from gazelle.compat.rclpy.work import Once
 from gazelle.graph import Entity, Kind
@@ -139,13 +144,15 @@ class EventWatch:
     def __init__(
         self,
         node: Node,
+        given_topic: str,
         topic: str,
         qos: QoSProfile,
         callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
         group: CallbackGroup,
     ) -> None:
         is_publisher = isinstance(callbacks, PublisherEventCallbacks)
-        self._node, self._topic, self._qos = node, topic, qos
+        self._node, self._given_topic, self._topic = node, given_topic, topic
+        self._qos = announced_qos(qos)
         self._callbacks, self._group = callbacks, group
         self._partner = Kind.SUBSCRIPTION if is_publisher else Kind.PUBLISHER
         self._total = self._current = self._incompatible = self._missed = 0
@@ -153,7 +160,10 @@ class EventWatch:
         self._partners: set[Entity] = set()
         self._timer: Any = None
         self._is_closed = False
-        if callbacks.matched or callbacks.incompatible_qos:
+        self._incompatible_callback = callbacks.incompatible_qos
+        if self._incompatible_callback is None and callbacks.use_default_callbacks:
+            self._incompatible_callback = self._warn
+        if callbacks.matched or self._incompatible_callback:
             discovery = node.graph_node.graph.discovery
             discovery.listen(self._on_entity)
             for entity in discovery.known():
@@ -170,6 +180,7 @@ class EventWatch:
     def close(self) -> None:
         """Watch no more."""
         self._is_closed = True
+        self._node.graph_node.graph.discovery.ignore(self._on_entity)
         if self._timer is not None:
             self._node.destroy_timer(self._timer)
 
@@ -188,17 +199,23 @@ class EventWatch:
         if policy is not None:
             self._incompatible += 1
             told = QoSIncompatibleInfo(self._incompatible, 1, policy)
-            self._call(self._callbacks.incompatible_qos, told)
+            self._call(self._incompatible_callback, told)
 
-    def _clash(self, publisher: Entity) -> QoSPolicyKind | None:
-        """Return the policy in which a publisher offers less than this subscription wants."""
-        if self._partner is not Kind.PUBLISHER:
-            return None
-        if self._qos.is_latched and not publisher.qos.latched:
-            return QoSPolicyKind.DURABILITY
-        if self._qos.is_reliable and not publisher.qos.reliable:
-            return QoSPolicyKind.RELIABILITY
-        return None
+    def _clash(self, partner: Entity) -> QoSPolicyKind | None:
+        if self._partner is Kind.PUBLISHER:
+            return clashing_policy(partner.qos, self._qos)
+        return clashing_policy(self._qos, partner.qos)
+
+    def _warn(self, info: QoSIncompatibleInfo) -> None:
+        is_publisher = self._partner is Kind.SUBSCRIPTION
+        partner = "subscription" if is_publisher else "publisher"
+        acts = "requesting" if is_publisher else "offering"
+        lost = "sent to it" if is_publisher else "received from it"
+        self._node.get_logger().warning(
+            f"New {partner} discovered on topic '{self._given_topic}', {acts} incompatible QoS. "
+            f"No messages will be {lost} in ROS 2 (here they are). "
+            f"Last incompatible policy: {info.last_policy_kind.name}"
+        )
 
     def _on_deadline(self) -> None:
         acted, self._has_acted = self._has_acted, False

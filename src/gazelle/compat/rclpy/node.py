@@ -25,10 +25,15 @@ from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.compat.rclpy.qos import QoSProfile, as_profile, qos_profile_services_default
 from gazelle.compat.rclpy.qos_overriding_options import QoSOverridingOptions, overridden
 from gazelle.compat.rclpy.timer import Rate, Timer
+from gazelle.compat.rclpy.type_descriptions import (
+    START_TYPE_DESCRIPTION_SERVICE_PARAM,
+    offer_type_descriptions,
+)
 from gazelle.compat.rclpy.work import Once, Work
 from gazelle.graph import ServiceRefusedError
 from gazelle.graph.names import resolve
 from gazelle.graph.node_parameters import NodeParameters
+from gazelle.interfaces import message_type
 
 __all__ = ["Node"]
 
@@ -87,6 +92,7 @@ class Node(ParameterHolder, GraphQueries):
             namespace=resolve(space or "/"),
             remappings={**given.remappings(name), **own.remappings(name)},
             rosout=enable_rosout,
+            is_ros2=True,
         )
         self.is_destroyed = False
         self.executor: Any = None
@@ -104,6 +110,7 @@ class Node(ParameterHolder, GraphQueries):
         overrides = {**given.parameters(self._full), **own.parameters(self._full)}
         overrides |= {one.name: one.value for one in parameter_overrides or []}
         self._offer_parameters(overrides, allow_undeclared_parameters)
+        self._offer_type_descriptions()
         if automatically_declare_parameters_from_overrides:
             for key in [key for key in overrides if not self.has_parameter(key)]:
                 self.declare_parameter(key, overrides[key])
@@ -170,8 +177,12 @@ class Node(ParameterHolder, GraphQueries):
         return self._logger
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Return a service's global name, after remapping unless only expanded."""
-        return self.resolve_topic_name(service, only_expand=only_expand)
+        """Return a service's global name, after remapping unless only expanded.
+
+        Raises:
+            InvalidServiceNameException: the name is not legal.
+        """
+        return self._resolved(service, only_expand=only_expand, is_service=True)
 
     def create_publisher(
         self,
@@ -202,9 +213,9 @@ class Node(ParameterHolder, GraphQueries):
         full = self.resolve_topic_name(topic)
         qos = overridden(self, full, "publisher", as_profile(qos_profile), qos_overriding_options)
         made = self._keep(publisher_class(self, msg_type, topic, qos))
-        if event_callbacks is not None:
-            group = callback_group or self._default_callback_group
-            made.events = EventWatch(self, full, qos, event_callbacks, group)
+        group = callback_group or self._default_callback_group
+        events = event_callbacks or PublisherEventCallbacks()
+        made.events = EventWatch(self, topic, full, qos, events, group)
         return made
 
     def create_subscription(
@@ -240,8 +251,8 @@ class Node(ParameterHolder, GraphQueries):
         given = as_profile(qos_profile)
         qos = overridden(self, full, "subscription", given, qos_overriding_options)
         made = self._keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
-        if event_callbacks is not None:
-            made.events = EventWatch(self, full, qos, event_callbacks, group)
+        events = event_callbacks or SubscriptionEventCallbacks()
+        made.events = EventWatch(self, topic, full, qos, events, group)
         return made
 
     def create_service(
@@ -429,10 +440,19 @@ class Node(ParameterHolder, GraphQueries):
             {_SIM_TIME: overrides.get(_SIM_TIME) is True},
             self._on_set,
             allow_undeclared=allow_undeclared,
+            strict=True,
             run=self._run_parameters,
             now_ns=self._clock.now_ns,
         )
         self._take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
+
+    def _offer_type_descriptions(self) -> None:
+        name = START_TYPE_DESCRIPTION_SERVICE_PARAM
+        text = "If enabled, start the ~/get_type_description service."
+        known = message_type("rcl_interfaces/msg/ParameterDescriptor")
+        descriptor = known(name=name, type=1, description=text, read_only=True)
+        if self.declare_parameter(name, True, descriptor).value:
+            offer_type_descriptions(self.graph_node)
 
     def _run_parameters(self, command: Callable[[], Any]) -> Any:
         """Handle a request in the thread that spins, so that callbacks meet no other thread."""

@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
+import enum
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from gazelle.compat.rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from gazelle.compat.rclpy.names import (
+    expand_topic_name,
+    validate_full_topic_name,
+    validate_topic_name,
+)
+from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, profile_of
 from gazelle.graph import Entity, Graph, Kind, NodeInfo
 from gazelle.graph import Node as GraphNode
 from gazelle.graph.actions import actions_of
+from gazelle.graph.keys import entity_gid, token
 from gazelle.graph.names import join, resolve, split
 
-__all__ = ["GraphQueries", "TopicEndpointInfo"]
+__all__ = ["GraphQueries", "TopicEndpointInfo", "TopicEndpointTypeEnum"]
 
 NamesAndTypes = list[tuple[str, list[str]]]
+
+
+class TopicEndpointTypeEnum(enum.IntEnum):
+    """Which end of a topic is meant."""
+
+    INVALID = 0
+    PUBLISHER = 1
+    SUBSCRIPTION = 2
 
 
 class TopicEndpointInfo(NamedTuple):
@@ -23,8 +38,31 @@ class TopicEndpointInfo(NamedTuple):
     node_namespace: str
     topic_type: str
     topic_type_hash: str
-    endpoint_type: str
+    endpoint_type: TopicEndpointTypeEnum
+    endpoint_gid: list[int]
     qos_profile: QoSProfile
+
+    def __str__(self) -> str:
+        qos = self.qos_profile
+        depth = f" ({qos.depth})" if qos.history is HistoryPolicy.KEEP_LAST else ""
+        return "\n".join(
+            [
+                f"Node name: {self.node_name}",
+                f"Node namespace: {self.node_namespace}",
+                f"Topic type: {self.topic_type}",
+                f"Topic type hash: {self.topic_type_hash}",
+                f"Endpoint type: {self.endpoint_type.name}",
+                f"GID: {'.'.join(f'{byte:02x}' for byte in self.endpoint_gid)}",
+                "QoS profile:",
+                f"  Reliability: {qos.reliability.name}",
+                f"  History (Depth): {qos.history.name}{depth}",
+                f"  Durability: {qos.durability.name}",
+                f"  Lifespan: {qos.lifespan}",
+                f"  Deadline: {qos.deadline}",
+                f"  Liveliness: {qos.liveliness.name}",
+                f"  Liveliness lease duration: {qos.liveliness_lease_duration}",
+            ]
+        )
 
 
 class GraphQueries:
@@ -122,19 +160,29 @@ class GraphQueries:
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the publishers of a topic."""
-        full = self.graph_node.resolve_name(topic_name)
-        return [_endpoint(one, "PUBLISHER") for one in self._graph.publishers_info(full)]
+        full = self.resolve_topic_name(topic_name)
+        return [_endpoint(self._graph, one) for one in self._graph.publishers_info(full)]
 
     def get_subscriptions_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the subscriptions of a topic."""
-        full = self.graph_node.resolve_name(topic_name)
-        return [_endpoint(one, "SUBSCRIPTION") for one in self._graph.subscriptions_info(full)]
+        full = self.resolve_topic_name(topic_name)
+        return [_endpoint(self._graph, one) for one in self._graph.subscriptions_info(full)]
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return a topic's global name, after remapping unless only expanded."""
-        if only_expand:
-            return resolve(topic, self.graph_node.namespace, node=self.graph_node.name)
-        return self.graph_node.resolve_name(topic)
+        """Return a topic's global name, after remapping unless only expanded.
+
+        Raises:
+            InvalidTopicNameException: the name is not legal.
+            ValueError: it has an unknown substitution.
+        """
+        return self._resolved(topic, only_expand=only_expand)
+
+    def _resolved(self, name: str, *, only_expand: bool = False, is_service: bool = False) -> str:
+        validate_topic_name(name, is_service=is_service)
+        namespace, own = split(self.graph_node.name)
+        full = expand_topic_name(name, own, namespace)
+        validate_full_topic_name(full, is_service=is_service)
+        return full if only_expand else self.graph_node.resolve_name(full)
 
     @property
     def _graph(self) -> Graph:
@@ -152,12 +200,15 @@ def _pairs(endpoints: Any) -> NamesAndTypes:
     return [(one.name, [one.type_name]) for one in endpoints]
 
 
-def _endpoint(entity: Entity, kind: str) -> TopicEndpointInfo:
-    namespace, name = split(entity.node)
-    latched, reliable = entity.qos.latched, entity.qos.reliable
-    qos = QoSProfile(
-        depth=entity.qos.depth,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+def _endpoint(graph: Graph, one: Entity) -> TopicEndpointInfo:
+    namespace, name = split(one.node)
+    is_publisher = one.kind is Kind.PUBLISHER
+    return TopicEndpointInfo(
+        name,
+        namespace,
+        one.type_name,
+        one.type_hash,
+        TopicEndpointTypeEnum.PUBLISHER if is_publisher else TopicEndpointTypeEnum.SUBSCRIPTION,
+        list(entity_gid(token(graph.domain, one))),
+        profile_of(one.qos),
     )
-    return TopicEndpointInfo(name, namespace, entity.type_name, entity.type_hash, kind, qos)

@@ -280,7 +280,7 @@ def _descriptor(message: Any) -> Descriptor:
 
 
 def _fitting(name: str, given: Any, declared: Any, known: Descriptor) -> Any:
-    """Return an override in the declared type; 3 is taken for 3.0, as people write it.
+    """Return an override if it is of the declared type; 3 is no double, as in rclpy.
 
     Raises:
         InvalidParameterTypeException: it is of another type.
@@ -290,10 +290,6 @@ def _fitting(name: str, given: Any, declared: Any, known: Descriptor) -> Any:
     wanted = declared
     if not isinstance(declared, Parameter.Type):
         wanted = Parameter.Type.from_parameter_value(declared)
-    if wanted is Parameter.Type.DOUBLE and type(given) is int:
-        return float(given)
-    if wanted is Parameter.Type.DOUBLE_ARRAY and isinstance(given, list):
-        given = [float(item) if type(item) is int else item for item in given]
     if not wanted.check(given):
         kind = Parameter.Type.from_parameter_value(given).name
         raise InvalidParameterTypeException(name, given, given=kind, desired=wanted.name)

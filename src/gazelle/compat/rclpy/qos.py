@@ -6,6 +6,7 @@ import enum
 from typing import Any
 
 from gazelle.compat.rclpy.duration import Duration, Infinite
+from gazelle.graph import Qos
 
 __all__ = [
     "DurabilityPolicy",
@@ -21,7 +22,10 @@ __all__ = [
     "QoSProfile",
     "QoSReliabilityPolicy",
     "ReliabilityPolicy",
+    "announced_qos",
     "as_profile",
+    "clashing_policy",
+    "profile_of",
     "qos_check_compatible",
     "qos_policy_name_from_kind",
     "qos_profile_action_status_default",
@@ -211,6 +215,63 @@ def as_profile(qos: QoSProfile | int) -> QoSProfile:
     if qos < 0:
         raise ValueError("history depth must be greater than or equal to zero")
     return QoSProfile(depth=qos)
+
+
+def announced_qos(profile: QoSProfile) -> Qos:
+    """Return what others are told about an end with this profile."""
+    keeps_all = profile.history is HistoryPolicy.KEEP_ALL
+    return Qos(
+        profile.is_reliable,
+        profile.is_latched,
+        0 if keeps_all else profile.depth or Qos().depth,
+        _limit_ns(profile.deadline),
+        _limit_ns(profile.lifespan),
+        profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,
+        _limit_ns(profile.liveliness_lease_duration),
+    )
+
+
+def profile_of(qos: Qos) -> QoSProfile:
+    """Return the profile that another end tells."""
+    latched, manual = qos.latched, LivelinessPolicy.MANUAL_BY_TOPIC
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST if qos.depth else HistoryPolicy.KEEP_ALL,
+        depth=qos.depth,
+        reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+        deadline=_duration_of(qos.deadline_ns),
+        lifespan=_duration_of(qos.lifespan_ns),
+        liveliness=manual if qos.manual else LivelinessPolicy.AUTOMATIC,
+        liveliness_lease_duration=_duration_of(qos.lease_ns),
+    )
+
+
+def clashing_policy(offered: Qos, wanted: Qos) -> QoSPolicyKind | None:
+    """Return why DDS would not connect a publisher and a subscription, None when it would.
+
+    Of several policies it is the one with the highest number in DDS, as Fast DDS tells.
+    """
+    if wanted.reliable and not offered.reliable:
+        return QoSPolicyKind.RELIABILITY
+    if (wanted.manual and not offered.manual) or _is_longer(offered.lease_ns, wanted.lease_ns):
+        return QoSPolicyKind.LIVELINESS
+    if _is_longer(offered.deadline_ns, wanted.deadline_ns):
+        return QoSPolicyKind.DEADLINE
+    if wanted.latched and not offered.latched:
+        return QoSPolicyKind.DURABILITY
+    return None
+
+
+def _is_longer(offered_ns: int, wanted_ns: int) -> bool:
+    return wanted_ns > 0 and not 0 < offered_ns <= wanted_ns
+
+
+def _limit_ns(limit: Duration) -> int:
+    return 0 if limit == Infinite else max(limit.nanoseconds, 0)
+
+
+def _duration_of(limit_ns: int) -> Duration:
+    return Duration(nanoseconds=limit_ns) if limit_ns else Infinite
 
 
 def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.client_library import ok, shutdown, try_shutdown
 from gazelle.compat.rclpy.context import get_default_context
-from gazelle.compat.rclpy.qos import QoSProfile
+from gazelle.compat.rclpy.endpoints import RMW_IDENTIFIER
+from gazelle.compat.rclpy.qos import QoSProfile, announced_qos, as_profile
 
 if TYPE_CHECKING:
     from gazelle.compat.rclpy.node import Node
@@ -31,7 +32,7 @@ __all__ = [
 
 def get_rmw_implementation_identifier() -> str:
     """Return the name of the transport, which is that of ROS 2 over Zenoh."""
-    return "rmw_zenoh_cpp"
+    return RMW_IDENTIFIER
 
 
 def get_available_rmw_implementations() -> set[str]:
@@ -65,8 +66,9 @@ def wait_for_message(
         got.append(message)
         arrived.set()
 
-    del qos_profile
-    subscription = node.graph_node.create_subscription(topic, msg_type, take, inline=True)
+    qos = announced_qos(as_profile(qos_profile))
+    full = node.resolve_topic_name(topic, only_expand=True)
+    subscription = node.graph_node.create_subscription(full, msg_type, take, inline=True, qos=qos)
     deadline = None if time_to_wait < 0 else time.monotonic() + time_to_wait
     try:
         while node.context.ok() and not got:

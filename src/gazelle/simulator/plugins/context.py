@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.description.model import Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.graph import Qos
 from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from gazelle.simulator.frames import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
     from gazelle.workspace import Workspace
+
+_DEPTH = 10
+_SENSOR_DEPTH = 5
 
 __all__ = ["Host", "PluginContext", "Resources", "SensorPlace", "join_names"]
 
@@ -74,8 +78,13 @@ class Resources:
         self, topic: str, type_name: str, *, latch: bool = False, reliable: bool = True
     ) -> PublisherPort:
         """Offer a topic; in lock-step all are reliable, so that every run is heard the same."""
+        # gazebo_ros offers sensors as SensorDataQoS().reliable(); here they wait for nobody.
         made = self._host.node.create_publisher(
-            topic, message_class(type_name), latch=latch, reliable=reliable or self._host.lockstep
+            topic,
+            message_class(type_name),
+            latch=latch,
+            reliable=reliable or self._host.lockstep,
+            qos=Qos(latched=latch, depth=_DEPTH if reliable else _SENSOR_DEPTH),
         )
         self._closers.append(made.unregister)
         return made
