@@ -38,6 +38,7 @@ __all__ = [
     "message_class",
     "ros1_connection",
     "ros1_name_of",
+    "split_texts",
     "wire_name_of",
 ]
 
@@ -142,6 +143,12 @@ def learn_definitions(connections: Iterable[Connection]) -> tuple[str, ...]:
 _GENERATIONS = {Encoding.ROS1: Generation.ROS1, Encoding.CDR: Generation.ROS2}
 
 
+def split_texts(one: Connection) -> list[tuple[str, str]]:
+    """Return the names and texts of the type and of all that it contains, as the bag has them."""
+    first, *rest = _PART.split(one.definition)
+    return [(one.type_name, first), *zip(rest[::2], rest[1::2], strict=True)]
+
+
 def _known_sum(one: Connection) -> str:
     try:
         if one.encoding is Encoding.ROS1:
@@ -155,8 +162,7 @@ def _known_sum(one: Connection) -> str:
 def _teach(one: Connection) -> None:
     """Define a type; what it contains only where that is not known, or differs too."""
     generation = _GENERATIONS[one.encoding]
-    first, *rest = _PART.split(one.definition)
-    parts = list(zip(rest[::2], rest[1::2], strict=True))
+    (_, first), *parts = split_texts(one)
     _define(one.type_name, first, generation)
     for name, text in parts:
         if not exists("/".join(split_name(name))):
