@@ -49,7 +49,7 @@ COMMANDS: dict[str, Command] = {
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
     "tf_monitor": Command("gazelle.cli.tf.monitor", "print delays and rates of frames"),
     "view_frames": Command("gazelle.cli.tf.view_frames", "draw the tree of frames"),
-    "bridge": Command("gazelle.cli.bridge", "join real ROS: ros1"),
+    "bridge": Command("gazelle.cli.bridge", "join real ROS and viewers: ros1, foxglove"),
     "doctor": Command(
         "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"
     ),

@@ -18,6 +18,7 @@ class _Bridge(NamedTuple):
 
 # Each module has ``main(argv) -> int``.
 _BRIDGES = {
+    "foxglove": _Bridge("gazelle.cli.bridge.foxglove", "Foxglove and viewers of its protocol"),
     "ros1": _Bridge("gazelle.cli.bridge.ros1", "nodes and tools of an installed ROS 1"),
 }
 

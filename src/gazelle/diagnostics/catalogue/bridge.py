@@ -1,4 +1,4 @@
-"""Codes of the bridges to real ROS."""
+"""Codes of the bridges to real ROS and to viewers."""
 
 from __future__ import annotations
 
@@ -7,6 +7,15 @@ from gazelle.diagnostics.catalogue.entry import Entry
 __all__ = ["ENTRIES"]
 
 ENTRIES = (
+    Entry(
+        "bridge.foxglove-port-taken",
+        "error",
+        "The bridge for Foxglove cannot listen on its port",
+        "Another program, perhaps another bridge, has the port, or the address is not one of this "
+        "machine.",
+        "end the other program, or choose another port with --port",
+        "Couldn't initialize websocket server",
+    ),
     Entry(
         "bridge.master-port-taken",
         "error",
@@ -22,6 +31,15 @@ ENTRIES = (
         "The bridge is the master only on its own machine.",
         "start roscore there, or point ROS_MASTER_URI at this machine",
         "Unable to register with master node: master may not be running yet. Will keep trying.",
+    ),
+    Entry(
+        "bridge.no-foxglove-sdk",
+        "error",
+        "The bridge for Foxglove needs the package foxglove-sdk",
+        "It has the WebSocket server that viewers connect to, and weighs too much (19 MB) for "
+        "those who never use one.",
+        "pip install 'gazelle-sim[foxglove]'",
+        "No module named 'foxglove'",
     ),
     Entry(
         "bridge.not-open",
