@@ -204,7 +204,7 @@ def test_taken_port_is_told() -> None:
     pytest.importorskip("foxglove", reason="needs pip install 'gazelle-sim[foxglove]'")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        with pytest.raises(GraphError, match=r"bridge\.foxglove-port-taken") as raised:
+        with pytest.raises(GraphError, match="bridge.foxglove-port-taken") as raised:
             SdkViewers(_nobody(), host="127.0.0.1", port=port, allow=())
     assert f"port {port} of 127.0.0.1 cannot be had: " in str(raised.value)
     assert "fix: end the other program, or choose another port with --port" in str(raised.value)
@@ -212,7 +212,7 @@ def test_taken_port_is_told() -> None:
 
 def test_missing_package_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "foxglove", None)
-    with pytest.raises(GraphError, match=r"bridge\.no-foxglove-sdk") as raised:
+    with pytest.raises(GraphError, match="bridge.no-foxglove-sdk") as raised:
         SdkViewers(_nobody(), host="127.0.0.1", port=0, allow=())
     assert "pip install 'gazelle-sim[foxglove]'" in str(raised.value)
 
