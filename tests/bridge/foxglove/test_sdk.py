@@ -204,17 +204,19 @@ def test_taken_port_is_told() -> None:
     pytest.importorskip("foxglove", reason="needs pip install 'gazelle-sim[foxglove]'")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        with pytest.raises(GraphError, match="bridge.foxglove-port-taken") as raised:
+        with pytest.raises(GraphError, match="cannot be had") as raised:
             SdkViewers(_nobody(), host="127.0.0.1", port=port, allow=())
     assert f"port {port} of 127.0.0.1 cannot be had: " in str(raised.value)
+    assert "[bridge.foxglove-port-taken]" in str(raised.value)
     assert "fix: end the other program, or choose another port with --port" in str(raised.value)
 
 
 def test_missing_package_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "foxglove", None)
-    with pytest.raises(GraphError, match="bridge.no-foxglove-sdk") as raised:
+    with pytest.raises(GraphError, match="is not installed") as raised:
         SdkViewers(_nobody(), host="127.0.0.1", port=0, allow=())
-    assert "pip install 'gazelle-sim[foxglove]'" in str(raised.value)
+    assert "[bridge.no-foxglove-sdk]" in str(raised.value)
+    assert "fix: pip install 'gazelle-sim[foxglove]'" in str(raised.value)
 
 
 class _Nobody:
