@@ -15,6 +15,7 @@ from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
+from gazelle.simulator.viewing import offer_views
 from gazelle.simulator.world_server import WorldServer
 from gazelle.workspace import Workspace
 
@@ -106,6 +107,7 @@ def _serve_world(
         ros2=offers_ros2(options),
         report=lambda found: _show(found, verbose=options.verbose),
     )
+    offer_views(server)
     node.log("info", "Finished loading Gazebo ROS API Plugin.")
     node.log("info", "Physics dynamic reconfigure ready.")
     threading.Thread(target=_stop_with, args=(stop, server), daemon=True).start()

@@ -1,0 +1,41 @@
+"""Offers the topics and the service of viewers."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from gazelle.errors import GazelleError
+from gazelle.simulator.viewing.broadcast import Broadcast
+from gazelle.simulator.viewing.requests import Requests
+
+if TYPE_CHECKING:
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["offer_views"]
+
+
+def offer_views(server: WorldServer) -> None:
+    """Publish ``/_gazelle/*`` while somebody looks, and answer ``/_gazelle/do``.
+
+    Nothing is computed for a topic that nobody listens to.
+    """
+    resources = server.world_resources
+    broadcast = Broadcast(server, resources)
+    requests = Requests(server, broadcast.touch)
+
+    def answer(request: Any, response: Any) -> None:
+        response.response = json.dumps(_answer(requests, request.request))
+
+    resources.service("/_gazelle/do", "gazelle_msgs/Do", answer)
+    resources.on_close(broadcast.close)
+    broadcast.start()
+
+
+def _answer(requests: Requests, text: str) -> dict[str, Any]:
+    try:
+        return {"value": requests.handle(json.loads(text))}
+    except GazelleError as error:
+        return {"error": {"message": str(error)}}
+    except (TypeError, ValueError, KeyError) as error:
+        return {"error": {"message": f"not a request: {type(error).__name__}: {error}"}}

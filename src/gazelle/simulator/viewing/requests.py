@@ -1,0 +1,179 @@
+"""What a viewer may ask of the world beyond ``/gazebo/*``: one method for each ``op``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from gazelle.description.model import Model
+from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics.nearest import nearest_names
+from gazelle.errors import GazelleError, NotFoundError
+from gazelle.geometry import Pose
+from gazelle.simulator.pace import Mode
+from gazelle.simulator.viewing.joint_control import Gains, JointControl
+from gazelle.simulator.viewing.properties import (
+    joint_rows,
+    link_rows,
+    model_rows,
+    set_property,
+)
+
+if TYPE_CHECKING:
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["Requests"]
+
+_Request = Mapping[str, Any]
+_LIGHT_COLOURS = ("diffuse", "specular")
+
+
+class Requests:
+    """Answers requests; they run between two steps, in the thread that owns the world."""
+
+    def __init__(self, server: WorldServer, touch: Callable[[], None]) -> None:
+        """Answer for a world.
+
+        Args:
+            server: the world.
+            touch: called after a change that only the scene's picture shows.
+        """
+        self._server = server
+        self._touch = touch
+        self._joints = JointControl(server)
+        self._methods: dict[str, Callable[[_Request], Any]] = {
+            "factor": self._factor,
+            "joint": self._joint,
+            "light": self._light,
+            "properties": self._properties,
+            "set_pose": self._set_pose,
+            "set_property": self._set_property,
+        }
+
+    def handle(self, request: _Request) -> Any:
+        """Do what is asked for and return JSON's kind of value.
+
+        Raises:
+            GazelleError: it is unknown, or cannot be done.
+        """
+        name = str(request.get("op", ""))
+        method = self._methods.get(name)
+        if method is None:
+            hint = did_you_mean(name, self._methods) or f"there are: {', '.join(self._methods)}"
+            raise GazelleError(f"unknown request '{name}'; {hint}")
+        return method(request)
+
+    def _factor(self, request: _Request) -> Any:
+        """Change the wanted real-time factor; 0 is as fast as possible."""
+        wanted = float(request["wanted_rtf"])
+        if not 0.0 <= wanted <= 1000.0:
+            raise GazelleError(f"wanted_rtf is {wanted:g}; it has to be from 0 to 1000")
+        server = self._server
+        if server.mode is Mode.LOCKSTEP:
+            raise GazelleError("the world runs in lock-step: as fast as possible, always")
+        server.mode = Mode.REAL_TIME if wanted > 0.0 else Mode.FAST
+        server.pace.factor = wanted
+        server.pace.restart(server.time_ns)
+        return {"wanted_rtf": wanted}
+
+    def _joint(self, request: _Request) -> Any:
+        """Give a joint a force, a position or a velocity; with none of them it is freed."""
+        name = f"{request['model']}::{request['joint']}"
+        gains = Gains(*(float(request.get(key, default)) for key, default in _GAINS.items()))
+        if request.get("force") is not None:
+            self._joints.push(name, float(request["force"]))
+        elif request.get("position") is not None:
+            self._joints.hold(name, float(request["position"]), gains)
+        elif request.get("velocity") is not None:
+            self._joints.turn(name, float(request["velocity"]), gains)
+        else:
+            self._joints.free(name)
+        return {}
+
+    def _light(self, request: _Request) -> Any:
+        """Change a light's colours, pose, direction, range or shadows."""
+        sensors = self._server.sensors
+        name = str(request["name"])
+        light = next((one for one in sensors.lights if one.name == name), None)
+        if light is None:
+            names = [one.name for one in sensors.lights]
+            raise NotFoundError("light", name, nearest=nearest_names(name, names))
+        changes: dict[str, Any] = {
+            key: _rgba(request[key]) for key in _LIGHT_COLOURS if key in request
+        }
+        if "pose" in request:
+            changes["T_parent_light"] = _pose(request["pose"])
+        if "direction" in request:
+            changes["direction"] = tuple(float(value) for value in request["direction"])
+        for key in ("range_m", "intensity"):
+            if key in request:
+                changes[key] = float(request[key])
+        if "cast_shadows" in request:
+            changes["cast_shadows"] = bool(request["cast_shadows"])
+        changed = replace(light, **changes)
+        sensors.lights = tuple(changed if one is light else one for one in sensors.lights)
+        self._touch()
+        return {}
+
+    def _properties(self, request: _Request) -> Any:
+        """Return the inspector's rows of a model, a link or a joint."""
+        engine, model = self._server.engine, self._model(request)
+        link, joint = str(request.get("link") or ""), str(request.get("joint") or "")
+        if link:
+            description = engine.description_of_link(f"{model.name}::{link}")
+            rows = link_rows(engine, model, description)
+        elif joint:
+            rows = joint_rows(engine, model, engine.description_of_joint(f"{model.name}::{joint}"))
+        else:
+            rows = model_rows(engine, model)
+        return [row._asdict() for row in rows]
+
+    def _set_property(self, request: _Request) -> Any:
+        """Change one row."""
+        link, joint = str(request.get("link") or ""), str(request.get("joint") or "")
+        set_property(
+            self._server.engine,
+            self._model(request),
+            str(request["name"]),
+            request["value"],
+            link=link,
+            joint=joint,
+        )
+        return {}
+
+    def _set_pose(self, request: _Request) -> Any:
+        """Put a model somewhere, at rest: what a gizmo does while it is dragged."""
+        engine, model = self._server.engine, self._model(request)
+        engine.set_model_pose(model.name, _pose(request["pose"]))
+        if not model.static:
+            engine.set_model_velocity(model.name, _STILL, _STILL)
+        return {}
+
+    def _model(self, request: _Request) -> Model:
+        name = str(request["model"])
+        world = self._server.engine.world
+        model = world.model(name)
+        if model is None:
+            names = [one.name for one in world.models]
+            raise NotFoundError("model", name, nearest=nearest_names(name, names))
+        return model
+
+
+_GAINS = Gains()._asdict()
+_STILL = (0.0, 0.0, 0.0)
+
+
+def _pose(values: Any) -> Pose:
+    numbers = [float(value) for value in values]
+    if len(numbers) != 7:
+        raise GazelleError(f"a pose has 7 numbers (x y z qx qy qz qw), not {len(numbers)}")
+    x, y, z, qx, qy, qz, qw = numbers
+    length = sum(value * value for value in (qx, qy, qz, qw)) ** 0.5
+    if not 1e-6 < length < 1e6:
+        raise GazelleError("the pose's quaternion has no direction")
+    return Pose((x, y, z), (qx / length, qy / length, qz / length, qw / length))
+
+
+def _rgba(values: Any) -> tuple[float, ...]:
+    return tuple(float(value) for value in values)
