@@ -78,7 +78,7 @@ class Launched:
         if self._graph is None:
             from gazelle.graph import Graph
 
-            self.wait_for_line("setting /run_id to")
+            self.wait_for_line("ROS_MASTER_URI=")
             self._graph = Graph.open(port=self.port, role="client", environ={})
         return self._graph
 

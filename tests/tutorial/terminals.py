@@ -62,8 +62,10 @@ class Terminal:
         return self.ended(code, timeout_s)
 
     def start(self, line: str, pattern: str) -> str:
-        """Type a line and return the shown line that matches as soon as it is there."""
+        """Type a line and return what matches in its output as soon as it is there."""
         self.type(f"{line}\r")
+        self.wait_for(r"\n")
+        self._mark = self.text.index("\n", self._mark)
         return self.wait_for(pattern)
 
     def interrupt(self, *, code: int | None = None) -> str:
@@ -90,7 +92,7 @@ class Terminal:
 
         with self._changed:
             assert self._changed.wait_for(found, timeout_s), (
-                f"{pattern!r} is not shown:\n{self.text[self._mark:]}"
+                f"{pattern!r} is not shown:\n{self.text[self._mark :]}"
             )
             return found()
 

@@ -31,7 +31,25 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words[0] == "--version":
         print(f"gazelle {__version__}")
         return 0
-    return _run(words[0], words[1:])
+    code: int | str | None = 1
+    try:
+        code = _run(words[0], words[1:])
+    except SystemExit as stop:
+        code = stop.code
+        raise
+    finally:
+        if code:
+            _tell_of_printed_characters(words[0], words[1:])
+    return code
+
+
+def _tell_of_printed_characters(name: str, rest: list[str]) -> None:
+    if all(word.isascii() for word in rest):
+        return
+    from gazelle.cli.typography import printed_characters
+
+    for line in printed_characters(rest):
+        print(f"{name}: {line}", file=sys.stderr)
 
 
 def _run(name: str, rest: list[str]) -> int:

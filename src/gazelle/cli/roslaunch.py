@@ -86,6 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--disable-title", action="store_true", help="accepted: kept off where no terminal is")
     add("--sigint-timeout", type=float, default=15.0, help="seconds after SIGINT")
     add("--sigterm-timeout", type=float, default=2.0, help="seconds after SIGTERM")
+    add("--no-bridge", action="store_true", help="do not join a real ROS that runs")
     add("--fast", action="store_true", help="simulate as fast as possible")
     add(
         "--lockstep",
@@ -138,6 +139,7 @@ def _launch_options(options: argparse.Namespace) -> LaunchOptions:
         simulator_args=tuple(words),
         lockstep=options.lockstep,
         iterations=options.iters,
+        bridge=not options.no_bridge,
         stop_times=StopTimes(options.sigint_timeout, options.sigterm_timeout),
     )
 

@@ -9,6 +9,7 @@ import sys
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
+from gazelle.launch.lockstep import is_simulator
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]
@@ -42,6 +43,11 @@ def main(argv: list[str]) -> int:
     words = [*prefix, *found.command, *rest]
     environment = node_environment(os.environ, workspace)
     sys.stdout.flush()
+    if is_simulator(found):
+        # Nothing else that is run here needs the graph.
+        from gazelle.launch.real_ros import start_bridges
+
+        start_bridges(environment)
     try:
         os.execvpe(words[0], words, environment)  # noqa: S606 - running the node is the purpose
     except OSError as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from datetime import datetime
 from typing import Any, TextIO
 
 import yaml
@@ -18,11 +19,16 @@ _LONGEST_VALUE = 20
 
 
 class Console:
-    """Writes lines as roslaunch does."""
+    """Writes lines as roslaunch does, to the terminal and to a log file."""
 
     def __init__(self, stream: TextIO | None = None) -> None:
         self._stream = stream or sys.stdout
         self._coloured = self._stream.isatty()
+        self._log: TextIO | None = None
+
+    def keep(self, log: TextIO | None) -> None:
+        """Write every line to an open file too, from now on; None ends that."""
+        self._log = log
 
     def plain(self, text: str) -> None:
         """Write a line."""
@@ -34,13 +40,18 @@ class Console:
 
     def error(self, text: str) -> None:
         """Write a line about a failure."""
-        self._write(text, _RED)
+        self._write(text, _RED, "ERROR")
 
     def warning(self, text: str) -> None:
         """Write a line about something to look at."""
-        self._write(text, _YELLOW)
+        self._write(text, _YELLOW, "WARNING")
 
-    def _write(self, text: str, colour: str) -> None:
+    def _write(self, text: str, colour: str, level: str = "INFO") -> None:
+        if self._log is not None:
+            # The format of the original's log files.
+            time_text = datetime.now().strftime("%Y-%m-%d %H:%M:%S,%f")[:-3]
+            self._log.write(f"[roslaunch][{level}] {time_text}: {text}\n")
+            self._log.flush()
         shown = f"{colour}{text}{_RESET}" if colour and self._coloured else text
         self._stream.write(shown + "\n")
         self._stream.flush()

@@ -42,11 +42,13 @@ class Executable:
         command: words to execute, the node's own arguments follow.
         builtin: the built-in node, None for a file.
         folder: folder of the file, for ``cwd="node"``.
+        takes_ros_words: ``__name:=`` and the like follow too.
     """
 
     command: tuple[str, ...]
     builtin: BuiltinNode | None = None
     folder: Path | None = None
+    takes_ros_words: bool = True
 
 
 def find_executable(
@@ -71,7 +73,7 @@ def find_executable(
         return Executable(words)
     builtin = builtin_node(package, type_name)
     if builtin is not None:
-        words = (sys.executable, "-m", "gazelle.nodes", f"{builtin.package}/{builtin.type}")
+        words = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
         return Executable(words, builtin)
     native = _native(package, type_name, os.environ if environ is None else environ)
     if native is not None:

@@ -6,7 +6,6 @@ import contextlib
 import os
 import sys
 import threading
-import uuid
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -35,6 +34,8 @@ from gazelle.launch.lockstep import (
     starts_in_turn,
     with_simulator_words,
 )
+from gazelle.launch.real_ros import join, real_ros
+from gazelle.launch.run_log import RunLog, begin_log, run_log
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.workspace import Workspace
 
@@ -61,6 +62,8 @@ class LaunchOptions:
         simulator_args: words added to every simulator server (``--fast``, ``--lockstep``).
         lockstep: every run is the same: time stands still until all spawners have ended.
         iterations: the launch ends after so many steps of the simulator, 0 for never.
+        stop_times: patience at the end.
+        bridge: join a real ROS that is there.
     """
 
     screen: bool = False
@@ -74,6 +77,7 @@ class LaunchOptions:
     lockstep: bool = False
     iterations: int = 0
     stop_times: StopTimes | None = None
+    bridge: bool = True
 
 
 def launch(
@@ -100,38 +104,53 @@ def launch(
         LaunchError: the graph cannot be opened.
     """
     console = Console()
-    run_id = options.run_id or str(uuid.uuid1())
-    log_folder = _log_folder(run_id)
-    console.plain(f"... logging to {log_folder}/roslaunch-{os.uname().nodename}-{os.getpid()}.log")
-    console.plain("Press Ctrl-C to interrupt\n")
-    nodes, missing = find_executables(config, workspace, diagnostics, options)
-    render(diagnostics)
-    environ = _environ(options)
     with _graph(options, console) as graph:
-        _set_params(config, graph, run_id)
-        if options.show_summary:
-            console.plain(summary(config, {**config.params, **_core_params()}))
-        _announce(graph, console, title, run_id)
-        environment = {
-            **node_environment(environ, workspace),
-            TEXT_FILES_VARIABLE: os.pathsep.join(_text_files(config, log_folder)),
-        }
-        run = _Run(graph, workspace, console)
-        supervisor = Supervisor(
-            environment,
-            log_folder,
-            _cwd(environ),
-            console=console,
-            stop_times=options.stop_times,
-            on_end=run.ended,
-            on_ready=run.ready,
-        )
-        if missing and not nodes:
-            console.error("none of the nodes can be started, roslaunch will exit")
-            return 1
-        code = run(supervisor, nodes, in_turn=options.lockstep and starts_in_turn(nodes))
+        seen = real_ros(os.environ, graph.node_names) if options.bridge else []
+        log = run_log(graph, options.run_id, next((one.run_id for one in seen if one.run_id), ""))
+        with begin_log(console, log.folder):
+            nodes, missing = find_executables(config, workspace, diagnostics, options)
+            render(diagnostics)
+            run = _Run(graph, workspace, console)
+            environment = _environment(config, options, workspace, log)
+            supervisor = _supervisor(run, environment, log, options, console)
+            hopeless = bool(missing) and not nodes
+            if not hopeless:
+                join(seen, supervisor, graph, console)
+            _set_params(config, graph, log.run_id)
+            if options.show_summary:
+                console.plain(summary(config, {**config.params, **_core_params()}))
+            _announce(graph, console, title, log)
+            if hopeless:
+                console.error("none of the nodes can be started, roslaunch will exit")
+                return 1
+            code = run(supervisor, nodes, in_turn=options.lockstep and starts_in_turn(nodes))
     console.bold("done")
     return 1 if missing else code
+
+
+def _environment(
+    config: LaunchConfig, options: LaunchOptions, workspace: Workspace, log: RunLog
+) -> Mapping[str, str]:
+    text_files = os.pathsep.join(_text_files(config, log.folder))
+    return {**node_environment(_environ(options), workspace), TEXT_FILES_VARIABLE: text_files}
+
+
+def _supervisor(
+    run: _Run,
+    environment: Mapping[str, str],
+    log: RunLog,
+    options: LaunchOptions,
+    console: Console,
+) -> Supervisor:
+    return Supervisor(
+        environment,
+        log.folder,
+        _cwd(environment),
+        console=console,
+        stop_times=options.stop_times,
+        on_end=run.ended,
+        on_ready=run.ready,
+    )
 
 
 class _Run:
@@ -262,7 +281,8 @@ def _set_params(config: LaunchConfig, graph: Graph, run_id: str) -> None:
         bare = name.rstrip("/") or "/"
         if store.has(bare):
             store.delete(bare)
-    for name, value in {**_core_params(), "/run_id": run_id, **config.params}.items():
+    core = {name: value for name, value in _core_params().items() if not store.has(name)}
+    for name, value in {**core, "/run_id": run_id, **config.params}.items():
         store.set(name, value)
     for dump in config.dumps:
         text = yaml.safe_dump(store.get(dump.namespace), default_flow_style=False)
@@ -286,11 +306,12 @@ def _core_params() -> dict[str, Any]:
     return {"/rosdistro": "noetic\n", "/rosversion": "1.16.0\n"}
 
 
-def _announce(graph: Graph, console: Console, title: str, run_id: str) -> None:
+def _announce(graph: Graph, console: Console, title: str, log: RunLog) -> None:
     if sys.stdout.isatty():
         sys.stdout.write(f"\x1b]2;{title}\x07")
     console.bold(f"ROS_MASTER_URI=http://localhost:{graph.port}/")
-    console.bold(f"setting /run_id to {run_id}")
+    if log.is_new:
+        console.bold(f"setting /run_id to {log.run_id}")
 
 
 def _environ(options: LaunchOptions) -> Mapping[str, str]:
@@ -304,16 +325,3 @@ def _cwd(environ: Mapping[str, str]) -> Path:
     home = ros_home(environ)
     home.mkdir(parents=True, exist_ok=True)
     return home
-
-
-def _log_folder(run_id: str) -> Path:
-    """Make ``~/.ros/log/RUN_ID`` and let ``latest`` point at it."""
-    root = Path(os.environ.get("ROS_LOG_DIR") or ros_home(os.environ) / "log")
-    folder = root / run_id
-    folder.mkdir(parents=True, exist_ok=True)
-    link = root / "latest"
-    if link.is_symlink() or not link.exists():
-        part = root / f".latest-{os.getpid()}"
-        part.symlink_to(folder)
-        part.replace(link)
-    return folder

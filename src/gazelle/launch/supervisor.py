@@ -145,7 +145,9 @@ class Supervisor:
         """
         executable = self._executables[label]
         stem = self._log_folder / label
-        words = (*executable.command, *node_words(spec), f"__log:={stem}.log")
+        words = executable.command
+        if executable.takes_ros_words:
+            words = (*words, *node_words(spec), f"__log:={stem}.log")
         process = LaunchedProcess(label, spec, words, stem)
         builtin = executable.builtin
         if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:

@@ -31,12 +31,13 @@ USAGE = """Commands:
 Options:
     --namespace <ns>     - namespace of the controller manager
     --restore            - reload-libraries: load and start again what was there"""
+_PROGRAMS = frozenset({"controller_manager", "pr2_controller_manager"})
 _SHORT = {"lt": "list-types", "lc": "list", "sp": "spawn", "kl": "kill"}
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Run one command and end."""
-    if arguments.name == "controller_manager":
+    if arguments.name in _PROGRAMS:
         # The manager itself may be called so.
         arguments = replace(arguments, name=anonymous_name("controller_manager"))
     node = start_node(arguments, graph)

@@ -109,7 +109,7 @@ def run_node(
         raise GazelleError(f"'{request['node']}' is not a built-in node")
     arguments = read_arguments(
         request["argv"],
-        node.name or type_name,
+        node.name or type_name.partition(".")[0],
         namespace=request.get("namespace", "/"),
         output=request.get("output", "screen"),
         ready=ready,

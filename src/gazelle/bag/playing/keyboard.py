@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import select
 import sys
 import threading
@@ -17,9 +18,10 @@ _LOOK_S = 0.2
 def keyboard(on_key: Callable[[str], None]) -> Iterator[None]:
     """Call `on_key` with every key pressed inside the block; the terminal is put back after it.
 
-    Where standard input is no terminal, nothing is read.
+    Where standard input is no terminal, or the shell runs this in the background (``&``), nothing
+    is read: the system would stop a background process that touches its terminal.
     """
-    if not sys.stdin or not sys.stdin.isatty():
+    if not sys.stdin or not sys.stdin.isatty() or not _is_in_front():
         yield
         return
     import termios
@@ -43,3 +45,8 @@ def keyboard(on_key: Callable[[str], None]) -> Iterator[None]:
         ended.set()
         reader.join(2 * _LOOK_S)
         termios.tcsetattr(number, termios.TCSADRAIN, before)
+
+
+def _is_in_front() -> bool:
+    """Return whether the terminal's keys are for this process."""
+    return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()

@@ -1,0 +1,108 @@
+"""Launches and simulators join a real ROS that runs, unless they are told not to."""
+
+from __future__ import annotations
+
+import shutil
+import socket
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.bridge.ros1.real import Ros1
+
+from gazelle.launch.real_ros import real_ros
+
+Run = Callable[..., Any]
+_WORLD = '<sdf version="1.6"><world name="w"/></sdf>'
+
+
+@pytest.fixture
+def other_port(free_port: int) -> int:
+    """A port for another graph."""
+    return free_port + 9_000
+
+
+@pytest.fixture
+def master(gazelle: Run, other_port: int) -> Any:
+    """A master of ROS 1 with a graph of its own behind it."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        number = str(probe.getsockname()[1])
+    run = gazelle("bridge", "ros1", "--port", number, port=other_port)
+    run.wait_for_line("the bridge is the master at")
+    run.uri = f"http://127.0.0.1:{number}"
+    return run
+
+
+def test_a_launch_joins_the_master_it_finds(launch: Run, node: Run, master: Any) -> None:
+    master.graph.parameters.set("/run_id", "run-of-the-master")
+    master.graph.parameters.set("/x", 1)
+    body = '<param name="x" value="3"/>' + node("n", "node=n")
+    run = launch(body, ROS_MASTER_URI=master.uri)
+    run.wait_for_line(rf"a ROS 1 master runs at {master.uri}/ \(pid {master.popen.pid}\): gazelle")
+    run.wait_for_line("the bridge has joined the master")
+    master.eventually(lambda: "/n" in master.graph.node_names())
+    # What the launch sets counts, as with roslaunch.
+    master.eventually(lambda: master.graph.parameters.get("/x") == 3)
+    assert "/log/run-of-the-master/roslaunch-" in run.lines[0]
+    assert "setting /run_id" not in run.text
+    second = launch(node("m", "node=m"), ROS_MASTER_URI=master.uri)
+    master.eventually(lambda: "/m" in master.graph.node_names())
+    assert "gazelle bridge" not in second.text
+    assert second.stop() == run.stop() == 0
+    assert run.processes() == {}
+
+
+@pytest.mark.parametrize("way", ["option", "variable"])
+def test_a_launch_keeps_apart_when_told(launch: Run, node: Run, master: Any, way: str) -> None:
+    words = ("--no-bridge",) if way == "option" else ()
+    variables = {} if way == "option" else {"GAZELLE_BRIDGE": "no"}
+    run = launch(
+        node("n", "say=alone", output="screen"), *words, ROS_MASTER_URI=master.uri, **variables
+    )
+    assert run.wait() == 0
+    assert "alone" in run.lines
+    assert "ROS 1 master" not in run.text
+
+
+@pytest.mark.parametrize("words", [("gazebo",), ("rosrun", "gazebo_ros", "gzserver")])
+def test_a_simulator_joins_and_takes_the_bridge_along(
+    gazelle: Run, master: Any, words: tuple[str, ...], tmp_path: Path
+) -> None:
+    (tmp_path / "w.world").write_text(_WORLD, encoding="utf-8")
+    run = gazelle(*words, "w.world", ROS_MASTER_URI=master.uri)
+    run.wait_for_line("gazelle bridge ros1 joins it")
+    master.eventually(lambda: "/gazebo" in master.graph.node_names())
+    assert run.stop() == 0
+    run.eventually(lambda: run.processes() == {})
+
+
+def test_what_is_no_master_is_left_alone() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        uri = f"http://127.0.0.1:{silent.getsockname()[1]}"
+        assert real_ros({"ROS_MASTER_URI": uri}, tuple) == []
+    assert real_ros({"ROS_MASTER_URI": uri}, tuple) == []
+    assert real_ros({"ROS_MASTER_URI": "localhost"}, tuple) == []
+    assert real_ros({}, tuple) == []
+
+
+def test_the_real_roscore_is_joined(
+    launch: Run, node: Run, tmp_path: Path, other_port: int
+) -> None:
+    if not shutil.which("roscore", path="/usr/bin"):
+        pytest.skip("ROS 1 is not installed (apt-get install ros-core)")
+    uri = f"http://localhost:{other_port}"
+    ros1 = Ros1(uri, tmp_path)
+    with ros1.running("/usr/bin/roscore", "-p", str(other_port)) as core:
+        assert core.stdout is not None
+        for line in core.stdout:
+            if "started core service [/rosout]" in line:
+                break
+        run = launch('<param name="x" value="3"/>' + node("n", "node=n"), ROS_MASTER_URI=uri)
+        run.wait_for_line("the bridge has joined the master")
+        run.eventually(lambda: "/n" in ros1("/usr/bin/rosnode", "list").split())
+        assert ros1("/usr/bin/rosparam", "get", "/x") == "3\n"
+        # The log is gathered by the real one alone.
+        assert ros1("/usr/bin/rosnode", "list").split() == ["/n", "/rosout"]
+        assert run.stop() == 0
