@@ -1,25 +1,63 @@
-"""What `rosgraph` is in Gazelle: a master's answers from the graph."""
+"""What `rosgraph` is in Gazelle: a master's answers from the graph, and names."""
 
 from __future__ import annotations
 
 import os
+import socket
 from typing import Any
 
-from gazelle.compat.rospy.client import Master as _Answers
+from gazelle.compat.rospy import client
 from gazelle.compat.rospy.errors import ROSException
+from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 
-__all__ = ["Master", "MasterException", "get_master_uri", "is_master_online"]
+__all__ = [
+    "ROS_HOSTNAME",
+    "ROS_IP",
+    "ROS_MASTER_URI",
+    "ROS_NAMESPACE",
+    "Master",
+    "MasterError",
+    "MasterException",
+    "MasterFailure",
+    "get_host_name",
+    "get_local_address",
+    "get_master_uri",
+    "is_master_online",
+]
+
+ROS_HOSTNAME = "ROS_HOSTNAME"
+ROS_IP = "ROS_IP"
+ROS_MASTER_URI = "ROS_MASTER_URI"
+ROS_NAMESPACE = "ROS_NAMESPACE"
 
 
 class MasterException(Exception):  # noqa: N818 - rosgraph's name
     """There is no graph to ask."""
 
 
+class MasterFailure(MasterException):
+    """The master failed, which a graph does not."""
+
+
+class MasterError(MasterException):
+    """A question has no answer."""
+
+
 def get_master_uri() -> str:
     """Return ``ROS_MASTER_URI``."""
-    return os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    return os.environ.get(ROS_MASTER_URI, "http://localhost:11311")
+
+
+def get_host_name() -> str:
+    """Return this machine's name, or what ``ROS_HOSTNAME`` or ``ROS_IP`` says."""
+    return os.environ.get(ROS_HOSTNAME) or os.environ.get(ROS_IP) or socket.gethostname()
+
+
+def get_local_address() -> str:
+    """Return the address others would use, which is this machine's own."""
+    return os.environ.get(ROS_HOSTNAME) or os.environ.get(ROS_IP) or "127.0.0.1"
 
 
 def is_master_online(master_uri: str | None = None) -> bool:
@@ -33,36 +71,103 @@ def is_master_online(master_uri: str | None = None) -> bool:
 
 
 class Master:
-    """Answers without the status that the XML-RPC calls carry."""
+    """Answers without the status that the XML-RPC calls carry.
+
+    Every call raises `MasterException` when no graph is running.
+    """
 
     def __init__(self, caller_id: str = "", master_uri: str | None = None) -> None:
         del caller_id
         self.master_uri = master_uri or get_master_uri()
-        self._answers = _Answers()
+        self._answers = client.Master()
 
     def getSystemState(self) -> list[Any]:
-        """Return publishers, subscribers and services by name.
-
-        Raises:
-            MasterException: no graph is running.
-        """
-        return list(self._checked(self._answers.getSystemState))
+        """Return publishers, subscribers and services by name."""
+        return list(self._checked(lambda: self._answers.getSystemState()[2]))
 
     def getPublishedTopics(self, subgraph: str = "/") -> list[list[str]]:
-        """Return ``[topic, type]`` of all published topics.
+        """Return ``[topic, type]`` of all published topics."""
+        return list(self._checked(lambda: self._answers.getPublishedTopics(subgraph)[2]))
 
-        Raises:
-            MasterException: no graph is running.
-        """
-        return list(self._checked(lambda: self._answers.getPublishedTopics(subgraph)))
+    def getTopicTypes(self) -> list[list[str]]:
+        """Return ``[topic, type]`` of all topics, subscribed ones too."""
+        from gazelle.interfaces import ros1_type_of
+
+        topics = self._checked(lambda: STATE.open_graph().topics())
+        return [[one.name, ros1_type_of(one.type_name)] for one in topics]
 
     def getPid(self) -> int:
-        """Return this process's number.
+        """Return this process's number."""
+        return int(self._checked(lambda: self._answers.getPid()[2]))
+
+    def getUri(self) -> str:
+        """Return the master's address."""
+        return self.master_uri
+
+    def lookupNode(self, node_name: str) -> str:
+        """Return a node's address, ``gazelle://HOST/PID``: nodes have no XML-RPC of their own.
 
         Raises:
-            MasterException: no graph is running.
+            MasterError: there is no such node.
         """
-        return int(self._checked(self._answers.getPid))
+        from gazelle.errors import NotFoundError
+
+        try:
+            info = self._checked(lambda: STATE.open_graph().node_info(node_name))
+        except NotFoundError as error:
+            raise MasterError(f"unknown node [{node_name}]") from error
+        return f"gazelle://{info.host}/{info.pid}"
+
+    def lookupService(self, service: str) -> str:
+        """Return the address of the node that answers a service.
+
+        Raises:
+            MasterError: nobody does.
+        """
+        services = self._checked(lambda: STATE.open_graph().services())
+        for one in services:
+            if one.name == STATE.resolved(service) and one.servers:
+                return self.lookupNode(one.servers[0])
+        raise MasterError("no provider")
+
+    def getParam(self, key: str) -> Any:
+        """Return a parameter.
+
+        Raises:
+            MasterError: it is not set.
+        """
+        try:
+            return self._checked(lambda: client.get_param(key))
+        except KeyError as error:
+            raise MasterError(f"Parameter [{key}] is not set") from error
+
+    def setParam(self, key: str, value: Any) -> None:
+        """Set a parameter."""
+        self._checked(lambda: client.set_param(key, value))
+
+    def hasParam(self, key: str) -> bool:
+        """Return whether a parameter is set."""
+        return bool(self._checked(lambda: client.has_param(key)))
+
+    def deleteParam(self, key: str) -> None:
+        """Delete a parameter.
+
+        Raises:
+            MasterError: it is not set.
+        """
+        try:
+            self._checked(lambda: client.delete_param(key))
+        except KeyError as error:
+            raise MasterError(f"parameter [{key}] is not set") from error
+
+    def searchParam(self, key: str) -> str | None:
+        """Return the global name of a parameter, looked for from here upwards."""
+        found: str | None = self._checked(lambda: client.search_param(key))
+        return found
+
+    def getParamNames(self) -> list[str]:
+        """Return the names of all parameters."""
+        return list(self._checked(client.get_param_names))
 
     def is_online(self) -> bool:
         """Return whether a graph is running."""
@@ -70,6 +175,6 @@ class Master:
 
     def _checked(self, call: Any) -> Any:
         try:
-            return call()[2]
+            return call()
         except ROSException as error:
             raise MasterException(str(error)) from error

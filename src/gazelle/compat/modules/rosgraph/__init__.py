@@ -1,5 +1,18 @@
-"""rosgraph: the calls that node programs make to a master."""
+"""rosgraph: the calls that node programs make to a master, and names."""
 
-from gazelle.compat.rosgraph import Master, MasterException, get_master_uri, is_master_online
+import sys as _sys
 
-__all__ = ["Master", "MasterException", "get_master_uri", "is_master_online"]
+from gazelle.compat import rosgraph as _rosgraph
+from gazelle.compat import rosgraph_names as names
+from gazelle.compat.rosgraph import *  # noqa: F403
+from gazelle.graph.names import parse_command_line as _parse
+
+masterapi = network = rosenv = _rosgraph
+for _name in ("masterapi", "network", "rosenv"):
+    _sys.modules[f"{__name__}.{_name}"] = _rosgraph
+_sys.modules[f"{__name__}.names"] = names
+
+
+def myargv(argv=None):
+    """Return the arguments without ROS's own."""
+    return _parse(_sys.argv if argv is None else argv).rest

@@ -1,0 +1,3 @@
+"""ros_numpy.occupancy_grid."""
+
+from gazelle.compat.arrays.grid import *  # noqa: F403

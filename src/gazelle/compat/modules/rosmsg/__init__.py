@@ -1,0 +1,3 @@
+"""rosmsg, answered by Gazelle's interfaces."""
+
+from gazelle.compat.commands.rosmsg import *  # noqa: F403
