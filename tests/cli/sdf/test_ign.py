@@ -112,10 +112,8 @@ def test_specification_is_described_with_types_and_defaults(capsys: Capture) -> 
 
 
 def test_front_names_what_to_use_instead(capsys: Capture) -> None:
-    assert main(["ign", "topic", "-l"]) == 255
-    assert capsys.readouterr().err == (
-        "gazelle: ign topic is not here; use rostopic list, rostopic echo\n"
-    )
+    assert main(["ign", "msg", "-l"]) == 255
+    assert capsys.readouterr().err == ("gazelle: ign msg is not here; use rosmsg show\n")
     assert main(["ign", "sdf", "--versions"]) == 0
     assert capsys.readouterr().out == "12.3.0\n"
     assert main(["ign", "sdf", "--force-version", "9", "-k", "x"]) == 255

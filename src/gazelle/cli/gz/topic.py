@@ -18,7 +18,7 @@ from gazelle.cli.rostopic.rate import RateMeter
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import RawMessage, TopicInfo
 
-__all__ = ["COMMAND", "message_fields", "run"]
+__all__ = ["COMMAND", "find_topic", "message_fields", "run"]
 
 COMMAND = GzCommand(
     "topic",
@@ -71,7 +71,7 @@ def run(options: Mapping[str, str]) -> int:
         if way is None:
             print("\n".join(sorted(one.name for one in link.graph.topics())))
         else:
-            ways[way](link, _find(link, options[way]), duration_s)
+            ways[way](link, find_topic(link, options[way]), duration_s)
     return 0
 
 
@@ -89,7 +89,7 @@ def message_fields(message: Any) -> Any:
     return [message_fields(one) for one in items] if isinstance(items, (list, tuple)) else items
 
 
-def _find(link: WorldLink, word: str) -> TopicInfo:
+def find_topic(link: WorldLink, word: str) -> TopicInfo:
     """Return the topic of this name; Gazebo takes the end of a name too.
 
     Raises:

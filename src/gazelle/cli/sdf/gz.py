@@ -1,4 +1,4 @@
-"""``gz``: Gazebo 11's tool; ``gz sdf`` is here, what talks to a world in `gazelle.cli.gz`."""
+"""``gz``: Gazebo 11's tool and the new one's; ``gz sdf`` is here, the rest in `gazelle.cli.gz`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
 from gazelle.cli.gz import front
+from gazelle.cli.gz.new import front as new_front
 from gazelle.cli.sdf.other_commands import GZ_INSTEAD
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
 from gazelle.description.sdformat.document import to_text
@@ -28,6 +29,8 @@ List of commands:
   joint     Modify properties of a joint
   model     Modify properties of a model
   sdf       Converts between SDF versions, and provides info about SDF files
+  service   Lists and calls services, as the new Gazebo has them
+  sim       Run a world with the options of the new Gazebo
   stats     Print statistics about a running gzserver instance.
   topic     Lists information about topics on a Gazebo master
   world     Modify world properties
@@ -73,6 +76,11 @@ def main(argv: list[str]) -> int:
     if name == "help" and argv[1:] == ["sdf"]:
         say([_SDF_HELP])
         return 0
+    if name == "help" and len(argv) == 2 and argv[1] in {"service", "sim"}:
+        new_front.explain(argv[1])
+        return 0
+    if new_front.is_new(name, argv[1:]):
+        return new_front.run(name, argv[1:])
     if name == "help" and len(argv) == 2 and argv[1] in front.WORLD_COMMANDS:
         front.explain(argv[1])
         return 0

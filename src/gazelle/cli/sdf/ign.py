@@ -1,7 +1,8 @@
-"""``ign``: the front of Ignition's commands, of which Gazelle has ``ign sdf``."""
+"""``ign``: the front of Ignition's commands; those about a world are in `gazelle.cli.gz.new`."""
 
 from __future__ import annotations
 
+from gazelle.cli.gz.new import front
 from gazelle.cli.sdf.ign_sdf import USAGE, run_sdf
 from gazelle.cli.sdf.other_commands import IGN_INSTEAD
 from gazelle.cli.sdf.sdf_file import say
@@ -10,6 +11,7 @@ __all__ = ["main"]
 
 _VERSION = "12.3.0"
 _FAILED = 255
+_OF_WORLD = {"gazebo": "sim", "model": "model", "service": "service", "topic": "topic"}
 _HELP = """The 'ign' command provides a command line interface to the ignition tools.
 
   ign <command> [options]
@@ -17,7 +19,11 @@ _HELP = """The 'ign' command provides a command line interface to the ignition t
 List of available commands:
 
   help:          Print this help text.
+  gazebo:        Run and manage the Gazebo Simulator.
+  model:         Print information about models.
   sdf:           Utilities for SDF files.
+  service:       Print information about services.
+  topic:         Print information about topics.
 
 Options:
 
@@ -37,17 +43,22 @@ def main(argv: list[str]) -> int:
     if name == "help" and words[1:] == ["sdf"]:
         print(USAGE)
         return 0
+    if name == "help" and len(words) == 2 and words[1] in _OF_WORLD:
+        front.explain(_OF_WORLD[words[1]])
+        return 0
     if name in ("help", "--help", "-h"):
         print(_HELP)
         return 0
     if name == "--commands":
-        print("sdf")
+        print("\n".join(sorted([*_OF_WORLD, "sdf"])))
         return 0
     if name == "--versions" or (name == "sdf" and "--versions" in words):
         print(_VERSION)
         return 0
     if name == "sdf":
         return run_sdf(words[1:])
+    if name in _OF_WORLD:
+        return front.run(_OF_WORLD[name], words[1:])
     if name in IGN_INSTEAD:
         say([f"gazelle: ign {name} is not here; use {IGN_INSTEAD[name]}"])
         return _FAILED

@@ -14,15 +14,11 @@ GZ_INSTEAD = {
 }
 IGN_INSTEAD = {
     "fuel": "models in local folders; nothing is downloaded",
-    "gazebo": "gazelle gazebo FILE",
-    "gui": "gazelle gazebo FILE",
+    "gui": "ign gazebo -g",
     "launch": "roslaunch",
     "log": "rosbag",
-    "model": "rosservice call /gazebo/get_model_state",
     "msg": "rosmsg show",
     "param": "rosparam, or ros2 param",
     "plugin": "gazelle doctor FILE, which says what a plug-in is here",
-    "service": "rosservice list",
-    "sim": "gazelle gazebo FILE",
-    "topic": "rostopic list, rostopic echo",
+    "sim": "ign gazebo, as Fortress calls it, or gz sim",
 }

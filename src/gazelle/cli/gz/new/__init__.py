@@ -1,0 +1,1 @@
+"""``gz sim``, ``topic``, ``service`` and ``model`` of the new Gazebo (Fortress to Harmonic)."""

@@ -1,0 +1,88 @@
+"""Which words are the new Gazebo's, and how its commands end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from gazelle.cli.gz.new import model, service, sim, topic
+from gazelle.cli.gz.options import GzCommand, help_text, read_options
+from gazelle.cli.sdf.sdf_file import say
+from gazelle.errors import GazelleError
+
+__all__ = ["NEW_COMMANDS", "explain", "is_new", "run"]
+
+_FAILED = 255
+_ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
+    (model.COMMAND, model.run),
+    (service.COMMAND, service.run),
+    (topic.COMMAND, topic.run),
+)
+_COMMANDS = {command.name: (command, action) for command, action in _ROWS}
+NEW_COMMANDS = ("model", "service", "sim", "topic")
+# What Gazebo 11 has not under the same name.
+_SIGNS = {
+    "model": ({"--list", "--model", "--link", "--joint", "--sensor"}, "lj"),
+    "topic": ({"--topic", "--pub", "--msgtype", "--num", "--json-output", "--frequency"}, "tnf"),
+}
+
+
+def is_new(name: str, words: Iterable[str]) -> bool:
+    """Tell whether words behind ``gz NAME`` are the new Gazebo's and not Gazebo 11's."""
+    if name not in _SIGNS:
+        return name in NEW_COMMANDS
+    words = list(words)
+    if name == "model" and len(words) == 2 and words[0] in {"-m", "--model-name"}:
+        # Gazebo 11 has nothing to do then.
+        return True
+    long, letters = _SIGNS[name]
+    return any(
+        word.partition("=")[0] in long or (word[:1] == "-" and word[1:2] and word[1] in letters)
+        for word in words
+    )
+
+
+def run(name: str, words: list[str]) -> int:
+    """Run a command.
+
+    Returns:
+        0, also for Ctrl-C; 255 when it could not do what it was asked.
+    """
+    try:
+        if name == "sim":
+            return sim.run(words)
+        command, action = _COMMANDS[name]
+        options = read_options(command, _with_values(command, words))
+        if options is None:
+            explain(name)
+            return 0
+        return action(options)
+    except KeyboardInterrupt:
+        return 0
+    except GazelleError as error:
+        say([error])
+        return _FAILED
+
+
+def explain(name: str) -> None:
+    """Print a command's options."""
+    if name == "sim":
+        sim.run(["--help"])
+    else:
+        say([help_text(_COMMANDS[name][0])])
+
+
+def _with_values(command: GzCommand, words: Iterable[str]) -> list[str]:
+    """Give options whose value may be left out an empty one."""
+    if command.name != "model":
+        return list(words)
+    spelled = {f"--{row.name}": row.name for row in command.options if row.name in model.OPTIONAL}
+    spelled |= {f"-{row.letter}": row.name for row in command.options if row.name in model.OPTIONAL}
+    found, rest = [], list(words)
+    while rest:
+        word = rest.pop(0)
+        if word in spelled:
+            value = rest.pop(0) if rest and not rest[0].startswith("-") else ""
+            found.append(f"--{spelled[word]}={value}")
+        else:
+            found.append(word)
+    return found
