@@ -34,6 +34,9 @@ const LATEST = new Set([
   'world.stats', 'world.contacts', 'world.joints', 'bag', 'turtles',
 ]);
 
+/** Streams that do something once: to open them again would do it again. */
+const ONCE = new Set(['action']);
+
 /** A stream of the server. Made by `Connection.open`. */
 export class Channel {
   /** The number on the present connection; 0 while there is none. */
@@ -85,6 +88,11 @@ export class Channel {
     const pay = () => this.acknowledge(at);
     if (done) done.then(pay, pay);
     else requestAnimationFrame(pay);
+  }
+
+  /** Whether the stream ends with its connection instead of being opened again. */
+  get once(): boolean {
+    return ONCE.has(this.stream);
   }
 
   /** A new connection: nothing is owed on it. */

@@ -110,7 +110,7 @@ export class Connection {
     this.socket = null;
     this.byNumber.clear();
     this.lastChannel = 0;
-    for (const channel of this.channels) channel.renumber(0);
+    for (const channel of [...this.channels]) this.suspend(channel);
     for (const [id, call] of this.waiting) {
       if (this.unsent.has(id)) continue;
       this.waiting.delete(id);
@@ -119,6 +119,14 @@ export class Connection {
     this.become('lost');
     setTimeout(() => this.connect(), this.delay_ms);
     this.delay_ms = Math.min(this.delay_ms * 1.7, LAST_DELAY_MS);
+  }
+
+  private suspend(channel: Channel): void {
+    const begun = channel.number !== 0;
+    channel.renumber(0);
+    if (!channel.once || !begun) return;
+    this.channels.delete(channel);
+    channel.handlers.onEnded?.(new CallError('The connection to the server was lost.'));
   }
 
   private become(state: ConnectionState): void {

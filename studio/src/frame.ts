@@ -27,7 +27,7 @@ export function readFrame(buffer: ArrayBuffer): Frame {
 }
 
 /** The payload as `float32`, from `skip` bytes after its beginning. */
-export function floats(frame: Frame, length: number, skip = 0): Float32Array {
+export function floats(frame: Frame, length: number, skip = 0): Float32Array<ArrayBuffer> {
   return new Float32Array(frame.buffer, frame.offset + skip, length);
 }
 

@@ -1,0 +1,48 @@
+/** Dialogs: a question with one answer, and the list of keyboard shortcuts. */
+
+import { button, h } from '../widgets/dom';
+
+/** Asks for one line of text; null when the person thinks better of it. */
+export function askText(title: string, label: string, value = ''): Promise<string | null> {
+  return new Promise((resolve) => {
+    const input = h('input', { type: 'text', value, required: true });
+    const form = h('form', { method: 'dialog' },
+      h('h2', {}, title), h('label', { class: 'stacked' }, label, input),
+      h('div', { class: 'dialog-buttons' },
+        button('Cancel', () => dialog.close('')), h('button', { type: 'submit', class: 'button primary', value: 'ok' }, 'OK')));
+    const dialog = h('dialog', { class: 'dialog', 'aria-label': title }, form);
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(dialog.returnValue === 'ok' ? input.value.trim() : null);
+    });
+    document.body.append(dialog);
+    dialog.showModal();
+    input.select();
+  });
+}
+
+/** Asks whether something that cannot be undone shall be done. */
+export function confirmDanger(title: string, text: string, verb: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    const dialog = h('dialog', { class: 'dialog', 'aria-label': title },
+      h('h2', {}, title), h('p', {}, text),
+      h('div', { class: 'dialog-buttons' },
+        button('Cancel', () => dialog.close('')), button(verb, () => dialog.close('yes'), { class: 'danger' })));
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(dialog.returnValue === 'yes');
+    });
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}
+
+/** Shows the shortcuts. */
+export function showShortcuts(rows: readonly (readonly [string, string])[]): void {
+  const list = h('dl', { class: 'shortcuts' }, ...rows.flatMap(([keys, text]) => [h('dt', {}, h('kbd', {}, keys)), h('dd', {}, text)]));
+  const dialog = h('dialog', { class: 'dialog', 'aria-label': 'Keyboard shortcuts' },
+    h('h2', {}, 'Keyboard shortcuts'), list, h('div', { class: 'dialog-buttons' }, button('Close', () => dialog.close())));
+  dialog.addEventListener('close', () => dialog.remove());
+  document.body.append(dialog);
+  dialog.showModal();
+}

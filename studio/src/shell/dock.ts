@@ -1,0 +1,172 @@
+/** The dock: panels in tabs and splits, shown by name, kept as a layout. */
+
+import { createDockview, themeDark, type DockviewApi, type IDockviewPanel, type SerializedDockview } from 'dockview-core';
+import type { Connection } from '../connection';
+import type { GraphStore } from '../graph_store';
+import { isObject, type Json, type JsonObject } from '../json';
+import { findPanel, type Panel, type PanelHost } from '../panel';
+import { h } from '../widgets/dom';
+import { PanelFrame } from './panel_frame';
+import type { Toasts } from './toasts';
+
+/** Where a panel goes in a default layout. */
+export interface Place {
+  kind: string;
+  params?: JsonObject;
+  /** The kind next to which it goes. */
+  beside?: string;
+  direction?: 'left' | 'right' | 'above' | 'below' | 'within';
+  width?: number;
+  height?: number;
+}
+
+const SAVE_AFTER_MS = 400;
+
+/** The dock of the page. */
+export class Dock {
+  private readonly api: DockviewApi;
+  private readonly frames = new Map<string, PanelFrame>();
+  private readonly changeListeners = new Set<() => void>();
+  private pending = 0;
+
+  constructor(
+    root: HTMLElement,
+    private readonly connection: Connection,
+    private readonly graph: GraphStore,
+    private readonly toasts: Toasts,
+  ) {
+    this.api = createDockview(root, {
+      theme: themeDark,
+      defaultRenderer: 'always',
+      createComponent: ({ id, name }) => this.createFrame(id, name),
+      createWatermarkComponent: () => ({
+        element: h('div', { class: 'watermark' }, 'Choose a panel from the Panels menu'), init: () => undefined,
+      }),
+    });
+    this.api.onDidLayoutChange(() => this.touch());
+    this.api.onDidRemovePanel((panel) => this.removed(panel));
+  }
+
+  /** Opens a panel by its kind's name or alias; one that can only be there once comes to the front. */
+  show(name: string, params: JsonObject = {}, place?: Place): void {
+    const kind = findPanel(name);
+    if (!kind) {
+      this.toasts.fail(new Error(`There is no panel named ${name}.`));
+      return;
+    }
+    const open = this.api.panels.find((panel) => panel.view.contentComponent === kind.kind);
+    if (kind.single && open) {
+      open.api.setActive();
+      this.frames.get(open.id)?.open(params);
+      return;
+    }
+    this.api.addPanel({
+      id: this.freshId(kind.kind), component: kind.kind, title: kind.title, params: { state: params },
+      ...(place ? this.position(place) : {}),
+    });
+  }
+
+  /** Puts a default layout in place of what is open. */
+  arrange(places: readonly Place[]): void {
+    this.api.clear();
+    for (const place of places) if (findPanel(place.kind)) this.show(place.kind, place.params ?? {}, place);
+    const first = places[0] && this.panelOf(places[0].kind);
+    first?.api.setActive();
+  }
+
+  /** The layout with the state of every panel. */
+  save(): JsonObject {
+    for (const [id, frame] of this.frames) {
+      this.api.getPanel(id)?.api.updateParameters({ state: frame.state() });
+    }
+    return JSON.parse(JSON.stringify(this.api.toJSON())) as JsonObject;
+  }
+
+  /** Brings a saved layout back; answers whether it could be read. */
+  restore(layout: Json): boolean {
+    if (!isObject(layout) || !isObject(layout['grid']) || !isObject(layout['panels'])) return false;
+    try {
+      this.api.fromJSON(layout as unknown as SerializedDockview);
+      return this.api.panels.length > 0;
+    } catch (problem) {
+      this.api.clear();
+      this.toasts.fail(problem, 'The saved layout cannot be read');
+      return false;
+    }
+  }
+
+  /** Calls back some time after the layout or a panel's state changed. */
+  onChange(listener: () => void): void {
+    this.changeListeners.add(listener);
+  }
+
+  /** Closes the panel with the focus. */
+  closeActive(): void {
+    this.api.activePanel?.api.close();
+  }
+
+  /** Makes the panel with the focus as large as the dock, or small again. */
+  maximizeActive(): void {
+    const panel = this.api.activePanel;
+    if (!panel) return;
+    if (panel.api.isMaximized()) panel.api.exitMaximized();
+    else panel.api.maximize();
+  }
+
+  private createFrame(id: string, name: string): PanelFrame {
+    const frame = new PanelFrame(findPanel(name), name, (host) => this.makePanel(name, host), this.hostFor(id), this.toasts);
+    this.frames.set(id, frame);
+    return frame;
+  }
+
+  private makePanel(name: string, host: PanelHost): Promise<Panel> {
+    const kind = findPanel(name);
+    if (!kind) return Promise.reject(new Error(`There is no panel named ${name}.`));
+    return kind.make(this.connection, host);
+  }
+
+  private hostFor(id: string): PanelHost {
+    return {
+      id,
+      graph: this.graph,
+      setTitle: (title) => this.api.getPanel(id)?.api.setTitle(title),
+      show: (kind, params) => this.show(kind, params),
+      fail: (problem, where) => this.toasts.fail(problem, where),
+      tell: (text) => this.toasts.tell(text),
+      touched: () => this.touch(),
+    };
+  }
+
+  private removed(panel: IDockviewPanel): void {
+    this.frames.get(panel.id)?.end();
+    this.frames.delete(panel.id);
+  }
+
+  private touch(): void {
+    clearTimeout(this.pending);
+    this.pending = window.setTimeout(() => {
+      for (const listener of this.changeListeners) listener();
+    }, SAVE_AFTER_MS);
+  }
+
+  private freshId(kind: string): string {
+    for (let number = 1; ; number += 1) {
+      const id = number === 1 ? kind : `${kind}-${number}`;
+      if (!this.api.getPanel(id)) return id;
+    }
+  }
+
+  private panelOf(kind: string): IDockviewPanel | undefined {
+    const name = findPanel(kind)?.kind;
+    return this.api.panels.find((panel) => panel.view.contentComponent === name);
+  }
+
+  private position(place: Place): object {
+    const beside = place.beside ? this.panelOf(place.beside) : undefined;
+    return {
+      ...(beside ? { position: { referencePanel: beside.id, direction: place.direction ?? 'within' } } : {}),
+      ...(place.width ? { initialWidth: place.width } : {}),
+      ...(place.height ? { initialHeight: place.height } : {}),
+    };
+  }
+}

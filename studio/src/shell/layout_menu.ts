@@ -1,0 +1,74 @@
+/** Which layout the page opens with, and the menu that saves, loads and resets layouts. */
+
+import type { Connection } from '../connection';
+import { textOf, type JsonObject } from '../json';
+import { findPanel } from '../panel';
+import { openMenu, type MenuItem } from '../widgets/menu';
+import { askText } from './dialog';
+import type { Dock } from './dock';
+import type { LayoutStore } from './layout_store';
+import { NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
+import type { Toasts } from './toasts';
+
+/** The layouts of the page. */
+export class Layouts {
+  private commands: readonly string[] = [];
+  private begun = false;
+
+  constructor(
+    connection: Connection, private readonly dock: Dock, private readonly store: LayoutStore, private readonly toasts: Toasts,
+  ) {
+    connection.onHello((hello) => { if (!this.begun) this.begin(hello.panels); });
+    connection.onShow((panel, params) => this.show(panel, params));
+    dock.onChange(() => { if (this.begun) store.keepLast(this.commands, dock.save()); });
+  }
+
+  /** The menu of the Layout button. */
+  async openMenu(anchor: HTMLElement): Promise<void> {
+    const names = await this.store.list();
+    const items: MenuItem[] = [
+      { text: 'Save layout as…', run: () => void this.saveAs() },
+      { text: 'Reset layout', run: () => this.reset() },
+      { text: 'Default layouts', heading: true },
+      ...NAMED_LAYOUTS.map(([command, text]) => ({ text, run: () => this.dock.arrange(placesFor(command)) })),
+    ];
+    if (names.length > 0) {
+      items.push({ text: 'Saved layouts', heading: true }, ...names.map((name) => ({ text: name, run: () => void this.load(name) })));
+      items.push({ text: 'Delete', heading: true }, ...names.map((name) => ({ text: `Delete ${name}`, run: () => void this.store.delete(name) })));
+    }
+    openMenu(anchor, items, 'Layout');
+  }
+
+  /** What the page opens with: the commands' panels, as they were left the last time. */
+  private begin(panels: readonly string[]): void {
+    const asked = new URLSearchParams(location.search).get('panels');
+    this.commands = asked ? asked.split(',').filter(Boolean) : panels;
+    if (!this.dock.restore(this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands));
+    this.begun = true;
+  }
+
+  private show(panel: string, params: JsonObject): void {
+    const name = textOf(params, 'layout');
+    if (panel === 'layout' && name) void this.load(name);
+    else if (findPanel(panel)) this.dock.show(panel, params);
+    else this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
+  }
+
+  private reset(): void {
+    this.store.forgetLast(this.commands);
+    this.dock.arrange(placesForAll(this.commands));
+  }
+
+  private async saveAs(): Promise<void> {
+    const name = await askText('Save layout', 'Name');
+    if (!name) return;
+    const where = await this.store.save(name, this.dock.save());
+    this.toasts.tell(where === 'server' ? `Layout ${name} is saved.` : `Layout ${name} is saved in this browser only.`);
+  }
+
+  private async load(name: string): Promise<void> {
+    const layout = await this.store.load(name);
+    if (layout === null) this.toasts.fail(new Error(`There is no layout named ${name}.`));
+    else this.dock.restore(layout);
+  }
+}

@@ -1,0 +1,108 @@
+/** Long lists of equal rows: only the rows in sight are in the page. */
+
+import { h, perFrame } from './dom';
+
+/** How rows are made once and filled often. */
+export interface RowMaker<T> {
+  /** Height of a row, CSS pixels. */
+  height: number;
+  /** The role of the list: `table` unless told; rows get the role that fits. */
+  role?: 'table' | 'treegrid' | 'listbox';
+  label: string;
+  make(): HTMLElement;
+  fill(element: HTMLElement, row: T, index: number): void;
+}
+
+const BEYOND = 4;
+
+/** A scrolling list. */
+export class VirtualList<T> {
+  readonly element: HTMLElement;
+  private readonly canvas = h('div', { class: 'rows', role: 'presentation' });
+  private readonly pool: HTMLElement[] = [];
+  private rows: readonly T[] = [];
+  private stick = false;
+  readonly refresh = perFrame(() => this.draw());
+
+  constructor(private readonly maker: RowMaker<T>) {
+    this.element = h('div', { class: 'virtual', role: maker.role ?? 'table', 'aria-label': maker.label, tabindex: 0 }, this.canvas);
+    this.element.addEventListener('scroll', () => {
+      this.stick = this.stick && this.atEnd();
+      this.refresh();
+    }, { passive: true });
+    new ResizeObserver(this.refresh).observe(this.element);
+  }
+
+  /** Shows other rows. */
+  set(rows: readonly T[]): void {
+    this.rows = rows;
+    this.refresh();
+  }
+
+  /** Whether the last row is in sight. */
+  atEnd(): boolean {
+    const { scrollTop, clientHeight, scrollHeight } = this.element;
+    return scrollTop + clientHeight >= scrollHeight - this.maker.height;
+  }
+
+  /** Keeps the newest row in sight until the person scrolls away. */
+  follow(on: boolean): void {
+    this.stick = on;
+    this.refresh();
+  }
+
+  /** The row that an element of it stands for. */
+  rowAt(target: EventTarget | null): T | undefined {
+    const element = target instanceof Element ? target.closest<HTMLElement>('[data-row]') : null;
+    return element ? this.rows[Number(element.dataset['row'])] : undefined;
+  }
+
+  /** Brings a row into sight. */
+  reveal(index: number): void {
+    const top = index * this.maker.height;
+    const { scrollTop, clientHeight } = this.element;
+    if (top < scrollTop || top + this.maker.height > scrollTop + clientHeight) this.element.scrollTop = top - clientHeight / 2;
+    this.refresh();
+  }
+
+  private draw(): void {
+    const { height } = this.maker;
+    this.canvas.style.height = `${this.rows.length * height}px`;
+    if (this.stick) this.element.scrollTop = this.element.scrollHeight;
+    const first = Math.max(0, Math.floor(this.element.scrollTop / height) - BEYOND);
+    const inSight = Math.ceil(this.element.clientHeight / height) + 2 * BEYOND;
+    const last = Math.min(this.rows.length, first + inSight);
+    this.element.setAttribute('aria-rowcount', String(this.rows.length));
+    for (let index = first; index < last; index += 1) this.place(index - first, index);
+    for (let at = Math.max(0, last - first); at < this.pool.length; at += 1) this.pool[at].hidden = true;
+  }
+
+  private place(at: number, index: number): void {
+    const element = this.pool[at] ?? this.grow();
+    element.hidden = false;
+    element.dataset['row'] = String(index);
+    element.setAttribute('aria-rowindex', String(index + 1));
+    element.style.transform = `translateY(${index * this.maker.height}px)`;
+    this.maker.fill(element, this.rows[index], index);
+  }
+
+  private grow(): HTMLElement {
+    const element = this.maker.make();
+    element.classList.add('row');
+    element.style.height = `${this.maker.height}px`;
+    if (!element.hasAttribute('role')) element.setAttribute('role', this.maker.role === 'listbox' ? 'option' : 'row');
+    this.canvas.append(element);
+    this.pool.push(element);
+    return element;
+  }
+}
+
+/** The headings above a list; `columns` is a CSS grid template that rows of class `cells` share. */
+export function headings(texts: readonly string[]): HTMLElement {
+  return h('div', { class: 'cells headings', role: 'row' }, ...texts.map((text) => h('span', { role: 'columnheader' }, text)));
+}
+
+/** A row of cells. */
+export function cellRow(count: number): HTMLElement {
+  return h('div', { class: 'cells' }, ...Array.from({ length: count }, () => h('span', { role: 'cell' })));
+}
