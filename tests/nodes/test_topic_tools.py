@@ -66,12 +66,37 @@ def test_throttle_passes_the_first_of_every_period(graph: Graph) -> None:
     assert _sent_through(graph, run_throttle, words, "/numbers_throttle", 1)[0] == 1
 
 
+def test_throttle_counts_bytes_of_a_window(graph: Graph) -> None:
+    # An Int32 has 4 bytes: after two of them there are not less than 8 in the last 100 s.
+    words = ["bytes", "/numbers", "8", "100"]
+    assert _sent_through(graph, run_throttle, words, "/numbers_throttle", 2) == [1, 2]
+
+
+def test_a_lazy_tool_listens_only_while_somebody_listens_to_it(
+    graph: Graph, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stop = threading.Event()
+    publisher = graph.create_node("test").create_publisher("/numbers", _INT)
+    arguments = read_arguments(["/numbers", "1", "2", "_lazy:=true"], "tool")
+    thread = threading.Thread(target=run_drop, args=(arguments, graph, stop))
+    thread.start()
+    assert graph.discovery.wait_for(lambda _known: publisher.matched, 5.0)
+    publisher.publish(_INT(data=1))
+    assert graph.discovery.wait_for(lambda _known: not publisher.matched, 5.0)
+    assert capsys.readouterr().out == "advertised as /numbers_drop\n"
+    graph.create_node("other").create_subscription("/numbers_drop", _INT, print)
+    assert graph.discovery.wait_for(lambda _known: publisher.matched, 5.0)
+    stop.set()
+    thread.join()
+
+
 @pytest.mark.parametrize(
     ("tool", "words", "text"),
     [
         (run_relay, [], "0 arguments given\nusage: relay IN_TOPIC"),
         (run_drop, ["/a", "x", "3"], "'x' is not a positive number\nusage: drop"),
-        (run_throttle, ["bytes", "/a", "3"], "throttle 'bytes' is not offered"),
+        (run_throttle, ["bytes", "/a", "3"], "3 arguments given\nusage: throttle messages"),
+        (run_throttle, ["rate", "/a", "3"], "'rate' is neither 'messages' nor 'bytes'"),
     ],
 )
 def test_wrong_arguments_show_the_usage(

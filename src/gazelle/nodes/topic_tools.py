@@ -2,44 +2,56 @@
 
 from __future__ import annotations
 
+import sys
 import threading
+import time
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
 from gazelle.errors import LaunchError
-from gazelle.graph import Graph, Node, Publisher
+from gazelle.graph import Graph, MessageInfo, Node, Publisher, RawMessage, Subscription
+from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private, start_node
 
 __all__ = ["run_drop", "run_relay", "run_throttle"]
 
-_Passes = Callable[[Node], bool]
+_Passes = Callable[[int], bool]
+_LOOK_S = 0.05
+_CDR_HEAD = 4  # bytes that ROS 1's messages do not have
+_THROTTLE = """throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC]
+   or: throttle bytes IN_TOPIC BYTES_PER_SEC WINDOW [OUT_TOPIC]"""
 
 
 def run_relay(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish every message again: ``relay IN [OUT]``."""
     words = _words(arguments, 1, "relay IN_TOPIC [OUT_TOPIC]")
-    return _pass_on(arguments, graph, stop, words, "_relay", lambda _node: True)
+    node = start_node(arguments, graph)
+    tool = _Tool(node, arguments, words, "_relay", lambda _size: True)
+    return tool.run(stop, lambda text: node.log("info", text))
 
 
 def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Publish at most so many messages a second: ``throttle messages IN HZ [OUT]``."""
-    usage = "throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC]"
-    kind, topic, rate, *out = _words(arguments, 3, usage)
-    if kind != "messages":
-        raise LaunchError(f"throttle '{kind}' is not offered, only by messages\nusage: {usage}")
-    period_ns = int(1e9 / _number(rate, usage))
-    last_ns = [-period_ns]
+    """Publish at most so many messages, or bytes, a second.
 
-    def is_due(node: Node) -> bool:
-        now_ns = node.clock.now_ns()
-        # Time that went back starts anew.
-        due = now_ns >= last_ns[0] + period_ns or now_ns < last_ns[0]
-        if due:
-            last_ns[0] = now_ns
-        return due
-
-    return _pass_on(arguments, graph, stop, [topic, *out], "_throttle", is_due)
+    ``throttle messages IN HZ [OUT]`` or ``throttle bytes IN BYTES_PER_SEC WINDOW [OUT]``.
+    """
+    kind = next(iter(arguments.rest), "")
+    if kind not in ("messages", "bytes"):
+        raise LaunchError(f"'{kind}' is neither 'messages' nor 'bytes'\nusage: {_THROTTLE}")
+    if kind == "messages":
+        _, topic, rate, *out = _words(arguments, 3, _THROTTLE)
+        limits = (_number(rate, _THROTTLE), 0.0)
+    else:
+        _, topic, rate, window, *out = _words(arguments, 4, _THROTTLE)
+        limits = (_number(rate, _THROTTLE), _number(window, _THROTTLE))
+    node = start_node(arguments, graph)
+    now_ns = node.clock.now_ns
+    if private(node, arguments, "wall_clock", False):
+        now_ns = time.time_ns
+    passes = _by_bytes(*limits, now_ns) if kind == "bytes" else _by_rate(node, limits[0], now_ns)
+    return _Tool(node, arguments, [topic, *out], "_throttle", passes).run(stop)
 
 
 def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -49,38 +61,105 @@ def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
     dropped, cycle = int(_number(x, usage)), int(_number(y, usage))
     count = [0]
 
-    def passes(_node: Node) -> bool:
+    def passes(_size: int) -> bool:
         place = count[0] % cycle
         count[0] += 1
         return place >= dropped
 
-    return _pass_on(arguments, graph, stop, [topic, *out], "_drop", passes)
-
-
-def _pass_on(
-    arguments: NodeArguments,
-    graph: Graph,
-    stop: threading.Event,
-    topics: list[str],
-    suffix: str,
-    passes: _Passes,
-) -> int:
     node = start_node(arguments, graph)
-    source = topics[0]
-    target = topics[1] if len(topics) > 1 else f"{source}{suffix}"
-    made: list[Publisher] = []
+    return _Tool(node, arguments, [topic, *out], "_drop", passes).run(stop)
 
-    def on_message(message: Any) -> None:
-        # The type is known with the first message.
-        if not made:
-            made.append(node.create_publisher(target, type(message), latch=False))
-        if passes(node):
-            made[0].publish(message)
 
-    node.create_subscription(source, None, on_message)
-    stop.wait()
-    node.shutdown()
-    return 0
+def _by_rate(node: Node, rate_hz: float, now_ns: Callable[[], int]) -> _Passes:
+    period_ns = int(1e9 / rate_hz)
+    last_ns = [0]
+
+    def passes(_size: int) -> bool:
+        now = now_ns()
+        if last_ns[0] > now:
+            node.log("warn", "Detected jump back in time, resetting throttle period to now for.")
+            last_ns[0] = now
+        due = now - last_ns[0] > period_ns
+        if due:
+            last_ns[0] = now
+        return due
+
+    return passes
+
+
+def _by_bytes(bytes_per_s: float, window_s: float, now_ns: Callable[[], int]) -> _Passes:
+    """Pass while the bytes of the window are less than those of a second, as topic_tools does."""
+    sent: deque[tuple[int, int]] = deque()
+    window_ns = int(window_s * 1e9)
+
+    def passes(size: int) -> bool:
+        now = now_ns()
+        while sent and (sent[0][0] < now - window_ns or sent[0][0] > now):
+            sent.popleft()
+        if sum(one for _, one in sent) >= int(bytes_per_s):
+            return False
+        sent.append((now, size))
+        return True
+
+    return passes
+
+
+class _Tool:
+    """Publishes what passes; with ``~lazy`` it listens only while somebody listens to it."""
+
+    def __init__(
+        self,
+        node: Node,
+        arguments: NodeArguments,
+        topics: list[str],
+        suffix: str,
+        passes: _Passes,
+    ) -> None:
+        self._tell: Callable[[str], None] = _print
+        self._node = node
+        self._source = topics[0]
+        self._target = topics[1] if len(topics) > 1 else f"{topics[0]}{suffix}"
+        self._passes = passes
+        self._lazy = bool(private(node, arguments, "lazy", False))
+        self._publisher: Publisher | None = None
+        self._subscription: Subscription | None = None
+
+    def run(self, stop: threading.Event, tell: Callable[[str], None] | None = None) -> int:
+        """Pass messages on until told to stop; tells once under what name."""
+        self._tell = tell or _print
+        self._listen()
+        if not self._lazy:
+            stop.wait()
+        while not stop.wait(_LOOK_S):
+            wanted = self._publisher is None or self._publisher.matched
+            if wanted and self._subscription is None:
+                self._listen()
+            elif not wanted and self._subscription is not None:
+                self._subscription.unregister()
+                self._subscription = None
+        self._node.shutdown()
+        return 0
+
+    def _listen(self) -> None:
+        self._subscription = self._node.create_subscription(
+            self._source, None, self._take, raw=True, with_info=True
+        )
+
+    def _take(self, message: RawMessage, info: MessageInfo) -> None:
+        if self._publisher is None:
+            # The type is known with the first message; what is latched stays latched.
+            entity = self._node.graph.entity_with_gid(info.gid)
+            latched = entity is not None and entity.qos.latched
+            kind: Any = message_type(message.type_name)
+            self._publisher = self._node.create_publisher(self._target, kind, latch=latched)
+            self._tell(f"advertised as {self._target}")
+        if self._passes(len(message.data) - _CDR_HEAD):
+            self._publisher.publish_raw(message.data)
+
+
+def _print(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
 
 
 def _words(arguments: NodeArguments, least: int, usage: str) -> list[str]:
