@@ -86,8 +86,8 @@ class Mirrors(Generic[M, S]):
             return made
 
     def _must_share(self, name: str) -> bool:
-        """Whether the name is illegal here, or another's whom a second one would end."""
-        if not is_legal(name) or not is_legal_base(split(name)[1]):
+        """Whether the name is illegal here, or ours or another's whom a second one would end."""
+        if name == self._node.name or not is_legal(name) or not is_legal_base(split(name)[1]):
             return True
         own = self._graph.zid
         return any(

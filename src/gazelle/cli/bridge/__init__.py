@@ -20,6 +20,7 @@ class _Bridge(NamedTuple):
 _BRIDGES = {
     "foxglove": _Bridge("gazelle.cli.bridge.foxglove", "Foxglove and viewers of its protocol"),
     "ros1": _Bridge("gazelle.cli.bridge.ros1", "nodes and tools of an installed ROS 1"),
+    "ros2": _Bridge("gazelle.cli.bridge.ros2", "nodes and tools of an installed ROS 2"),
 }
 
 

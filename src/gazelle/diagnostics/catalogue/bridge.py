@@ -53,7 +53,7 @@ ENTRIES = (
     Entry(
         "bridge.second",
         "error",
-        "Another bridge to ROS 1 runs on the graph",
+        "Another bridge of the same kind runs on the graph",
         "Two of them would carry each message over twice, and back again.",
         "end the other one (gazelle rosnode kill /ros1_bridge), or use it",
         "",

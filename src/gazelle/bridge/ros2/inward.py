@@ -1,0 +1,219 @@
+"""ROS as the graph sees it: nodes, topics and services that stand for those of ROS."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gazelle.bridge.mirror import Traits
+from gazelle.bridge.mirrors import Mirrors
+from gazelle.bridge.ros2.kinds import MessageKind, ServiceKind, TypeBook
+from gazelle.bridge.ros2.link import Link
+from gazelle.bridge.ros2.quality import Quality, request_for
+from gazelle.bridge.ros2.state import NOTHING, RosState
+from gazelle.bridge.ros2.views import BRIDGE_NAME, Wanted, Wishes, crosses
+from gazelle.errors import GazelleError
+from gazelle.interfaces import from_cdr, to_cdr
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph, Node, Publisher
+
+__all__ = ["Inward"]
+
+_MATCH_S = 0.3
+_MATCH_PERIOD_S = 0.002
+
+
+class _Asked(NamedTuple):
+    channel: int
+    node: str
+    quality: Quality
+
+
+class Inward:
+    """Keeps the graph's view of ROS current; `settle` is called from one thread."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        node: Node,
+        link: Link,
+        book: TypeBook,
+        notice: Callable[[str], None],
+    ) -> None:
+        """Show nothing yet.
+
+        Args:
+            graph: where it is shown.
+            node: the bridge's own.
+            link: to ROS.
+            book: looks types up.
+            notice: told of what goes wrong.
+        """
+        self._link = link
+        self._book = book
+        self._notice = notice
+        self._mirrors: Mirrors[MessageKind, ServiceKind] = Mirrors(
+            graph, node, self._call, self._end_in_ros
+        )
+        self._lock = threading.Lock()
+        self._state = NOTHING
+        self._speakers: dict[int, tuple[str, bool]] = {}
+        self._asked: dict[Wanted, _Asked] = {}
+        self._topics: dict[int, Wanted] = {}
+        self._clients: dict[str, int] = {}
+        self._heard: set[tuple[int, int]] = set()
+        self._told: set[tuple[str, str]] = set()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of ROS's nodes on the graph."""
+        return self._mirrors.names
+
+    def settle(self, wishes: Wishes, state: RosState) -> None:
+        """Show what ROS has; take the topics from it that the graph wants."""
+        self._state = state
+        self._speakers = {one.number: (one.node, one.latched) for one in state.publishers}
+        traits = self._traits(state)
+        self._mirrors.settle(traits)
+        for one in state.publishers:
+            kind = traits[one.node].publishers.get(one.topic)
+            if kind is not None and one.latched:
+                self._mirrors.voice(one.node, one.topic, kind, True)
+        self._settle_topics(wishes, state)
+        self._settle_clients(state)
+
+    def owner_of(self, channel: int) -> tuple[str, str] | None:
+        """Return what a channel is for, and its type, in words; None when it is not from here."""
+        with self._lock:
+            wanted = self._topics.get(channel)
+        return wanted and (f"topic {wanted.topic}", wanted.type_name)
+
+    def take_message(self, channel: int, number: int, cdr: bytes) -> None:
+        """Publish what a publisher in ROS has sent."""
+        with self._lock:
+            wanted = self._topics.get(channel)
+        if wanted is None:
+            return
+        try:
+            publisher = self._voice(wanted, number)
+            if publisher is None:
+                return
+            if (channel, number) not in self._heard:
+                self._heard.add((channel, number))
+                _await_match(publisher)
+            publisher.publish_raw(cdr)
+        except GazelleError as error:
+            self._tell(wanted.topic, "message", f"a message on {wanted.topic} is lost: {error}")
+
+    def close(self) -> None:
+        """Take everything of ROS off the graph."""
+        self._mirrors.close()
+
+    def _traits(self, state: RosState) -> dict[str, Traits[MessageKind, ServiceKind]]:
+        found: dict[str, Traits[MessageKind, ServiceKind]] = {
+            name: Traits({}, {}, {}) for name in state.nodes
+        }
+        for end in state.publishers:
+            traits = found.setdefault(end.node, Traits({}, {}, {}))
+            if crosses(end.topic, end.type_name):
+                where = f"topic {end.topic} of {end.node}"
+                kind = self._book.message(end.type_name, where, reliable=end.reliable)
+                if kind is not None:
+                    traits.publishers[end.topic] = kind
+        for end in state.subscriptions:
+            traits = found.setdefault(end.node, Traits({}, {}, {}))
+            if crosses(end.topic, end.type_name):
+                traits.subscribers[end.topic] = end.type_name
+        for node, name, type_name in state.services:
+            if crosses(name, type_name):
+                service = self._book.service(type_name, f"service {name} of {node}")
+                if service is not None:
+                    found[node].services[name] = service
+        return found
+
+    def _settle_topics(self, wishes: Wishes, state: RosState) -> None:
+        wanted: dict[Wanted, tuple[str, Quality]] = {}
+        for key, node in wishes.subscriptions.items():
+            ends = [one for one in state.publishers if (one.topic, one.type_name) == key]
+            quality, told = request_for(key.topic, ends)
+            for policy, text in told.items():
+                self._tell(key.topic, policy, text)
+            if not self._book.is_missing(key.type_name):
+                wanted[key] = (node, quality)
+        for key, asked in list(self._asked.items()):
+            if wanted.get(key) != (asked.node, asked.quality):
+                self._give_up(key, asked, is_wanted=key in wanted)
+        for key, (node, quality) in wanted.items():
+            if key not in self._asked:
+                self._ask(key, node, quality)
+
+    def _ask(self, key: Wanted, node: str, quality: Quality) -> None:
+        with self._lock:
+            channel = self._link.do(
+                "subscription",
+                node=node,
+                topic=key.topic,
+                type=key.type_name,
+                **quality._asdict(),
+            )
+            self._asked[key] = _Asked(channel, node, quality)
+            self._topics[channel] = key
+
+    def _give_up(self, key: Wanted, asked: _Asked, *, is_wanted: bool) -> None:
+        with self._lock:
+            self._topics.pop(asked.channel, None)
+            del self._asked[key]
+        self._link.drop(asked.channel)
+        if not is_wanted:
+            self._mirrors.forget_latched(key.topic)
+
+    def _settle_clients(self, state: RosState) -> None:
+        there = {one.name for one in state.services}
+        with self._lock:
+            gone = [self._clients.pop(name) for name in set(self._clients) - there]
+        for channel in gone:
+            self._link.drop(channel)
+
+    def _voice(self, wanted: Wanted, number: int) -> Publisher | None:
+        node, latched = self._speakers.get(number) or self._only_speaker(wanted)
+        found = self._book.message(wanted.type_name, f"topic {wanted.topic}", reliable=True)
+        if found is None:
+            return None
+        ends = [
+            one for one in self._state.publishers if (one.node, one.topic) == (node, wanted.topic)
+        ]
+        reliable = all(one.reliable for one in ends)
+        return self._mirrors.voice(node, wanted.topic, found._replace(reliable=reliable), latched)
+
+    def _only_speaker(self, wanted: Wanted) -> tuple[str, bool]:
+        """Whoever speaks when nobody says: an older rclpy, or a publisher that is just new."""
+        for one in self._state.publishers:
+            if (one.topic, one.type_name) == wanted:
+                return one.node, one.latched
+        return BRIDGE_NAME, False
+
+    def _call(self, name: str, kind: ServiceKind, request: Any) -> Any:
+        with self._lock:
+            channel = self._clients.get(name)
+            if channel is None:
+                channel = self._link.do("client", topic=name, type=kind.type_name)
+                self._clients[name] = channel
+        return from_cdr(kind.service_class.Response, self._link.call(channel, to_cdr(request)))
+
+    def _end_in_ros(self, name: str, reason: str) -> None:
+        self._tell(name, "end", f"{name} runs in ROS 2, where nobody can end a node from outside")
+
+    def _tell(self, what: str, why: str, text: str) -> None:
+        if (what, why) not in self._told:
+            self._told.add((what, why))
+            self._notice(text)
+
+
+def _await_match(publisher: Publisher) -> None:
+    """Wait a moment for those who listen: the first message of a publisher may be its only one."""
+    due_s = time.monotonic() + _MATCH_S
+    while not publisher.matched and time.monotonic() < due_s:
+        time.sleep(_MATCH_PERIOD_S)

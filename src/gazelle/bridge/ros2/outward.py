@@ -1,0 +1,216 @@
+"""The graph as ROS sees it: nodes, topics and services that stand for those of the graph."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gazelle.bridge.ros2.kinds import ServiceKind, TypeBook
+from gazelle.bridge.ros2.link import Link
+from gazelle.bridge.ros2.quality import Quality, widened
+from gazelle.bridge.ros2.state import RosState
+from gazelle.bridge.ros2.views import BRIDGE_NAME, Spoken, Wishes
+from gazelle.bridge.tap import Sample, Tap
+from gazelle.errors import GazelleError
+from gazelle.interfaces import from_cdr, to_cdr
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph, Node, ServiceClient
+
+__all__ = ["Outward"]
+
+
+class _Served(NamedTuple):
+    name: str
+    kind: ServiceKind
+    client: ServiceClient
+
+
+class _Channel(NamedTuple):
+    number: int
+    quality: Quality
+
+
+class Outward:
+    """Keeps ROS's view of the graph current; `settle` is called from one thread."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        node: Node,
+        link: Link,
+        book: TypeBook,
+        notice: Callable[[str], None],
+    ) -> None:
+        """Show nothing yet.
+
+        Args:
+            graph: what is shown.
+            node: the bridge's own, which calls services.
+            link: to ROS.
+            book: knows which types do not cross.
+            notice: told of what goes wrong.
+        """
+        self._graph = graph
+        self._node = node
+        self._link = link
+        self._book = book
+        self._notice = notice
+        self._lock = threading.Lock()
+        self._nodes: set[str] = {BRIDGE_NAME}
+        self._names: dict[str, str] = {}
+        self._publishers: dict[Spoken, _Channel] = {}
+        self._services: dict[tuple[str, str], int] = {}
+        self._served: dict[int, _Served] = {}
+        self._ready: set[int] = set()
+        self._taps: dict[str, Tap] = {}
+        self._told: set[tuple[str, str]] = set()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names in ROS of the graph's nodes."""
+        return tuple(sorted(self._nodes - {BRIDGE_NAME}))
+
+    def settle(self, wishes: Wishes, state: RosState) -> None:
+        """Show these nodes, topics and services and no others; listen to what is wanted."""
+        self._names = wishes.nodes
+        names = {*wishes.nodes.values(), BRIDGE_NAME}
+        for name in sorted(names - self._nodes):
+            self._link.do("node", node=name)
+        publishers = self._settle_publishers(wishes, state)
+        self._settle_services(wishes)
+        for name in sorted(self._nodes - names):
+            self._link.do("unnode", node=name)
+        self._nodes = names
+        self._settle_taps(publishers, state)
+
+    def channel_is_ready(self, channel: int) -> None:
+        """Learn that ROS has made what was asked for."""
+        with self._lock:
+            self._ready.add(channel)
+
+    def owner_of(self, channel: int) -> tuple[str, str] | None:
+        """Return what a channel is for, and its type, in words; None when it is not from here."""
+        with self._lock:
+            for key, one in self._publishers.items():
+                if one.number == channel:
+                    return f"topic {key.topic} of {key.node}", key.type_name
+            served = self._served.get(channel)
+        return served and (f"service {served.name}", served.kind.type_name)
+
+    def take_request(self, channel: int, number: int, cdr: bytes) -> None:
+        """Answer a call from ROS, in a thread of its own."""
+        served = self._served.get(channel)
+        if served is None:
+            self._link.respond(channel, number, None)
+            return
+        work = (served, channel, number, cdr)
+        threading.Thread(target=self._answer, args=work, daemon=True).start()
+
+    def close(self) -> None:
+        """Listen to nothing any more."""
+        for tap in self._taps.values():
+            tap.close()
+        self._taps = {}
+        for served in self._served.values():
+            served.client.unregister()
+        self._served = {}
+
+    def _settle_publishers(self, wishes: Wishes, state: RosState) -> dict[Spoken, Quality]:
+        wanted: dict[Spoken, Quality] = {}
+        for key, own in wishes.publishers.items():
+            if self._book.is_missing(key.type_name):
+                continue
+            asked = [end for end in state.subscriptions if end.topic == key.topic]
+            quality, told = widened(key.node, key.topic, own, asked)
+            wanted[key] = quality
+            for policy, text in told.items():
+                if (key.topic, policy) not in self._told:
+                    self._told.add((key.topic, policy))
+                    self._notice(text)
+        for key in [key for key in self._publishers if self._publishers[key][1] != wanted.get(key)]:
+            with self._lock:
+                gone = self._publishers.pop(key)
+            self._link.drop(gone.number)
+        for key, quality in wanted.items():
+            if key not in self._publishers:
+                made = self._link.do(
+                    "publisher",
+                    node=key.node,
+                    topic=key.topic,
+                    type=key.type_name,
+                    **quality._asdict(),
+                )
+                with self._lock:
+                    self._publishers[key] = _Channel(made, quality)
+        return wanted
+
+    def _settle_services(self, wishes: Wishes) -> None:
+        for key in set(self._services) - set(wishes.services):
+            channel = self._services.pop(key)
+            self._link.drop(channel)
+            served = self._served.pop(channel, None)
+            if served is not None:
+                served.client.unregister()
+        for key, type_name in wishes.services.items():
+            if key not in self._services and not self._book.is_missing(type_name):
+                self._add_service(key, type_name)
+
+    def _add_service(self, key: tuple[str, str], type_name: str) -> None:
+        node, name = key
+        kind = self._book.service(type_name, f"service {name} of {node}")
+        if kind is None:
+            return
+        client = self._node.create_client(name, kind.service_class)
+        channel = self._link.do("service", node=node, topic=name, type=type_name)
+        self._services[key] = channel
+        self._served[channel] = _Served(name, kind, client)
+
+    def _settle_taps(self, publishers: dict[Spoken, Quality], state: RosState) -> None:
+        asked = {end.topic for end in state.subscriptions}
+        with self._lock:
+            ready = {
+                key.topic for key, one in self._publishers.items() if one.number in self._ready
+            }
+        wanted = {
+            key.topic
+            for key, quality in publishers.items()
+            # What is latched waits in ROS for whoever comes late.
+            if key.topic in ready and (key.topic in asked or quality.latched)
+        }
+        for topic in set(self._taps) - wanted:
+            self._taps.pop(topic).close()
+        for topic in wanted - set(self._taps):
+            self._taps[topic] = Tap(self._graph, topic, self._on_sample(topic))
+
+    def _on_sample(self, topic: str) -> Callable[[Sample], None]:
+        def send(sample: Sample) -> None:
+            node = self._names.get(sample.publisher, "")
+            with self._lock:
+                found = self._publishers.get(Spoken(node, topic, sample.type_name))
+                # Somebody who has left before he was known still spoke for one of them.
+                found = found or next(
+                    (
+                        one
+                        for key, one in self._publishers.items()
+                        if key[1:] == (topic, sample.type_name)
+                    ),
+                    None,
+                )
+            if found is not None:
+                self._link.publish(found.number, sample.cdr)
+
+        return send
+
+    def _answer(self, served: _Served, channel: int, number: int, cdr: bytes) -> None:
+        service: Any = served.kind.service_class
+        try:
+            response = served.client.call(from_cdr(service.Request, cdr))
+            answer: bytes | None = to_cdr(response)
+        except GazelleError as error:
+            answer = None
+            self._notice(
+                f"a call from ROS 2 got no answer, and ROS 2 has no way to say so: {error}"
+            )
+        self._link.respond(channel, number, answer)

@@ -1,0 +1,210 @@
+"""Nodes, topics and services that stand in ROS for those of the graph."""
+
+from __future__ import annotations
+
+import itertools
+import traceback
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+from .calls import Calls
+from .echoes import Echoes, Speakers
+from .frames import FrameKind, Pipes
+from .ros_types import MissingTypeError, class_of
+
+__all__ = ["Endpoints"]
+
+
+class Endpoints:
+    """All that the bridge has in ROS. Only `publish` may be used outside the executor's thread.
+
+    Attributes:
+        own_names: global names of the bridge's nodes.
+        speakers: the publishers that are known.
+    """
+
+    def __init__(self, pipes: Pipes, node: Any, executor: Any) -> None:
+        """Begin with the bridge's own node."""
+        self._pipes = pipes
+        self._executor = executor
+        name = node.get_fully_qualified_name()
+        self._home = node
+        self._nodes: dict[str, Any] = {name: node}
+        self.own_names: set[str] = {name}
+        self.speakers = Speakers(node, self.own_names)
+        self._publishers: dict[int, tuple[Any, str]] = {}
+        self._drops: dict[int, Callable[[], Any]] = {}
+        self._services: dict[int, Any] = {}
+        self._headers: dict[tuple[int, int], Any] = {}
+        self._numbers = itertools.count(1)
+        self._echoes: dict[str, Echoes] = {}
+        self._calls = Calls(pipes, node)
+        info = getattr(import_module("rclpy.subscription"), "MessageInfo", None)
+        self._tells_gid = "publisher_gid" in getattr(info, "__annotations__", {})
+        self._serialize = import_module("rclpy.serialization").serialize_message
+        self._deserialize = import_module("rclpy.serialization").deserialize_message
+
+    def obey(self, command: dict[str, Any]) -> None:
+        """Carry out a command and report how it went."""
+        what, channel = command["do"], command.get("channel", 0)
+        try:
+            getattr(self, f"_do_{what}")(command)
+            error, missing = "", False
+        except MissingTypeError as problem:
+            error, missing = str(problem), True
+        except Exception as problem:  # noqa: BLE001 - told; rclpy has no common class
+            error, missing = f"{type(problem).__name__}: {problem}".splitlines()[0], False
+        self._pipes.send_control(report="done", channel=channel, error=error, missing=missing)
+
+    def publish(self, channel: int, data: bytes) -> None:
+        """Publish a message; one for a topic that is gone by now is dropped."""
+        publisher, topic = self._publishers.get(channel, (None, ""))
+        if publisher is None:
+            return
+        echoes = self._echoes.get(topic)
+        if echoes is not None:
+            echoes.note(data)
+        try:
+            publisher.publish(data)
+        except Exception:  # noqa: BLE001 - told; rclpy has no common class
+            if channel in self._publishers:
+                traceback.print_exc()
+
+    def call(self, channel: int, number: int, data: bytes) -> None:
+        """Call a service of ROS; the answer goes to the other half."""
+        self._calls.call(channel, number, data)
+
+    def answer(self, channel: int, number: int, data: bytes | None) -> None:
+        """Answer a call from ROS, or with None forget it: ROS 2 has no answer for a failure."""
+        header = self._headers.pop((channel, number), None)
+        service = self._services.get(channel)
+        if header is None or service is None or data is None:
+            return
+        response = self._deserialize(data, service.srv_type.Response)
+        type(service).send_response(service, response, header)
+
+    def close(self) -> None:
+        """Take all nodes out of ROS."""
+        self._publishers.clear()
+        for node in self._nodes.values():
+            self._executor.remove_node(node)
+            node.destroy_node()
+
+    def _do_node(self, command: dict[str, Any]) -> None:
+        name = command["node"]
+        namespace, _, base = name.rpartition("/")
+        node = import_module("rclpy.node").Node(
+            base,
+            namespace=namespace or "/",
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        self.own_names.add(name)
+        self._nodes[name] = node
+        self._executor.add_node(node)
+
+    def _do_unnode(self, command: dict[str, Any]) -> None:
+        node = self._nodes.pop(command["node"])
+        self._executor.remove_node(node)
+        node.destroy_node()
+        self.own_names.discard(command["node"])
+
+    def _do_publisher(self, command: dict[str, Any]) -> None:
+        node, topic, channel = self._node(command), command["topic"], command["channel"]
+        made = node.create_publisher(
+            class_of(command["type"]),
+            topic,
+            _qos(command),
+            event_callbacks=_silent("PublisherEventCallbacks"),
+        )
+        self.speakers.learn(topic)
+        if command["latched"] and not self._tells_gid:
+            # A subscription that comes later hears what is latched now.
+            self._echoes[topic] = Echoes(for_ever=True)
+        self._publishers[channel] = (made, topic)
+        self._drops[channel] = lambda: node.destroy_publisher(made)
+
+    def _do_subscription(self, command: dict[str, Any]) -> None:
+        node, topic, channel = self._node(command), command["topic"], command["channel"]
+        taker = self._taker(channel, topic)
+        kind = class_of(command["type"])
+        made = node.create_subscription(
+            kind,
+            topic,
+            taker,
+            _qos(command),
+            raw=True,
+            event_callbacks=_silent("SubscriptionEventCallbacks"),
+        )
+        self._drops[channel] = lambda: node.destroy_subscription(made)
+
+    def _do_service(self, command: dict[str, Any]) -> None:
+        node, channel = self._node(command), command["channel"]
+        kind = class_of(command["type"])
+        made = node.create_service(kind, command["topic"], lambda request, _response: request)
+        # The executor hands what the callback returns to this method, which answers at once in
+        # rclpy. Here the request goes on, and the answer comes whenever it comes.
+        made.send_response = lambda request, header: self._pass_on(channel, request, header)
+        self._services[channel] = made
+        self._drops[channel] = lambda: node.destroy_service(made)
+
+    def _do_client(self, command: dict[str, Any]) -> None:
+        channel = command["channel"]
+        made = self._home.create_client(class_of(command["type"]), command["topic"])
+        self._calls.add(channel, made)
+        self._drops[channel] = lambda: self._home.destroy_client(made)
+
+    def _do_drop(self, command: dict[str, Any]) -> None:
+        channel = command["channel"]
+        self._publishers.pop(channel, None)
+        self._services.pop(channel, None)
+        self._calls.remove(channel)
+        for key in [key for key in self._headers if key[0] == channel]:
+            del self._headers[key]
+        drop = self._drops.pop(channel, None)
+        if drop is not None:
+            drop()
+
+    def _node(self, command: dict[str, Any]) -> Any:
+        return self._nodes[command["node"]]
+
+    def _taker(self, channel: int, topic: str) -> Callable[[bytes, Any], None]:
+        def take(data: bytes, info: Any) -> None:
+            number = self.speakers.number_of(topic, bytes(info["publisher_gid"]["data"]))
+            if number:
+                self._pipes.send(FrameKind.MESSAGE, channel, number, data)
+
+        def take_unsigned(data: bytes, _info: Any) -> None:
+            if not echoes.is_echo(data):
+                self._pipes.send(FrameKind.MESSAGE, channel, 0, data)
+
+        if self._tells_gid:
+            return take
+        echoes = self._echoes.setdefault(topic, Echoes())
+        return take_unsigned
+
+    def _pass_on(self, channel: int, request: Any, header: Any) -> None:
+        number = next(self._numbers)
+        self._headers[channel, number] = header
+        self._pipes.send(FrameKind.REQUEST, channel, number, self._serialize(request))
+
+
+def _silent(name: str) -> Any:
+    """Callbacks that do not complain about differing qualities: the other half does, once."""
+    try:
+        events = import_module("rclpy.event_handler")
+    except ImportError:
+        # Before Iron.
+        events = import_module("rclpy.qos_event")
+    return getattr(events, name)(use_default_callbacks=False)
+
+
+def _qos(command: dict[str, Any]) -> Any:
+    qos = import_module("rclpy.qos")
+    reliability, durability = qos.ReliabilityPolicy, qos.DurabilityPolicy
+    return qos.QoSProfile(
+        depth=command["depth"],
+        reliability=reliability.RELIABLE if command["reliable"] else reliability.BEST_EFFORT,
+        durability=durability.TRANSIENT_LOCAL if command["latched"] else durability.VOLATILE,
+    )

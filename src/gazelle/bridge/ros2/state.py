@@ -1,0 +1,66 @@
+"""What there is in ROS, as its half reports it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+__all__ = ["NOTHING", "End", "Offered", "RosState"]
+
+
+class End(NamedTuple):
+    """A publisher or a subscription of a node in ROS.
+
+    Attributes:
+        node: global name.
+        topic: global name.
+        type_name: ``pkg/msg/Name``.
+        reliable: quality of service, as offered or asked for.
+        latched: ``TRANSIENT_LOCAL``, as offered or asked for.
+        number: of a publisher, as its messages tell it.
+    """
+
+    node: str
+    topic: str
+    type_name: str
+    reliable: bool
+    latched: bool
+    number: int = 0
+
+
+class Offered(NamedTuple):
+    """A service of a node in ROS."""
+
+    node: str
+    name: str
+    type_name: str
+
+
+class RosState(NamedTuple):
+    """All nodes, topics and services of ROS but the bridge's own."""
+
+    nodes: tuple[str, ...]
+    publishers: tuple[End, ...]
+    subscriptions: tuple[End, ...]
+    services: tuple[Offered, ...]
+
+    @classmethod
+    def from_report(cls, words: dict[str, Any]) -> RosState:
+        """Read a report."""
+        return cls(
+            tuple(row[0] for row in words["nodes"]),
+            tuple(End(*row) for row in words["publishers"]),
+            tuple(End(*row) for row in words["subscriptions"]),
+            tuple(Offered(*row) for row in words["services"]),
+        )
+
+    def without(self, names: frozenset[str]) -> RosState:
+        """Return what there is besides some nodes."""
+        return RosState(
+            tuple(name for name in self.nodes if name not in names),
+            tuple(one for one in self.publishers if one.node not in names),
+            tuple(one for one in self.subscriptions if one.node not in names),
+            tuple(one for one in self.services if one.node not in names),
+        )
+
+
+NOTHING = RosState((), (), (), ())

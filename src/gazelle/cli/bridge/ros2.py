@@ -1,0 +1,70 @@
+"""``gazelle bridge ros2``: real ROS 2 and the graph see each other."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import threading
+from typing import Any
+
+from gazelle.bridge.ros2 import About, Bridge, candidates, is_open
+from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.graph import Graph
+
+__all__ = ["main"]
+
+
+def main(argv: list[str]) -> int:
+    """Run until Ctrl-C."""
+    options = _parser().parse_args(argv)
+    environ = dict(os.environ)
+    learn_workspace_types()
+    stop = threading.Event()
+    _stop_on_signals(stop)
+    with Graph.open() as graph:
+        bridge = Bridge(graph, candidates(options.python, environ), environ)
+        bridge.on_end(stop.set)
+        try:
+            _say(bridge.about, graph.domain, is_network=is_open(environ))
+            stop.wait()
+        finally:
+            bridge.close()
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="gazelle bridge ros2",
+        description="Joins the graph and ROS 2 through ROS's own rclpy, with its middleware and "
+        "ROS_DOMAIN_ID. Topics flow only while the other side subscribes. Keeps to this machine "
+        "unless ROS_AUTOMATIC_DISCOVERY_RANGE (before Iron: ROS_LOCALHOST_ONLY=0) says otherwise.",
+    )
+    parser.add_argument(
+        "--python",
+        metavar="PATH",
+        help="the Python that has rclpy; by default that of the sourced ROS 2, else this one",
+    )
+    return parser
+
+
+def _say(about: About, domain: int, *, is_network: bool) -> None:
+    where = "other machines too" if is_network else "this machine only"
+    print(f"the bridge has joined ROS 2: {about.rmw}, domain {domain}, {where}", flush=True)
+    print(f"  rclpy of {about.python}", flush=True)
+    if is_network:
+        print(
+            "gazelle bridge ros2: other machines can reach it, and ROS 2 asks nobody for a "
+            "password; unset ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_LOCALHOST_ONLY for this "
+            "machine only",
+            file=sys.stderr,
+        )
+
+
+def _stop_on_signals(stop: threading.Event) -> None:
+    def on_signal(_number: int, _frame: Any) -> None:
+        stop.set()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)
