@@ -9,14 +9,33 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.studio.displays import tables as displays
+from gazelle.studio.downloads import download, save_file
+from gazelle.studio.files import Route
 from gazelle.studio.graph_view import tables as graph_view
 from gazelle.studio.params import Params
+from gazelle.studio.scenes.assets import mesh_answer, texture_answer
+from gazelle.studio.scenes.robot import get_robot
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import StreamKind
+from gazelle.studio.world import tables as world
 
-__all__ = ["METHODS", "STREAMS", "Method"]
+__all__ = ["METHODS", "ROUTES", "STREAMS", "Method"]
 
 Method = Callable[[Studio, Params], Any]
+"""Runs in a thread of its own and may wait; returns a JSON value."""
 
-METHODS: dict[str, Method] = {**graph_view.METHODS}
-STREAMS: dict[str, StreamKind] = {**graph_view.STREAMS}
+METHODS: dict[str, Method] = {
+    **graph_view.METHODS,
+    **world.METHODS,
+    "file.save": save_file,
+    "robot.get": get_robot,
+}
+STREAMS: dict[str, StreamKind] = {**graph_view.STREAMS, **displays.STREAMS, **world.STREAMS}
+ROUTES: dict[str, Route] = {
+    **world.ROUTES,
+    "file": download,
+    "mesh": mesh_answer,
+    "texture": texture_answer,
+}
+"""First part of a path → what answers the rest of it; None is 404."""

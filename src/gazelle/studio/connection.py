@@ -63,8 +63,9 @@ class Connection:
     async def run(self) -> None:
         """Serve the page until it goes."""
         writer = asyncio.create_task(self._write())
-        self.post(json_text(self._studio.hello()))
         self._studio.pages.add(self)
+        for message in self._studio.hello():
+            self.post(json_text(message))
         try:
             async for message in self._socket:
                 await self._take(message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import mimetypes
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from http import HTTPStatus
 from pathlib import Path
@@ -20,7 +20,7 @@ from gazelle.studio.security import CONTENT_SECURITY_POLICY, COOKIE, Guard
 if TYPE_CHECKING:
     from gazelle.studio.session import Studio
 
-__all__ = ["Answer", "answer_to", "response"]
+__all__ = ["Answer", "Route", "answer_to", "response"]
 
 _PAGE = Path(__file__).parent / "page"
 _METHODS = ("GET", "HEAD")
@@ -52,13 +52,22 @@ class Answer(NamedTuple):
 Route = Callable[["Studio", str], Answer | None]
 
 
-def answer_to(studio: Studio, request: Request, guard: Guard) -> Response:
-    """Return the response to a plain HTTP request; may read files."""
+def answer_to(
+    studio: Studio, routes: Mapping[str, Route], request: Request, guard: Guard
+) -> Response:
+    """Return the response to a plain HTTP request; may read files.
+
+    Args:
+        studio: whose files.
+        routes: first part of a path → what answers the rest; the page's own files otherwise.
+        request: what was asked.
+        guard: whose token becomes a cookie.
+    """
     if request.method not in _METHODS:
         headers = {"Allow": ", ".join(_METHODS)}
         return response(HTTPStatus.METHOD_NOT_ALLOWED, b"GET and HEAD only\n", headers)
     path = unquote(urlsplit(request.path).path)
-    answer = _answer(studio, path)
+    answer = _answer(studio, routes, path)
     if answer is None:
         return response(HTTPStatus.NOT_FOUND, b"there is nothing at this path\n")
     headers = {
@@ -91,9 +100,9 @@ def response(status: HTTPStatus, body: bytes, extra: dict[str, str] | None = Non
     return Response(status.value, status.phrase, headers, body)
 
 
-def _answer(studio: Studio, path: str) -> Answer | None:
+def _answer(studio: Studio, routes: Mapping[str, Route], path: str) -> Answer | None:
     head, _, rest = path.lstrip("/").partition("/")
-    route = studio.routes.get(head)
+    route = routes.get(head)
     if route is not None and rest:
         return route(studio, rest)
     return _page_file(path)

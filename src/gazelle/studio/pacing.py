@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from gazelle.studio.streams import Channel
 
-__all__ = ["Pace"]
+__all__ = ["Pace", "every"]
 
 
 class Pace:
@@ -45,3 +45,14 @@ class Pace:
             self._due_s = time.monotonic() + self._period_s
         if not self._channel.closed:
             self._act()
+
+
+def every(channel: Channel, period_s: float, act: Callable[[], None]) -> None:
+    """Call `act` now and so often until the channel closes; in the event loop, so be short."""
+
+    def again() -> None:
+        if not channel.closed:
+            act()
+            channel.later(period_s, again)
+
+    again()

@@ -14,6 +14,7 @@ from websockets.asyncio.server import ServerConnection, serve
 from websockets.http11 import Request, Response
 
 from gazelle.errors import GazelleError
+from gazelle.studio.catalogue import ROUTES
 from gazelle.studio.connection import Connection
 from gazelle.studio.files import answer_to, response
 from gazelle.studio.security import Guard, guard_for
@@ -142,7 +143,7 @@ class Server:
             if request.headers.get("Upgrade", "").lower() == "websocket":
                 return None
             return response(HTTPStatus.UPGRADE_REQUIRED, b"this path is a WebSocket\n")
-        return await in_thread(answer_to, self.studio, request, self._guard)
+        return await in_thread(answer_to, self.studio, ROUTES, request, self._guard)
 
     def _url(self) -> str:
         host = f"[{self._host}]" if ":" in self._host else self._host

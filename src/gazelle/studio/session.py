@@ -14,7 +14,6 @@ from gazelle.studio.workers import Workers
 
 if TYPE_CHECKING:
     from gazelle.studio.connection import Connection
-    from gazelle.studio.files import Route
 
 __all__ = ["Studio"]
 
@@ -31,41 +30,35 @@ class Studio:
         taps: the topics listened to.
         workers: threads that make frames.
         pages: the open connections.
-        routes: first part of a path → who answers it.
     """
 
-    def __init__(self, graph: Graph, *, routes: dict[str, Route] | None = None) -> None:
-        """Join as a node of a name of its own.
-
-        Args:
-            graph: the graph; it stays open when Studio is closed.
-            routes: answers to HTTP paths besides the page's files.
-        """
+    def __init__(self, graph: Graph) -> None:
+        """Join as a node of a name of its own; the graph stays open when Studio is closed."""
         self.graph = graph
         self.node = graph.create_node("studio", anonymous=True, rosout=False)
         graph.clock.follow(self.node)
         self.taps = Taps(self.node)
         self.workers = Workers(_WORKERS)
         self.pages: set[Connection] = set()
-        self.routes: dict[str, Route] = dict(routes or {})
         self.session_name = f"{graph.zid}-{self.node.entity.node_id}"
         self._lock = threading.RLock()
         self._shared: dict[Any, Any] = {}
         self._closers: list[Callable[[], None]] = []
         self._panels: list[tuple[str, dict[str, Any]]] = []
 
-    def hello(self) -> dict[str, Any]:
-        """Return the first frame of a connection."""
+    def hello(self) -> list[dict[str, Any]]:
+        """Return the first messages of a connection; panels that waited are shown there."""
         with self._lock:
-            panels = [name for name, _ in self._panels]
-        return {
+            waiting, self._panels = self._panels, []
+        first = {
             "op": "hello",
             "version": __version__,
             "session": self.session_name,
             "node": self.node.name,
             "graph": {"port": self.graph.port, "domain": self.graph.domain},
-            "panels": panels,
+            "panels": [name for name, _ in waiting],
         }
+        return [first, *(_show(name, params) for name, params in waiting if params)]
 
     def show(self, panel: str, params: dict[str, Any] | None = None) -> None:
         """Ask for a panel: on the pages that are open, else on the first that opens."""
@@ -74,7 +67,7 @@ class Studio:
             with self._lock:
                 self._panels.append((panel, params or {}))
         for page in pages:
-            page.post(json_text({"op": "show", "panel": panel, "params": params or {}}))
+            page.post(json_text(_show(panel, params or {})))
 
     def shared(self, make: Callable[[Studio], _T]) -> _T:
         """Return what a function makes, made once for this Studio; parts keep their state so."""
@@ -94,3 +87,7 @@ class Studio:
             closer()
         self.workers.close()
         self.node.shutdown("Studio was closed")
+
+
+def _show(panel: str, params: dict[str, Any]) -> dict[str, Any]:
+    return {"op": "show", "panel": panel, "params": params}

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.graph import MessageInfo
-
 __all__ = ["seconds", "stamp_s"]
 
 
@@ -14,10 +12,10 @@ def seconds(stamp: Any) -> float:
     return float(stamp.sec + stamp.nanosec * 1e-9)
 
 
-def stamp_s(message: Any, info: MessageInfo) -> float:
-    """Return when a message is from: its header's time, else when it was published, seconds."""
+def stamp_s(message: Any, arrived_s: float) -> float:
+    """Return when a message is from: its header's time, else when it came, seconds."""
     header = getattr(message, "header", None)
     stamp = getattr(header, "stamp", None)
     if stamp is not None and (stamp.sec or stamp.nanosec):
         return seconds(stamp)
-    return info.stamp_ns * 1e-9
+    return arrived_s

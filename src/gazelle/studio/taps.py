@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import struct
 import threading
+import time
+from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
+from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, MessageInfo, Node, RawMessage
 from gazelle.interfaces import Message, from_cdr, message_type
+from gazelle.interfaces.definition import Array
 
 if TYPE_CHECKING:
     from gazelle.graph import Subscription
 
-__all__ = ["Sample", "Taps"]
+__all__ = ["Arrival", "Listener", "Sample", "Taps"]
 
 
 class Sample(NamedTuple):
@@ -21,10 +26,12 @@ class Sample(NamedTuple):
     Attributes:
         raw: its bytes and type.
         info: where it came from.
+        time_s: when it came, on the graph's clock, seconds.
     """
 
     raw: RawMessage
     info: MessageInfo
+    time_s: float
 
     def message(self) -> Message:
         """Decode it.
@@ -37,6 +44,18 @@ class Sample(NamedTuple):
 
 
 Listener = Callable[[Sample], None]
+_MOST_ARRIVALS = 5000
+_HEADER = "std_msgs/msg/Header"
+_STAMP = (struct.Struct("<iI"), struct.Struct(">iI"))
+_STAMP_PLACE = 4
+
+
+class Arrival(NamedTuple):
+    """A message as it is counted: when it came (monotonic), how long it is, how old it was."""
+
+    wall_s: float
+    size_bytes: int
+    delay_s: float | None
 
 
 class _Tap:
@@ -44,6 +63,9 @@ class _Tap:
         self.listeners: tuple[Listener, ...] = ()
         self.subscription: Subscription | None = None
         self.last: Sample | None = None
+        self.count = 0
+        self.arrivals: deque[Arrival] = deque(maxlen=_MOST_ARRIVALS)
+        self.has_header = False
 
 
 class Taps:
@@ -84,9 +106,23 @@ class Taps:
             listener(last)
         return lambda: self._leave(topic, tap, listener)
 
+    def arrivals(self, topic: str) -> tuple[int, tuple[Arrival, ...]]:
+        """Return how many messages of a topic came, and the last of them one by one."""
+        with self._lock:
+            tap = self._taps.get(topic)
+        return (tap.count, tuple(tap.arrivals)) if tap else (0, ())
+
     def _subscribe(self, topic: str, tap: _Tap) -> Subscription:
+        clock = self._node.clock
+
         def take(raw: RawMessage, info: MessageInfo) -> None:
-            sample = Sample(raw, info)
+            now_s = clock.now_ns() * 1e-9
+            sample = Sample(raw, info, now_s)
+            if not tap.count:
+                tap.has_header = _starts_with_header(raw.type_name)
+            delay_s = now_s - _header_s(raw.data) if tap.has_header else None
+            tap.arrivals.append(Arrival(time.monotonic(), len(raw.data), delay_s))
+            tap.count += 1
             tap.last = sample
             for listener in tap.listeners:
                 listener(sample)
@@ -111,3 +147,19 @@ class Taps:
                 del self._taps[topic]
         if over and tap.subscription is not None:
             tap.subscription.unregister()
+
+
+def _starts_with_header(type_name: str) -> bool:
+    try:
+        fields = message_type(type_name).FIELDS
+    except GazelleError:
+        return False
+    return bool(fields) and fields[0].type.base == _HEADER and fields[0].type.array is Array.ONE
+
+
+def _header_s(data: bytes) -> float:
+    """The stamp of a message that starts with a header lies behind CDR's four bytes."""
+    if len(data) < _STAMP_PLACE + 8:
+        return 0.0
+    sec, nanosec = _STAMP[data[1] != 1].unpack_from(data, _STAMP_PLACE)
+    return float(sec + nanosec * 1e-9)

@@ -228,6 +228,15 @@ class TransformBuffer:
                 for name, history in self._frames.items()
             )
 
+    def latest(self) -> dict[str, StampedPose]:
+        """Return every frame that has a parent with its newest ``T_parent_frame``."""
+        with self._changed:
+            newest = [(name, history.latest) for name, history in self._frames.items()]
+        return {
+            name: StampedPose(sample.parent, name, sample.stamp_ns, sample.pose)
+            for name, sample in newest
+        }
+
     def frame_names(self) -> tuple[str, ...]:
         """Return the names of all frames, roots included, sorted."""
         with self._changed:

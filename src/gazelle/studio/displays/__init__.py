@@ -1,1 +1,1 @@
-"""Messages → what the page draws."""
+"""Messages → what the page draws, display by display, with RViz's names and words."""

@@ -45,7 +45,7 @@ class _Echo:
         message = sample.message()
         return {
             "type": sample.raw.type_name,
-            "stamp_s": stamp_s(message, sample.info),
+            "stamp_s": stamp_s(message, sample.time_s),
             "count": self._count,
             "message": message_value(message),
         }

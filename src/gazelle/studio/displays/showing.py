@@ -1,0 +1,106 @@
+"""What all displays of a topic share: the newest message, and its pose in the fixed frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.geometry import Pose
+from gazelle.graph.tf import TransformError
+from gazelle.studio.errors import StudioError
+from gazelle.studio.frames import Frames
+from gazelle.studio.pacing import every
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["Site", "open_newest", "stamp_ns"]
+
+_RETRY_S = 0.5
+_NANO = 1_000_000_000
+
+
+class Site:
+    """Where a display is shown.
+
+    Attributes:
+        studio: whose graph.
+        channel: where its frames go.
+        params: topic, fixed frame and the display's own properties.
+        frames: where frames are.
+    """
+
+    def __init__(self, studio: Studio, channel: Channel, params: Params) -> None:
+        """Note the site of a display."""
+        self.studio = studio
+        self.channel = channel
+        self.params = params
+        self.frames = studio.shared(Frames)
+        self._fixed = params.text("fixed_frame", "map")
+
+    def pose(self, header: Any) -> Pose:
+        """Return ``T_fixed_frame`` of a message's header.
+
+        Raises:
+            StudioError: there is no way from its frame to the fixed one; in RViz's words.
+        """
+        try:
+            return self.frames.pose(self._fixed, header.frame_id, stamp_ns(header.stamp))
+        except TransformError as error:
+            raise StudioError(
+                f"No transform from [{header.frame_id}] to [{self._fixed}]: {error}"
+            ) from error
+
+
+def stamp_ns(stamp: Any) -> int:
+    """Return a time of a message in nanoseconds."""
+    return int(stamp.sec) * _NANO + int(stamp.nanosec)
+
+
+def open_newest(
+    site: Site, make: Callable[[Sample], Any], *, topic: str = "", refresh_s: float = 0.0
+) -> OpenStream:
+    """Show the newest message of a topic.
+
+    Args:
+        site: where.
+        make: message → what is sent, None for nothing. While it raises `StudioError` it is tried
+            again, since a transform may come later.
+        topic: the site's own when empty.
+        refresh_s: try again so often also when it went well, for what stays and moves along.
+    """
+    newest = _Newest(site, make)
+    leave = site.studio.taps.listen(topic or site.params.text("topic"), newest.take)
+    every(site.channel, refresh_s or _RETRY_S, newest.again_always if refresh_s else newest.again)
+    return OpenStream(leave)
+
+
+class _Newest:
+    def __init__(self, site: Site, make: Callable[[Sample], Any]) -> None:
+        self._site = site
+        self._make = make
+        self._sample: Sample | None = None
+        self._failed = False
+
+    def take(self, sample: Sample) -> None:
+        """Runs in the transport's thread."""
+        self._sample = sample
+        self._site.channel.offer(self._made)
+
+    def again(self) -> None:
+        if self._failed:
+            self._site.channel.offer(self._made)
+
+    def again_always(self) -> None:
+        if self._sample is not None:
+            self._site.channel.offer(self._made)
+
+    def _made(self) -> Any:
+        sample = self._sample
+        if sample is None:
+            return None
+        self._failed = True
+        made = self._make(sample)
+        self._failed = False
+        return made

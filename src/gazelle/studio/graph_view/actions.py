@@ -1,0 +1,93 @@
+"""``action``: a goal, its feedback and its result."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from gazelle.graph.actions import ActionClient, ClientGoal
+from gazelle.studio.errors import unknown
+from gazelle.studio.graph_view.forms import filled
+from gazelle.studio.json_text import message_value
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, OpenStream
+
+__all__ = ["open_action"]
+
+_SERVER_S = 2.0
+
+
+def open_action(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``action``: sends the goal; closing the channel cancels it."""
+    name = studio.node.resolve_name(params.text("action"))
+    type_name = params.text("type", "") or _type_of(studio, name)
+    client = ActionClient(studio.node, name, type_name)
+    try:
+        client.require_server(_SERVER_S)
+        goal = filled_goal(client, params.object("goal", {}), studio)
+        talk = _Talk(channel, client)
+        talk.goal = client.send_goal(
+            goal, on_feedback=talk.tell, on_done=talk.finish, on_transition=talk.tell
+        )
+    except Exception:
+        client.close()
+        raise
+    talk.tell(talk.goal)
+    return OpenStream(talk.close, {"type": client.type_name, "goal_id": talk.goal.goal_id})
+
+
+def filled_goal(client: ActionClient, values: dict[str, Any], studio: Studio) -> Any:
+    """Return the goal message of a form."""
+    from gazelle.interfaces import action_type
+
+    return filled(action_type(client.type_name).Goal, values, studio.graph.clock.now_ns())
+
+
+class _Talk:
+    """What is told of one goal."""
+
+    def __init__(self, channel: Channel, client: ActionClient) -> None:
+        self.goal: ClientGoal | None = None
+        self._channel = channel
+        self._client = client
+        self._lock = threading.Lock()
+        self._over = False
+
+    def tell(self, _news: Any) -> None:
+        """Send how things stand."""
+        goal = self.goal
+        if goal is None:
+            return
+        self._channel.send(
+            {
+                "state": goal.status.name,
+                "text": goal.text,
+                "feedback": None if goal.feedback is None else message_value(goal.feedback),
+                "result": None if goal.result is None else message_value(goal.result),
+            }
+        )
+
+    def finish(self, goal: ClientGoal) -> None:
+        """Send the result; the stream is over."""
+        self.goal = goal
+        with self._lock:
+            self._over = True
+        self.tell(goal)
+        self._channel.end()
+
+    def close(self) -> None:
+        """Cancel the goal if it goes on, and leave."""
+        with self._lock:
+            over = self._over
+        if self.goal is not None and not over:
+            self.goal.cancel()
+            self.goal.forget()
+        self._client.close()
+
+
+def _type_of(studio: Studio, name: str) -> str:
+    types = {one.name: one.type_name for one in studio.graph.actions()}
+    if name not in types:
+        raise unknown("action", name, types)
+    return types[name]

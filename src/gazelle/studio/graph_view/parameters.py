@@ -1,0 +1,131 @@
+"""Parameters: the store of ROS 1 and the parameter services of ROS 2 nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
+from gazelle.interfaces import message_type
+from gazelle.studio.errors import StudioError, unknown
+from gazelle.studio.graph_view.services import request_response, services_by_type
+from gazelle.studio.json_text import message_value
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = [
+    "delete_parameter",
+    "get_node_parameters",
+    "get_parameter",
+    "list_parameters",
+    "set_node_parameter",
+    "set_parameter",
+]
+
+_LIST = "rcl_interfaces/srv/ListParameters"
+_GET = "rcl_interfaces/srv/GetParameters"
+_DESCRIBE = "rcl_interfaces/srv/DescribeParameters"
+_SET = "rcl_interfaces/srv/SetParameters"
+_RANGES = ("floating_point_range", "integer_range")
+
+
+def list_parameters(studio: Studio, params: Params) -> list[dict[str, Any]]:
+    """``param.list``: names and values below a namespace, all by default."""
+    tree = _value(studio, params.text("name", "/"))
+    start = params.text("name", "/").rstrip("/")
+    return [{"name": name, "value": value} for name, value in _leaves(start, tree)]
+
+
+def get_parameter(studio: Studio, params: Params) -> Any:
+    """``param.get``."""
+    return _value(studio, params.text("name"))
+
+
+def set_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+    """``param.set``."""
+    if "value" not in params.values:
+        raise StudioError(f"{params.where}: parameter 'value' is missing")
+    studio.graph.parameters.set(params.text("name"), params.values["value"])
+    return {}
+
+
+def delete_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+    """``param.delete``."""
+    name = params.text("name")
+    try:
+        studio.graph.parameters.delete(name)
+    except KeyError:
+        raise unknown("parameter", name, studio.graph.parameters.names()) from None
+    return {}
+
+
+def get_node_parameters(studio: Studio, params: Params) -> list[dict[str, Any]]:
+    """``node.params`` of a ROS 2 node."""
+    node = _node(studio, params)
+    listed = request_response(studio, f"{node}/list_parameters", _LIST)
+    names = sorted(listed.result.names)
+    values = request_response(studio, f"{node}/get_parameters", _GET, names=names).values
+    told = request_response(studio, f"{node}/describe_parameters", _DESCRIBE, names=names)
+    rows = zip(names, values, told.descriptors, strict=False)
+    return [_row(name, value, descriptor) for name, value, descriptor in rows]
+
+
+def set_node_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+    """``node.param_set``; a whole number becomes a double where the node has one."""
+    node, name = _node(studio, params), params.text("name")
+    present = request_response(studio, f"{node}/get_parameters", _GET, names=[name]).values
+    value = _fitting(params.values.get("value"), present[0].type if present else 0)
+    row = message_type("rcl_interfaces/msg/Parameter")(name=name, value=value_message(value))
+    answer = request_response(studio, f"{node}/set_parameters", _SET, parameters=[row]).results
+    if not answer:
+        raise StudioError(f"{node} gave no answer for parameter '{name}'")
+    return {"successful": bool(answer[0].successful), "reason": answer[0].reason}
+
+
+def _node(studio: Studio, params: Params) -> str:
+    node = studio.node.resolve_name(params.text("node"))
+    offering = services_by_type(studio, _LIST)
+    if f"{node}/list_parameters" not in offering:
+        nodes = [name.removesuffix("/list_parameters") for name in offering]
+        raise unknown("ROS 2 node with parameters", node, nodes)
+    return node
+
+
+def _row(name: str, value: Any, descriptor: Any) -> dict[str, Any]:
+    told = message_value(descriptor)
+    limits = next((told[key][0] for key in _RANGES if told.get(key)), None)
+    return {
+        "name": name,
+        "value": message_value(value_from_message(value)),
+        "type": ParameterType(value.type).word,
+        "descriptor": {
+            "description": told["description"],
+            "read_only": told["read_only"],
+            "constraints": told["additional_constraints"],
+            "range": limits,
+        },
+    }
+
+
+def _fitting(value: Any, present: int) -> Any:
+    is_whole = isinstance(value, int) and not isinstance(value, bool)
+    if present == ParameterType.DOUBLE and is_whole:
+        return float(value)
+    if present == ParameterType.DOUBLE_ARRAY and isinstance(value, list):
+        return [float(item) if isinstance(item, int) else item for item in value]
+    return value
+
+
+def _value(studio: Studio, name: str) -> Any:
+    try:
+        return studio.graph.parameters.get(name)
+    except KeyError:
+        raise unknown("parameter", name, studio.graph.parameters.names()) from None
+
+
+def _leaves(name: str, value: Any) -> list[tuple[str, Any]]:
+    if not isinstance(value, dict):
+        return [(name, value)]
+    found: list[tuple[str, Any]] = []
+    for key in sorted(value):
+        found += _leaves(f"{name}/{key}", value[key])
+    return found

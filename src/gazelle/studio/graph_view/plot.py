@@ -1,0 +1,100 @@
+"""``topic.plot``: numbers of messages over time, none left out."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+from gazelle.errors import GazelleError
+from gazelle.studio.graph_view.curves import Curve, curves_of, read_number
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.stamps import stamp_s
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["open_plot"]
+
+_FIRST_MESSAGE_S = 1.0
+_GATHER_S = 0.03
+
+
+def open_plot(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``topic.plot``; ``opened.info`` names the curves."""
+    looker = _Looker(studio)
+    known = studio.graph.entities()
+    curves: list[Curve] = []
+    for name in params.texts("curves"):
+        curves += [one for one in curves_of(name, known, looker.last) if one not in curves]
+    plot = _Plot(studio, channel, curves)
+    return OpenStream(plot.close, {"curves": [one.name for one in curves]})
+
+
+class _Looker:
+    """Waits a moment for a topic's message, which tells how long its arrays are."""
+
+    def __init__(self, studio: Studio) -> None:
+        self._studio = studio
+
+    def last(self, topic: str) -> Any:
+        came = threading.Event()
+        found: list[Sample] = []
+
+        def take(sample: Sample) -> None:
+            found.append(sample)
+            came.set()
+
+        end = self._studio.taps.listen(topic, take)
+        came.wait(_FIRST_MESSAGE_S)
+        end()
+        return found[0].message() if found else None
+
+
+class _Plot:
+    def __init__(self, studio: Studio, channel: Channel, curves: list[Curve]) -> None:
+        self._studio = studio
+        self._channel = channel
+        self._curves = curves
+        self._lock = threading.Lock()
+        by_topic: dict[str, list[int]] = {}
+        for index, curve in enumerate(curves):
+            by_topic.setdefault(curve.topic, []).append(index)
+        self._queue: deque[tuple[list[int], Sample]] = deque()
+        self._ends = [self._listen(topic, places) for topic, places in by_topic.items()]
+
+    def close(self) -> None:
+        for end in self._ends:
+            end()
+
+    def _listen(self, topic: str, places: list[int]) -> Any:
+        def take(sample: Sample) -> None:
+            with self._lock:
+                self._queue.append((places, sample))
+                first = len(self._queue) == 1
+            if first:
+                self._channel.later(_GATHER_S, self._start)
+
+        return self._studio.taps.listen(topic, take)
+
+    def _start(self) -> None:
+        self._studio.workers.submit(self._drain)
+
+    def _drain(self) -> None:
+        with self._lock:
+            queue, self._queue = self._queue, deque()
+        times: dict[int, list[float]] = {}
+        values: dict[int, list[float | None]] = {}
+        for places, sample in queue:
+            try:
+                message = sample.message()
+            except GazelleError as error:
+                self._channel.status("error", str(error))
+                continue
+            at_s = stamp_s(message, sample.time_s)
+            for place in places:
+                times.setdefault(place, []).append(at_s)
+                number = read_number(message, self._curves[place].steps)
+                values.setdefault(place, []).append(number)
+        for place in sorted(times):
+            self._channel.add({"curve": place, "t": times[place], "v": values[place]})

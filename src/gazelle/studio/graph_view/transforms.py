@@ -1,0 +1,79 @@
+"""``tf`` and ``tf.tree``: where frames are, and who says so."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.studio.frames import NO_POSE, Frames, pose_values, poses_in
+from gazelle.studio.pacing import Pace, every
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, Frame, OpenStream
+
+__all__ = ["KIND_FRAMES", "open_tf", "open_tree"]
+
+KIND_FRAMES = 2
+_TREE_S = 1.0
+
+
+def open_tf(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``tf``: poses in a fixed frame, their names ahead whenever these change."""
+    frames = studio.shared(Frames)
+    poses = _Poses(studio, frames, params.text("fixed_frame"))
+    rate_hz = params.number("rate_hz", 30.0, least=0.1, most=100.0)
+    pace = Pace(channel, lambda: channel.offer(poses.frames), rate_hz)
+    return OpenStream(frames.follow(pace))
+
+
+def open_tree(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``tf.tree``."""
+    frames = studio.shared(Frames)
+    every(channel, _TREE_S, lambda: channel.offer(lambda: _tree(studio, frames)))
+    return OpenStream(lambda: None)
+
+
+class _Poses:
+    def __init__(self, studio: Studio, frames: Frames, fixed_frame: str) -> None:
+        self._clock = studio.graph.clock
+        self._frames = frames
+        self._fixed = fixed_frame
+        self._told: Any = None
+
+    def frames(self) -> Any:
+        """Return the frames to send: names first if they are not those told last."""
+        latest = self._frames.buffer.latest()
+        poses = poses_in(latest, self._fixed)
+        rows = sorted(poses)
+        static = {one.name for one in self._frames.buffer.frames() if one.is_static}
+        names = [
+            {
+                "name": name,
+                "parent": latest[name].frame_id if name in latest else "",
+                "static": name in static,
+            }
+            for name in rows
+        ]
+        values = [NO_POSE if (pose := poses[name]) is None else pose_values(pose) for name in rows]
+        data = np.array(values, np.float32).reshape(-1, 7)
+        frame = Frame(KIND_FRAMES, len(rows), self._clock.now_ns() * 1e-9, (data,))
+        if names == self._told:
+            return frame
+        self._told = names
+        return ({"frames": names}, frame)
+
+
+def _tree(studio: Studio, frames: Frames) -> Any:
+    now_ns = studio.graph.clock.now_ns()
+    return [
+        {
+            "frame": one.name,
+            "parent": one.parent,
+            "rate_hz": None if one.is_static else one.rate_hz,
+            "age_s": None if one.is_static else (now_ns - one.latest_ns) * 1e-9,
+            "broadcaster": one.authority,
+            "static": one.is_static,
+        }
+        for one in frames.buffer.frames()
+    ]

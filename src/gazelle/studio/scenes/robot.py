@@ -1,0 +1,80 @@
+"""``robot.get``: the scene value of a robot description, from a parameter or a topic."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from gazelle.description.loader import load_models
+from gazelle.diagnostics import Diagnostics
+from gazelle.sensors.scene_value import robot_value
+from gazelle.studio.errors import StudioError, unknown
+from gazelle.studio.params import Params
+from gazelle.studio.scenes.assets import Assets
+from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.session import Studio
+from gazelle.studio.taps import Sample
+from gazelle.workspace import Workspace
+
+__all__ = ["get_robot"]
+
+_PARAMETER = "/robot_description"
+_TOPIC_S = 2.0
+
+
+def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
+    """``robot.get``: of ``parameter`` or ``topic``, of ``/robot_description`` in either."""
+    text = _description(studio, params)
+    found = Diagnostics()
+    models = load_models(text, workspace=Workspace.discover(), diagnostics=found)
+    findings = [
+        {"level": item.severity.name.lower(), "text": str(item.message), "code": item.code}
+        for item in found
+    ]
+    if not models:
+        reasons = "\n".join(item["text"] for item in findings)
+        raise StudioError("the robot description cannot be read", hint=reasons)
+    value = page_scene(robot_value(models[0]), studio.shared(Assets))
+    prefix = params.text("tf_prefix", "").strip("/")
+    for body in value["bodies"]:
+        body["frame"] = f"{prefix}/{body['link']}" if prefix else body["link"]
+    return value | {"findings": findings}
+
+
+def _description(studio: Studio, params: Params) -> str:
+    if "topic" in params:
+        return _from_topic(studio, params.text("topic"))
+    name = params.text("parameter", _PARAMETER)
+    try:
+        value = studio.graph.parameters.get(name)
+    except KeyError:
+        topics = {one.name for one in studio.graph.topics()}
+        if name in topics:
+            return _from_topic(studio, name)
+        known = studio.graph.parameters.names()
+        raise unknown("parameter or topic", name, {*known, *topics}) from None
+    if not isinstance(value, str):
+        raise StudioError(f"parameter '{name}' is no text but a {type(value).__name__}")
+    return value
+
+
+def _from_topic(studio: Studio, topic: str) -> str:
+    came = threading.Event()
+    samples: list[Sample] = []
+
+    def take(sample: Sample) -> None:
+        samples.append(sample)
+        came.set()
+
+    end = studio.taps.listen(topic, take)
+    came.wait(_TOPIC_S)
+    end()
+    if not samples:
+        raise StudioError(
+            f"no robot description came on {topic}",
+            hint="robot_state_publisher of ROS 2 publishes it, latched",
+        )
+    text = getattr(samples[0].message(), "data", None)
+    if not isinstance(text, str):
+        raise StudioError(f"{topic} is no std_msgs/String")
+    return text
