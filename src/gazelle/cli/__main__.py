@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from typing import NoReturn
 
@@ -14,6 +15,11 @@ __all__ = ["run"]
 def run() -> NoReturn:
     """Run the command of the command line and end the process."""
     _heed_interrupts()
+    if "GAZELLE_PARENT_PID" in os.environ:
+        # Started by a launch: most commands are not, and need nothing of the graph for this.
+        from gazelle.graph.parent import end_with_parent
+
+        end_with_parent()
     end_with(main)
 
 

@@ -27,6 +27,7 @@ from gazelle.graph.local_topic import LocalTopics
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
+from gazelle.graph.stamps import StampWatch
 
 if TYPE_CHECKING:
     import zenoh
@@ -59,6 +60,7 @@ class Graph:
         clock: the clock of all nodes here.
         parameters: the parameter store, by global names.
         local: topics' ends in this process.
+        stamps: finds messages of the wrong clock.
         console: writes what nodes log, taken over by nodes when they are made.
         calls: of services, that have no answer yet.
     """
@@ -83,6 +85,7 @@ class Graph:
         self.parameter_share = ParameterShare(session)
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
         self.clock = Clock(lambda: self.parameters.get_cached(_USE_SIM_TIME, False))
+        self.stamps = StampWatch(self.clock)
         self.console: Callable[..., None] = print_record
         self._environ = environ
         self._keeper = keeper

@@ -173,6 +173,7 @@ class Node:
                 queue_size=queue_size,
                 takes_latched=qos is None or qos.latched,
                 on_error=self._on_error,
+                on_warning=self._on_warning,
             )
         )
 
@@ -280,6 +281,9 @@ class Node:
 
     def _on_error(self, text: str) -> None:
         self.log(Level.ERROR, text)
+
+    def _on_warning(self, text: str) -> None:
+        self.log(Level.WARN, text)
 
     def _rosout_message(self, record: LogRecord) -> Any:
         assert self._rosout is not None

@@ -20,21 +20,21 @@ def end_with_parent() -> None:
     """Send this process SIGTERM when its launcher dies.
 
     Does nothing unless the launcher named itself in the environment, so a node that a person
-    starts by hand outlives the shell as usual. The kernel does it on Linux (prctl(2)), a thread
-    that looks at the parent's number elsewhere.
+    starts by hand outlives the shell as usual. The kernel does it on Linux (prctl(2)), but may
+    give the signal to a thread other than Python's main one, which then does not hear of it
+    before it wakes; so a thread looks at the parent's number too, everywhere.
     """
     parent = os.environ.pop(PARENT_VARIABLE, "")
     if not parent.isdigit():
         return
     if sys.platform == "linux":
         ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
-        if os.getppid() != int(parent):
-            os.kill(os.getpid(), signal.SIGTERM)
-    else:
-        threading.Thread(target=_watch, args=(int(parent),), daemon=True).start()
+    if os.getppid() != int(parent):
+        os.kill(os.getpid(), signal.SIGTERM)
+    threading.Thread(target=_watch, args=(int(parent),), daemon=True).start()
 
 
 def _watch(parent: int) -> None:
     while os.getppid() == parent:
         time.sleep(_CHECK_PERIOD_S)
-    os.kill(os.getpid(), signal.SIGTERM)
+    signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGTERM)

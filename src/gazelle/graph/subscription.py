@@ -67,6 +67,7 @@ class Subscription:
         queue_size: int,
         takes_latched: bool,
         on_error: Callable[[str], None],
+        on_warning: Callable[[str], None],
     ) -> None:
         """Declare the interest; use `Node.create_subscription`."""
         self.topic = entity.name
@@ -78,6 +79,7 @@ class Subscription:
         self._takes_any = message_class is None
         self._with_info = with_info
         self._on_error = on_error
+        self._on_warning = on_warning
         self._count_seq = wire.is_ros1_view(message_class)
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
@@ -154,6 +156,8 @@ class Subscription:
             return
         if self._count_seq and attachment is not None and hasattr(message, "header"):
             message.header.seq = attachment.sequence
+        if self._graph.stamps.is_wrong(message):
+            self._tell_of_stamp(message, attachment or _attachment_of(sample))
         self._deliver(message, attachment, type_name)
 
     def _hand_local(self, message: Any, attachment: Attachment | None) -> None:
@@ -178,6 +182,12 @@ class Subscription:
         publisher = entity.node if entity else ""
         sequence, stamp_ns, gid = attachment
         return MessageInfo(sequence, stamp_ns, publisher, name, gid)
+
+    def _tell_of_stamp(self, message: Any, attachment: Attachment) -> None:
+        entity = self._graph.entity_with_gid(attachment.gid)
+        text = self._graph.stamps.sentence(message, self.topic, entity.node if entity else "")
+        if text:
+            self._on_warning(text)
 
     def _accepts(self, type_name: str) -> bool:
         own = self.entity.type_name

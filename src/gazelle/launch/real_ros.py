@@ -95,9 +95,8 @@ def _names_on_graph() -> tuple[str, ...]:
 
 def _bridge_command(name: str) -> Executable:
     """Return what runs a bridge; it ends with the process that starts it."""
-    words = (sys.executable, "-m", "gazelle.launch.child")
-    bridge = (sys.executable, "-m", "gazelle.cli", "bridge", name)
-    return Executable((*words, *bridge), takes_ros_words=False)
+    words = (sys.executable, "-m", "gazelle.cli", "bridge", name)
+    return Executable(words, takes_ros_words=False)
 
 
 def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console: Console) -> None:

@@ -16,6 +16,15 @@ ENTRIES = (
         "Unable to start XML-RPC server, port 11311 is already in use",
     ),
     Entry(
+        "graph.wall-stamps",
+        "warning",
+        "A node stamps its messages with wall time in a graph with simulated time",
+        "Whoever reads them looks for transforms of that time, which never come.",
+        "stamp with the node's clock (rospy.Time.now(), node.get_clock().now()), not time.time(); "
+        "start the node after use_sim_time is true; ROS 2: --ros-args -p use_sim_time:=true",
+        "Lookup would require extrapolation into the future",
+    ),
+    Entry(
         "graph.type-mismatch",
         "error",
         "Two ends of a topic or service have different types",
