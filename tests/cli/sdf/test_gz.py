@@ -67,8 +67,8 @@ def test_missing_file_is_said_as_gz_says_it(capsys: Capture) -> None:
 
 
 def test_other_commands_are_named_in_one_line(capsys: Capture) -> None:
-    assert main(["gz", "log", "-i", "-f", "state.log"]) == 255
-    assert capsys.readouterr().err.startswith("gazelle: gz log is not here; use rosbag record")
+    assert main(["gz", "physics", "-g", "0,0,0"]) == 255
+    assert capsys.readouterr().err.startswith("gazelle: gz physics is not here; use rosservice")
     assert main(["gz", "sdf", "-c", "old.sdf"]) == 255
     assert "use gz sdf -p old.sdf > NEW.sdf" in capsys.readouterr().err
     assert main(["gz", "nonsense"]) == 255

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from gazelle.cli.gz import joint, model, stats, topic, world
+from gazelle.cli.gz import joint, log, model, stats, topic, world
 from gazelle.cli.gz.options import GzCommand, help_text, read_options
 from gazelle.cli.sdf.sdf_file import say
 from gazelle.errors import GazelleError
@@ -14,6 +14,7 @@ __all__ = ["WORLD_COMMANDS", "explain", "run"]
 _FAILED = 255
 _ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
     (joint.COMMAND, joint.run),
+    (log.COMMAND, log.run),
     (model.COMMAND, model.run),
     (stats.COMMAND, stats.run),
     (topic.COMMAND, topic.run),

@@ -27,6 +27,7 @@ List of commands:
 
   help      Print this help text.
   joint     Modify properties of a joint
+  log       Record the state of a world into a bag, and read it
   model     Modify properties of a model
   sdf       Converts between SDF versions, and provides info about SDF files
   service   Lists and calls services, as the new Gazebo has them

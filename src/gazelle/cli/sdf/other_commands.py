@@ -7,7 +7,6 @@ __all__ = ["GZ_INSTEAD", "IGN_INSTEAD"]
 GZ_INSTEAD = {
     "camera": "the browser page of the simulator",
     "debug": "gazelle --help",
-    "log": "rosbag record, info and play; no state.log is written, read or played here",
     "marker": "a visualization_msgs/Marker topic",
     "physics": "rosservice call /gazebo/set_physics_properties",
     "plugin": "gazelle doctor FILE, which says what a plug-in is here",

@@ -53,7 +53,8 @@ def test_what_has_no_effect_is_told() -> None:
     words = "-r --physics-engine gz-physics-dartsim-plugin --record -z 500 --render-engine ogre2"
     assert read_sim(words.split()).notes == [
         "--physics-engine gz-physics-dartsim-plugin has no effect here: MuJoCo does the physics",
-        "--record has no effect here: no state.log is written here; ros2 bag record writes bags",
+        "--record has no effect here: no state.log is written here; gz log -d 1 and ros2 bag "
+        "record write bags",
         "-z 500 has no effect here: the world's real_time_factor and max_step_size say how fast "
         "it runs",
         "--render-engine ogre2 has no effect here",

@@ -53,8 +53,8 @@ _FLAGS = frozenset({"-s", "-g", "-r", "-h", "--help", "--version", "--versions"}
 _SILENT_FLAGS = frozenset({"--headless-rendering"})
 _WHY = {
     "--playback": "no state.log is played here; ros2 bag play plays bags",
-    "--record": "no state.log is written here; ros2 bag record writes bags",
-    "--record-path": "no state.log is written here; ros2 bag record writes bags",
+    "--record": "no state.log is written here; gz log -d 1 and ros2 bag record write bags",
+    "--record-path": "no state.log is written here; gz log -d 1 and ros2 bag record write bags",
     "--physics-engine": "MuJoCo does the physics",
     "-z": "the world's real_time_factor and max_step_size say how fast it runs",
 }
