@@ -21,16 +21,24 @@ class AppendedFile:
         size: bytes written.
     """
 
-    def __init__(self, path: Path) -> None:
-        """Create the file, empty.
+    def __init__(self, path: Path, start: int | None = None) -> None:
+        """Create the file, empty; or go on in one that is there.
+
+        Args:
+            path: the file.
+            start: where to go on; what is behind it goes. None creates the file anew.
 
         Raises:
             BagError: the file system refuses it.
         """
         self.path = path
-        self.size = 0
+        self.size = start or 0
+        anew = os.O_CREAT | os.O_TRUNC if start is None else 0
         try:
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC, 0o644)
+            self._file = os.open(path, os.O_RDWR | anew, 0o644)
+            if start is not None:
+                os.ftruncate(self._file, start)
+                os.lseek(self._file, start, os.SEEK_SET)
         except OSError as error:
             raise BagError(f"Error opening file: {path}: {error.strerror}") from None
 

@@ -8,7 +8,8 @@ from gazelle.bag.mcap import McapBag, McapWriter
 from gazelle.bag.mcap.fields import MAGIC as MCAP_MAGIC
 from gazelle.bag.records import BagError, BagReader, BagWriter, Storage
 from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Bag, Ros1Writer
-from gazelle.bag.rosbag2 import Rosbag2, Rosbag2Writer, SqliteBag, SqliteWriter
+from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer, SqliteBag, SqliteWriter
+from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
 
 __all__ = ["create_bag", "open_bag", "storage_of"]
@@ -37,6 +38,8 @@ def open_bag(path: Path | str) -> BagReader:
         return McapBag(path)
     if start == _SQLITE_MAGIC:
         return SqliteBag(path)
+    if start.startswith(ZSTD_MAGIC):
+        return PackedFile(path, open_bag)
     if not start and path.suffix != ".bag":
         raise BagError(f"{path}: the file is empty")
     return Ros1Bag(path)

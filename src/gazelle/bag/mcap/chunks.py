@@ -5,8 +5,8 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
 
+from gazelle.bag import zstandard
 from gazelle.bag.mcap.fields import HEAD, Cursor, Op, records_in
 from gazelle.bag.records import BagError, Connection, Encoding
 
@@ -62,8 +62,7 @@ def compress(data: bytes, compression: str) -> bytes:
         frame: bytes = lz4.frame.compress(data)
         return frame
     if compression == "zstd":
-        found: bytes = _zstd().compress(data)
-        return found
+        return zstandard.compress(data)
     return data
 
 
@@ -83,7 +82,7 @@ def decompress(data: bytes, compression: str, size: int) -> bytes:
 
             found: bytes = lz4.frame.decompress(data)
         else:
-            found = _zstd().decompress(data)
+            found = zstandard.decompress(data)
     except Exception as error:  # noqa: BLE001 - either library has errors of its own
         raise BagError(f"a chunk of {compression} is damaged: {error}") from None
     if len(found) != size:
@@ -131,11 +130,3 @@ def message_head(number: int, sequence: int, stamp_ns: int, size: int) -> bytes:
     """Return what stands before a message's bytes."""
     head = HEAD.pack(Op.MESSAGE, _MESSAGE.size + size)
     return head + _MESSAGE.pack(number, sequence & 0xFFFFFFFF, stamp_ns, stamp_ns)
-
-
-def _zstd() -> Any:
-    try:
-        from compression import zstd  # type: ignore[import-not-found]  # Python 3.14
-    except ImportError:
-        from backports import zstd
-    return zstd

@@ -69,6 +69,8 @@ def _indexed(file: BinaryIO, position: int, end: int) -> Structure:
             found.connections[one.id] = one
         elif record.op == Op.CHUNK_INFO:
             infos.append(record)
+        elif record.op == Op.CHUNK:
+            raise BagError("somebody was appending to the bag: chunks follow its index")
         position = record.end
     for info in infos:
         found.chunks.append(_chunk_of_info(file, info, found.end))

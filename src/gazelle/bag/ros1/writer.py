@@ -8,9 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.bag.appending import AppendedFile
-from gazelle.bag.records import Connection, Encoding, Storage
+from gazelle.bag.records import BagError, Connection, Encoding, Storage
 from gazelle.bag.ros1.chunks import CHUNK_BYTES, Chunk, Compression, compress
 from gazelle.bag.ros1.fields import MAGIC, Op, pack_fields, pack_stamp
+from gazelle.bag.ros1.structure import Structure, read_structure
 
 __all__ = ["Ros1Writer"]
 
@@ -41,16 +42,30 @@ class Ros1Writer:
         *,
         compression: Compression = Compression.NONE,
         chunk_bytes: int = CHUNK_BYTES,
+        append: bool = False,
     ) -> None:
-        """Create the file.
+        """Create the file, or go on in one.
+
+        Until it is closed, a bag that is gone on in has its old index, which stays right; its new
+        chunks lie behind that. So whoever is killed has lost neither.
+
+        Args:
+            path: the file.
+            compression: of the chunks.
+            chunk_bytes: when a chunk is full.
+            append: keep what is in the file.
 
         Raises:
-            BagError: the file system refuses it.
+            BagError: the file system refuses it, or the file to go on in is no such bag.
         """
         self.path = path
         self.compression = compression
         self._chunk_bytes = chunk_bytes
-        self._file = AppendedFile(path)
+        old = _structure_of(path) if append else None
+        end = None
+        if old is not None:
+            end = path.stat().st_size if old.is_indexed else old.end
+        self._file = AppendedFile(path, end)
         self._connections: dict[int, Connection] = {}
         self._introduced: set[int] = set()
         self._chunks: list[Chunk] = []
@@ -58,7 +73,17 @@ class Ros1Writer:
         self._filled = 0
         self._index: dict[int, array[int]] = {}
         self._closed = False
-        self._file.append([MAGIC, self._file_header(0)])
+        if old is None:
+            self._file.append([MAGIC, self._file_header(0)])
+            return
+        self._connections |= old.connections
+        self._introduced |= old.connections.keys()
+        self._chunks += old.chunks
+
+    @property
+    def connections(self) -> tuple[Connection, ...]:
+        """All connections so far."""
+        return tuple(self._connections.values())
 
     @property
     def size(self) -> int:
@@ -67,7 +92,7 @@ class Ros1Writer:
 
     def add(self, connection: Connection) -> Connection:
         """Add a connection; returns it with its number in this bag."""
-        own = replace(connection, id=len(self._connections))
+        own = replace(connection, id=max(self._connections, default=-1) + 1)
         self._connections[own.id] = own
         return own
 
@@ -135,6 +160,16 @@ class Ros1Writer:
         )
         padding = _HEADER_BYTES - len(header)
         return b"".join([_LENGTH.pack(len(header)), header, _LENGTH.pack(padding), b" " * padding])
+
+
+def _structure_of(path: Path) -> Structure:
+    try:
+        with path.open("rb") as file:
+            if file.read(len(MAGIC)) != MAGIC:
+                raise BagError(f"{path}: this is no bag of version 2.0; nothing is appended")
+            return read_structure(file, path)
+    except OSError as error:
+        raise BagError(f"Error opening file: {path}: {error.strerror}") from None
 
 
 def _record(header: bytes, data: bytes) -> bytes:

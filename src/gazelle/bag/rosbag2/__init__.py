@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from gazelle.bag.rosbag2.folder import Rosbag2, Rosbag2Writer, reindex
 from gazelle.bag.rosbag2.metadata import Metadata, read_metadata, write_metadata
+from gazelle.bag.rosbag2.packed import PackedFile
 from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
 
 __all__ = [
     "Metadata",
+    "PackedFile",
     "Rosbag2",
     "Rosbag2Writer",
     "SqliteBag",

@@ -21,6 +21,7 @@ from gazelle.bag.records import (
     Wanted,
 )
 from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
+from gazelle.bag.rosbag2.packed import SUFFIX, PackedFile, PackedMessages
 from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
@@ -46,14 +47,13 @@ class Rosbag2:
         self.path = path
         metadata = read_metadata(path)
         self.has_metadata = metadata is not None
-        if metadata is not None and metadata.compression_mode not in ("", "none"):
-            raise BagError(
-                f"{path}: its {metadata.compression_mode}s are compressed with "
-                f"{metadata.compression_format}, which is not read here; "
-                "`ros2 bag convert` of ROS 2 writes it without"
-            )
+        mode = metadata.compression_mode if metadata is not None else ""
+        if metadata is not None and mode not in ("", "none"):
+            _check_format(path, mode, metadata.compression_format)
         self.files = _files(path, metadata.files if metadata else ())
-        self._readers = [_open(file) for file in self.files]
+        self._readers: list[BagReader] = [_open(file) for file in self.files]
+        if mode == "message":
+            self._readers = [PackedMessages(one) for one in self._readers]
         self.storage: Storage = self._readers[0].storage
         self.ros_distro = metadata.ros_distro if metadata else ""
         self._own: dict[tuple[int, int], Connection] = {}
@@ -239,16 +239,25 @@ _OPENERS: dict[str, Callable[[Path], BagReader]] = {".mcap": McapBag, ".db3": Sq
 
 
 def _open(path: Path) -> BagReader:
+    if path.suffix == SUFFIX:
+        return PackedFile(path, _open)
     opener = _OPENERS.get(path.suffix)
     if opener is None:
-        raise BagError(f"{path}: a file of rosbag2 ends in .mcap or .db3")
+        raise BagError(f"{path}: a file of rosbag2 ends in .mcap or .db3, or in these and .zstd")
     return opener(path)
+
+
+def _check_format(path: Path, mode: str, name: str) -> None:
+    if name != "zstd" or mode not in ("file", "message"):
+        text = f"{path}: its {mode}s are compressed with {name or 'an unknown method'}"
+        hint = "`ros2 bag convert` of ROS 2 writes it without"
+        raise BagError(f"{text}, which is not read here (only zstd is); {hint}")
 
 
 def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
     files = [folder / Path(name).name for name in names]
     if not files:
-        files = [one for one in folder.iterdir() if one.suffix in _OPENERS]
+        files = [one for one in folder.iterdir() if _bare(one).suffix in _OPENERS]
         files.sort(key=_place)
     if not files:
         raise BagError(f"{folder}: there is no bag in this folder (no .mcap and no .db3)")
@@ -258,6 +267,10 @@ def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
     return tuple(files)
 
 
+def _bare(path: Path) -> Path:
+    return path.with_suffix("") if path.suffix == SUFFIX else path
+
+
 def _place(path: Path) -> tuple[int, str]:
-    number = path.stem.rpartition("_")[2]
+    number = _bare(path).stem.rpartition("_")[2]
     return (int(number) if number.isdigit() else 0, path.name)

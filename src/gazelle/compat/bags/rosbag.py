@@ -15,14 +15,14 @@ from gazelle.bag import (
     BagWriter,
     Connection,
     Encoding,
-    Storage,
     converter,
-    create_bag,
     learn_definitions,
     open_bag,
     ros1_connection,
     ros1_name_of,
 )
+from gazelle.bag.ros1 import Compression as Packing
+from gazelle.bag.ros1 import Ros1Writer
 from gazelle.compat.rospy.rostime import Time
 from gazelle.diagnostics import did_you_mean
 from gazelle.interfaces import from_ros1, md5sum, ros1_message_type, to_ros1
@@ -250,8 +250,6 @@ class Bag:
         for one in (self._reader, self._writer):
             if one is not None:
                 one.close()
-        if self.mode == "a" and self._writer is not None:
-            self._writer.path.replace(self._path)
 
     def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
         """Return the number of messages, of some topics if named."""
@@ -357,29 +355,16 @@ class Bag:
             sys.stderr.write(f"{self.filename} has another definition of {name}; it counts here\n")
 
     def _open_writer(self, mode: str, compression: str, chunk_bytes: int) -> None:
-        target = self._path.with_name(f"{self._path.name}.part") if mode == "a" else self._path
+        append = mode == "a" and self._path.exists() and self._path.stat().st_size > 0
+        options = {"compression": Packing(compression), "chunk_bytes": chunk_bytes}
         try:
-            self._writer = create_bag(
-                target,
-                Storage.ROS1,
-                compression=compression.removeprefix("none"),
-                chunk_bytes=chunk_bytes,
-            )
-            if mode == "a" and self._path.exists():
-                self._copy_old()
+            writer = Ros1Writer(self._path, append=append, **options)  # type: ignore[arg-type]
+            learn_definitions(writer.connections)
         except BagError as error:
             raise ROSBagException(str(error)) from error
-
-    def _copy_old(self) -> None:
-        assert self._writer is not None
-        reader = open_bag(self._path)
-        learn_definitions(reader.connections)
-        copies = {one.id: self._writer.add(one) for one in reader.connections}
-        for one in copies.values():
+        self._writer = writer
+        for one in writer.connections:
             self._known[one.topic, one.type_name, one.callerid] = one
-        for connection, stamp_ns, data in reader.messages():
-            self._writer.write(copies[connection.id], stamp_ns, data)
-        reader.close()
 
     def _for_reading(self) -> BagReader:
         self._check_open()
