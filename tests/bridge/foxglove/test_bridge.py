@@ -143,6 +143,7 @@ def test_viewer_publishes_cdr_and_json(
         ("/orders", "nowhere/msg/X", "cdr", b"", "cannot publish /orders as nowhere/msg/X"),
         ("/or ders", STRING, "cdr", b"", "cannot publish /or ders as std_msgs/msg/String"),
         ("/orders", STRING, "protobuf", b"", "protobuf is neither cdr nor json"),
+        ("/orders", STRING, "cdr", b"\0\1\0\0\xff", "message on /orders is dropped: "),
         ("/orders", STRING, "json", b"{", "message on /orders is dropped: Expecting"),
         ("/orders", STRING, "json", b'{"dat": 1}', "message on /orders is dropped: "),
     ],
@@ -207,12 +208,11 @@ def _merged(viewers: PlainViewers) -> dict[str, Any]:
 def test_parameter_that_cannot_be_set_is_told(
     viewers: PlainViewers, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    assert viewers.requests.set_parameters({"/a b": 1, "/gone": None}) == {
-        "/a b": None,
-        "/gone": None,
-    }
+    wanted: dict[str, Any] = {"/a b": 1, "/gone": None, "/": {}}
+    assert viewers.requests.set_parameters(wanted) == dict.fromkeys(wanted)
     said = capfd.readouterr().err
     assert "a viewer cannot set parameter /a b: illegal parameter name" in said
+    assert "a viewer cannot set parameter /: that is the whole tree" in said
     assert "a viewer cannot delete parameter /gone: it is not set" in said
 
 

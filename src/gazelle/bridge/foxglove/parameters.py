@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from gazelle.errors import GazelleError
+from gazelle.errors import GazelleError, GraphError
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.names import check_name, resolve
 
@@ -71,6 +71,8 @@ class Parameters:
 
     def _set(self, name: str, value: Any) -> None:
         full = resolve(check_name(name, "parameter name"))
+        if full == "/":
+            raise GraphError("that is the whole tree; set its parameters one by one")
         if value is None:
             self._store.delete(full)
         else:

@@ -6,10 +6,10 @@ import json
 import threading
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.errors import GazelleError
-from gazelle.interfaces import fill, message_type, wire_type
+from gazelle.interfaces import fill, from_cdr, message_type, wire_type
 
 if TYPE_CHECKING:
     from gazelle.graph import Node, Publisher
@@ -24,6 +24,14 @@ _Key = tuple[int, int]
 class _Voice(NamedTuple):
     publisher: Publisher
     is_json: bool
+
+    def read(self, data: bytes) -> Any:
+        """Return the message; what is none must not reach the graph."""
+        if not self.is_json:
+            return from_cdr(self.publisher.message_class, data)
+        message = self.publisher.message_class()
+        fill(message, json.loads(data))
+        return message
 
 
 class Speech:
@@ -77,12 +85,7 @@ class Speech:
         if voice is None:
             return
         try:
-            if voice.is_json:
-                message = voice.publisher.message_class()
-                fill(message, json.loads(data))
-                voice.publisher.publish(message)
-            else:
-                voice.publisher.publish_raw(data)
+            voice.publisher.publish(voice.read(data))
         except (GazelleError, ValueError) as error:
             self._notice(f"a viewer's message on {voice.publisher.topic} is dropped: {error}")
 
