@@ -1,13 +1,21 @@
-"""``-b FILE`` of ``rostopic echo`` and ``list``, and of ``rosmsg show``: what is in a bag."""
+"""``-b FILE`` of ``rostopic echo``, ``list``, ``hz``, ``bw`` and of ``rosmsg show``."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from optparse import Values
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from gazelle.bag import BagReader, Connection, Encoding, learn_definitions, open_bag, ros1_name_of
+from gazelle.bag import (
+    BagMessage,
+    BagReader,
+    Connection,
+    Encoding,
+    learn_definitions,
+    open_bag,
+    ros1_name_of,
+)
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types, topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, find_topic
@@ -16,7 +24,11 @@ from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Entity, Kind
 from gazelle.interfaces import from_cdr, from_ros1, wire_type
 
-__all__ = ["BagClock", "echo_bag", "list_bag", "opened"]
+if TYPE_CHECKING:
+    from gazelle.cli.rostopic.bandwidth import BandwidthMeter
+    from gazelle.cli.rostopic.rate import RateMeter
+
+__all__ = ["BagClock", "bandwidth_of_bag", "echo_bag", "list_bag", "opened", "rate_of_bag"]
 
 
 class BagClock:
@@ -89,6 +101,32 @@ def echo_bag(
         if echo.done.is_set() and len(steps) == 1:
             break
     return 0
+
+
+def rate_of_bag(
+    path: str, meters: Mapping[str, RateMeter], wanted: Callable[[str, Any], bool] | None
+) -> None:
+    """Count the messages of a bag by their stamps; only those that are `wanted`, if it is given."""
+    for one, stamp_ns, data in _chosen(path, meters):
+        if wanted is None or wanted(one.topic, _read(one, data)):
+            meters[one.topic].add(stamp_ns / 1e9)
+
+
+def bandwidth_of_bag(path: str, topic: str, meter: BandwidthMeter) -> str:
+    """Return the report of a topic of a bag at its last message."""
+    stamp_ns = 0
+    for _, stamp_ns, data in _chosen(path, (topic,)):
+        meter.add(stamp_ns / 1e9, len(data))
+    return meter.report(stamp_ns / 1e9)
+
+
+def _chosen(path: str, topics: Iterable[str]) -> Iterator[BagMessage]:
+    """Yield the messages of topics, all of which must be in the bag."""
+    bag, names = opened(path), set(topics)
+    known = {one.topic for one in bag.connections}
+    for word in sorted(names - known):
+        raise ToolError(f"topic [{word}] is not in bag file [{path}]{hint(word, sorted(known))}")
+    return bag.messages(lambda one: one.topic in names)
 
 
 def _found(one: Connection, steps: tuple[Step, ...]) -> FoundTopic:

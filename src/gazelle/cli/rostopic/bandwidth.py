@@ -69,6 +69,7 @@ def run(words: list[str]) -> int:
     """Print the bandwidth of a topic once a second."""
     parser = option_parser("rostopic", "bw /topic")
     parser.add_option("-w", "--window", metavar="WINDOW", help="window size, in # of messages")
+    parser.add_option("-b", "--bag", metavar="BAGFILE", help="bandwidth of the topic of a bag")
     options, args = parser.parse_args(words)
     if len(args) != 1:
         parser.error("you may only specify one input topic" if args else "topic must be specified")
@@ -76,6 +77,13 @@ def run(words: list[str]) -> int:
         meter = BandwidthMeter(None if options.window is None else int(options.window))
     except ValueError:
         parser.error("window size must be an integer")
+
+    if options.bag:
+        from gazelle.cli.rostopic.bag import bandwidth_of_bag
+
+        topic_name = global_name(args[0], "rostopic")
+        print(bandwidth_of_bag(options.bag, topic_name, meter) or "no new messages")
+        return 0
 
     def take(message: RawMessage) -> None:
         meter.add(time.monotonic(), len(message.data))

@@ -96,6 +96,7 @@ def run(words: list[str]) -> int:
     parser = option_parser("rostopic", "hz [options] /topic_0 [/topic_1 [topic_2 [..]]]")
     add = parser.add_option
     add("-w", "--window", metavar="WINDOW", default="-1", help="window size, in # of messages")
+    add("-b", "--bag", dest="bag", metavar="BAGFILE", help="rate of the topics of a bag")
     add("--filter", dest="filter_expr", metavar="EXPR", help="only messages that match this")
     add_flag(
         parser, "--wall-time", dest="wall_time", text="use wall time also when time is simulated"
@@ -111,6 +112,9 @@ def run(words: list[str]) -> int:
     except ValueError:
         parser.error("window size must be an integer")
     meters: dict[str, RateMeter] = {}
+    if options.bag:
+        meters = {global_name(arg, "rostopic"): RateMeter(window) for arg in args}
+        return _print_of_bag(options.bag, meters, options.filter_expr)
     with joined() as graph:
         node, ended = join_as_node(graph, clock=not options.wall_time)
         now_ns = time.time_ns if options.wall_time else graph.clock.now_ns
@@ -127,6 +131,16 @@ def run(words: list[str]) -> int:
             print("WARNING: may be using simulated time", file=sys.stderr, flush=True)
         while not ended.wait(_PERIOD_S):
             print(rate_report(meters), flush=True)
+    return 0
+
+
+def _print_of_bag(path: str, meters: dict[str, RateMeter], text: str | None) -> int:
+    from gazelle.cli.rostopic.bag import rate_of_bag
+
+    filters = {topic: expression(text, topic) for topic in meters} if text else {}
+    wanted = (lambda topic, message: filters[topic](message)) if filters else None
+    rate_of_bag(path, meters, wanted)
+    print(rate_report(meters))
     return 0
 
 
