@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import random
 import threading
 import time
@@ -19,7 +20,7 @@ __all__ = ["HubKeeper", "close_session"]
 _PAUSE_S = 0.05
 _RETRY_S = 0.2
 _CHECK_S = 0.5
-_CLOSE_S = 5.0
+_CLOSE_S = 2.0
 
 
 class HubKeeper:
@@ -146,14 +147,21 @@ class HubKeeper:
 def close_session(session: Any) -> None:
     """Leave; what the session declared disappears for all others.
 
-    The transport's own threads may be in the middle of a link that just broke; they get some
-    seconds, and the process' end takes the rest.
+    The transport waits up to ten seconds for its threads, which may be in the middle of a link
+    that just broke. They get two here; the process' end takes the rest.
     """
-    closing = threading.Thread(target=session.close, name="gazelle-close", daemon=True)
+    closing = threading.Thread(target=_close, args=(session,), name="gazelle-close", daemon=True)
     try:
         closing.start()
     except RuntimeError:
         # Python 3.12 and later start no thread at the process' very end.
-        session.close()
+        _close(session)
     else:
         closing.join(_CLOSE_S)
+
+
+def _close(session: Any) -> None:
+    import zenoh
+
+    with contextlib.suppress(zenoh.ZError):
+        session.close()

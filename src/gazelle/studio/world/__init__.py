@@ -1,0 +1,1 @@
+"""The running world as the page sees and changes it."""

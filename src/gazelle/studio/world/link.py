@@ -1,0 +1,74 @@
+"""Calls to the running world."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from gazelle.interfaces import message_type
+from gazelle.studio.errors import StudioError
+from gazelle.studio.graph_view.services import request_response
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = ["ask_world", "call_world", "has_world", "pose_message", "pose_of"]
+
+_DO = "/_gazelle/do"
+
+
+def has_world(studio: Studio) -> bool:
+    """Tell whether a world is on the graph."""
+    return studio.graph.has_service(_DO)
+
+
+def call_world(studio: Studio, name: str, type_name: str, **fields: Any) -> Any:
+    """Call ``/gazebo/NAME`` and return the response.
+
+    Raises:
+        StudioError: there is no world, or it refuses.
+    """
+    _check(studio)
+    response = request_response(studio, f"/gazebo/{name}", type_name, **fields)
+    if not getattr(response, "success", True):
+        raise StudioError(response.status_message)
+    return response
+
+
+def ask_world(studio: Studio, **request: Any) -> Any:
+    """Send a request to ``/_gazelle/do`` and return its value.
+
+    Raises:
+        StudioError: there is no world, or it refuses.
+    """
+    _check(studio)
+    response = request_response(studio, _DO, "gazelle_msgs/Do", request=json.dumps(request))
+    answer = json.loads(response.response)
+    if "error" in answer:
+        raise StudioError(answer["error"]["message"])
+    return answer["value"]
+
+
+def pose_of(params: Params, name: str = "pose") -> list[float]:
+    """Return a pose parameter: x y z qx qy qz qw; three numbers are a place alone."""
+    values = params.numbers(name, [0.0, 0.0, 0.0])
+    if len(values) == 3:
+        values = [*values, 0.0, 0.0, 0.0, 1.0]
+    if len(values) != 7 or not any(values[3:]):
+        raise StudioError(f"{params.where}: '{name}' is x, y, z, qx, qy, qz, qw, not {values}")
+    return values
+
+
+def pose_message(values: list[float]) -> Any:
+    """Return a ``geometry_msgs/Pose`` of seven numbers."""
+    message = message_type("geometry_msgs/Pose")()
+    place, turn = message.position, message.orientation
+    place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values
+    return message
+
+
+def _check(studio: Studio) -> None:
+    if not has_world(studio):
+        raise StudioError(
+            "no world is running on this graph",
+            hint="start one with roslaunch, gzserver or gazebo",
+        )

@@ -1,0 +1,153 @@
+"""Streams of the world: the scene, and what moves in it."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.graph import Entity, Kind
+from gazelle.studio.errors import unknown
+from gazelle.studio.params import Params
+from gazelle.studio.scenes.assets import Assets
+from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, Frame, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["Scene", "open_contacts", "open_joints", "open_poses", "open_scene", "open_stats"]
+
+_SCENE = "/_gazelle/scene"
+_POSES, _CONTACTS = 1, 3
+
+
+class Scene:
+    """The world's scene value as it is now, for all pages; None while there is no world."""
+
+    def __init__(self, studio: Studio) -> None:
+        """Follow the world of a Studio's graph."""
+        self._studio = studio
+        self._lock = threading.Lock()
+        self._followers: list[Channel] = []
+        self._value: dict[str, Any] | None = None
+        self._count = self._shown = 0
+        studio.graph.discovery.listen(self._on_entity)
+        studio.on_close(studio.taps.listen(_SCENE, self._take))
+
+    @property
+    def value(self) -> dict[str, Any] | None:
+        """The newest scene value."""
+        return self._value
+
+    def follow(self, channel: Channel) -> Callable[[], None]:
+        """Send a channel the scene now and at every change."""
+        with self._lock:
+            self._followers.append(channel)
+            channel.add(self._value)
+
+        def leave() -> None:
+            with self._lock:
+                self._followers.remove(channel)
+
+        return leave
+
+    def _take(self, sample: Sample) -> None:
+        # Meshes are read for it, which takes its time: not in the transport's thread.
+        self._later(lambda: json.loads(sample.message().data))
+
+    def _on_entity(self, entity: Entity, is_there: bool) -> None:
+        if entity.name == _SCENE and entity.kind is Kind.PUBLISHER and not is_there:
+            self._later(lambda: None)
+
+    def _later(self, make: Callable[[], dict[str, Any] | None]) -> None:
+        with self._lock:
+            self._count += 1
+            number = self._count
+        self._studio.workers.submit(lambda: self._show(number, make()))
+
+    def _show(self, number: int, value: dict[str, Any] | None) -> None:
+        assets = self._studio.shared(Assets)
+        finished = None if value is None else page_scene(value, assets)
+        with self._lock:
+            # Workers do not finish in order.
+            if number <= self._shown:
+                return
+            self._shown, self._value = number, finished
+            for channel in self._followers:
+                channel.add(finished)
+
+
+def open_scene(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``world.scene``."""
+    return OpenStream(studio.shared(Scene).follow(channel))
+
+
+def open_poses(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``world.poses``."""
+    return _frames(studio, channel, "/_gazelle/poses", _POSES)
+
+
+def open_contacts(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``world.contacts``."""
+    return _frames(studio, channel, "/_gazelle/contacts", _CONTACTS)
+
+
+def open_stats(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+    """Stream ``world.stats``."""
+
+    def take(sample: Sample) -> None:
+        channel.offer(lambda: json.loads(sample.message().data))
+
+    return OpenStream(studio.taps.listen("/_gazelle/stats", take))
+
+
+def open_joints(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``world.joints`` of one model."""
+    scene, model = studio.shared(Scene), params.text("model")
+    names = [one["name"] for one in (scene.value or {"models": []})["models"]]
+    if model not in names:
+        raise unknown("model", model, names)
+
+    def take(sample: Sample) -> None:
+        channel.offer(lambda: _joint_rows(scene.value, model, sample.message()))
+
+    return OpenStream(studio.taps.listen("/_gazelle/joints", take))
+
+
+def _frames(studio: Studio, channel: Channel, topic: str, kind: int) -> OpenStream:
+    def make(sample: Sample) -> Frame:
+        message = sample.message()
+        count = len(message.values) // message.width
+        return Frame(kind, count, message.stamp, (message.values.tobytes(),))
+
+    def take(sample: Sample) -> None:
+        channel.offer(lambda: make(sample))
+
+    return OpenStream(studio.taps.listen(topic, take))
+
+
+def _joint_rows(
+    scene: dict[str, Any] | None, model: str, frames: Any
+) -> list[dict[str, Any]] | None:
+    if scene is None or scene["version"] != frames.version:
+        return None
+    rows = frames.values.reshape(-1, frames.width).tolist()
+    described = {
+        f"{one['name']}::{scene['joints'][index]['name']}": scene["joints"][index]
+        for one in scene["models"]
+        for index in one["joints"]
+    }
+    return [
+        {
+            "name": joint["name"],
+            "type": joint["type"],
+            "position": position,
+            "velocity": velocity,
+            "effort": effort,
+            "lower": joint["lower"],
+            "upper": joint["upper"],
+        }
+        for name, (position, velocity, effort) in zip(scene["moving"], rows, strict=True)
+        if name.startswith(f"{model}::") and (joint := described.get(name)) is not None
+    ]

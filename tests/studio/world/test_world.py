@@ -1,0 +1,142 @@
+"""Methods and streams of the world, over a graph."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gazelle.simulator.world_server import WorldServer
+from gazelle.studio.world.inserting import primitive_sdf
+from gazelle.studio.world.models import thumbnail
+
+_BOX = {"source": {"primitive": "box", "size": [1.0, 2.0, 3.0]}}
+
+
+def _poses(frame: Any) -> np.ndarray:
+    kind, count, _, payload = frame
+    assert kind == 1
+    return np.frombuffer(payload, "<f4").reshape(count, 7)
+
+
+def test_inserted_primitive_appears_in_the_scene_and_falls_when_played(
+    server: WorldServer, page: Any
+) -> None:
+    scene, poses = page.open("world.scene"), page.open("world.poses")
+    assert page.call("world.insert", **_BOX, pose=[1.0, 2.0, 5.0]) == {"name": "unit_box"}
+    value = page.wait(scene, lambda value: value and len(value["models"]) == 2)
+    body = value["bodies"][-1]
+    assert body["visuals"][0]["geometry"] == {"type": "box", "size": [1.0, 2.0, 3.0]}
+    assert body["inertial"]["mass_kg"] == 1.0
+    assert body["inertial"]["diagonal"] == pytest.approx([13 / 12, 10 / 12, 5 / 12])
+    start = page.wait(poses, lambda frame: frame[1] == len(value["bodies"]))
+    assert _poses(start)[-1][:3].tolist() == [1.0, 2.0, 5.0]
+    page.call("world.play")
+    page.wait(poses, lambda frame: _poses(frame)[-1][2] < 4.5)
+    page.call("world.pause")
+    assert server.paused
+
+
+def test_second_model_of_a_name_gets_a_number(server: WorldServer, page: Any) -> None:
+    names = [page.call("world.insert", **_BOX)["name"] for _ in range(3)]
+    assert names == ["unit_box", "unit_box_0", "unit_box_1"]
+    page.call("world.delete", model="unit_box_0")
+    assert [model.name for model in server.engine.world.models] == [
+        "ground_plane", "unit_box", "unit_box_1",
+    ]  # fmt: skip
+
+
+def test_steps_are_taken_while_paused_and_reset_goes_back(server: WorldServer, page: Any) -> None:
+    stats = page.open("world.stats")
+    page.call("world.step", count=25)
+    seen = page.wait(stats, lambda stats: stats["iterations"] == 25)
+    assert seen["paused"] is True and seen["sim_s"] == pytest.approx(0.025)
+    page.call("world.reset", what="time")
+    page.wait(stats, lambda stats: stats["iterations"] == 0)
+    page.call("world.factor", wanted_rtf=2.0)
+    page.wait(stats, lambda stats: stats["wanted_rtf"] == 2.0)
+
+
+def test_force_moves_the_wheel_of_a_dropped_model(server: WorldServer, page: Any) -> None:
+    text = """<sdf version="1.6"><model name="cart"><static>false</static>
+      <link name="body"><pose>0 0 1 0 0 0</pose><inertial><mass>50</mass></inertial></link>
+      <link name="wheel"><pose>0 0 1 0 0 0</pose></link>
+      <joint name="hinge" type="revolute"><parent>body</parent><child>wheel</child>
+        <axis><xyz>0 1 0</xyz></axis></joint></model></sdf>"""
+    assert page.call("world.insert", source={"text": text}) == {"name": "cart"}
+    page.wait(page.open("world.scene"), lambda value: value and len(value["models"]) == 2)
+    joints = page.open("world.joints", model="cart")
+    page.call("world.joint", model="cart", joint="hinge", force=0.1)
+    page.call("world.step", count=100)
+    row = page.wait(joints, lambda rows: rows and rows[0]["velocity"] > 0.005)[0]
+    assert (row["name"], row["type"], row["lower"]) == ("hinge", "revolute", None)
+    assert row["effort"] == pytest.approx(0.1)
+
+
+def test_wrench_and_pose_move_a_model(server: WorldServer, page: Any) -> None:
+    page.call("world.insert", **_BOX, pose=[0.0, 0.0, 9.0])
+    page.call("world.wrench", body="unit_box::link", force=[10.0, 0.0, 0.0], seconds=0.1)
+    page.call("world.step", count=200)
+    linear, _ = server.engine.model_velocity("unit_box")
+    assert linear[0] == pytest.approx(1.0, rel=0.02)
+    page.call("world.set_pose", model="unit_box", pose=[4.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0])
+    rows = page.call("world.properties", model="unit_box")
+    assert {row["name"]: row["value"] for row in rows}["x"] == 4.0
+    page.call("world.set_property", model="unit_box", link="link", name="mass", value=7.0)
+    assert server.engine.link("unit_box::link").mass_kg == 7.0
+
+
+def test_contacts_are_frames_of_points(server: WorldServer, page: Any) -> None:
+    page.call("world.insert", **_BOX, pose=[0.0, 0.0, 1.5])
+    page.call("world.step", count=200)
+    kind, count, _, payload = page.wait(page.open("world.contacts"), lambda frame: frame[1] >= 4)
+    points = np.frombuffer(payload, "<f4").reshape(count, 7)
+    assert kind == 3 and np.abs(points[:, 2]).max() < 0.01
+
+
+def test_no_world_is_said_with_what_to_do(page: Any) -> None:
+    assert page.wait(page.open("world.scene"), lambda value: value is None) is None
+    with pytest.raises(AssertionError, match="no world is running on this graph"):
+        page.call("world.play")
+
+
+def test_scene_is_null_when_the_world_has_gone(server: WorldServer, page: Any) -> None:
+    scene = page.open("world.scene")
+    page.wait(scene, lambda value: value is not None)
+    server.close()
+    assert page.wait(scene, lambda value: value is None) is None
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        ({"model": "no_such_thing"}, "there is no model 'no_such_thing' in the model paths"),
+        ({"primitive": "bax"}, "there is no primitive 'bax'"),
+        ({"primitive": "box", "size": [1, 1]}, "a box has 3 sizes above 0"),
+        ({"text": "<robot name='x'"}, "dropped file"),
+        ({"text": "<launch/>"}, "the file's <launch> holds no model"),
+    ],
+)
+def test_bad_insert_is_told(server: WorldServer, page: Any, source: Any, words: str) -> None:
+    with pytest.raises(AssertionError, match=words.split("'", maxsplit=1)[0]):
+        page.call("world.insert", source=source)
+
+
+def test_models_of_the_paths_have_pictures(
+    page: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "crate"
+    folder.mkdir()
+    (folder / "model.config").write_text(
+        "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf>"
+        "<description>Of   wood.</description></model>"
+    )
+    (folder / "model.sdf").write_text(primitive_sdf("box", [1.0, 1.0, 1.0]))
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(tmp_path))
+    crate = next(one for one in page.call("world.models") if one["name"] == "crate")
+    assert (crate["title"], crate["description"]) == ("A crate", "Of wood.")
+    picture = thumbnail(page.studio, "crate")
+    assert picture is not None and picture.body.startswith(b"\x89PNG")
+    assert thumbnail(page.studio, "../crate") is None
