@@ -37,6 +37,7 @@ def test_publishers_are_asked_for_when_they_are_new() -> None:
     node = FakeNode()
     speakers = Speakers(node, {"/bridge"})
     assert speakers.number_of("/chatter", b"\1\2") == 1
+    assert speakers.news.is_set()
     node.infos.append(Info("bridge", "/", [1, 3]))
     assert speakers.number_of("/chatter", b"\1\3") == 0
 

@@ -13,7 +13,7 @@ __all__ = ["Interpreter", "candidates", "child_environment", "is_open", "sourced
 
 _DROP_INS = Path(__file__).parents[2] / "compat" / "modules"
 _ROS_HOME = Path("/opt/ros")
-_SHELL_OUTPUT = ("off", "localhost")
+_BEYOND = ("subnet", "system_default")
 
 
 class Interpreter(NamedTuple):
@@ -62,7 +62,8 @@ def is_open(environ: Mapping[str, str]) -> bool:
     """Return whether the user lets other machines find the bridge."""
     reach = environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip().lower()
     if reach:
-        return reach not in _SHELL_OUTPUT
+        # Whatever rcl does not know counts as LOCALHOST there.
+        return reach in _BEYOND
     only = environ.get("ROS_LOCALHOST_ONLY")
     return only is not None and only.strip() != "1"
 

@@ -32,6 +32,11 @@ class _Asked(NamedTuple):
     quality: Quality
 
 
+class _Voice(NamedTuple):
+    kind: MessageKind
+    latched: bool
+
+
 class Inward:
     """Keeps the graph's view of ROS current; `settle` is called from one thread."""
 
@@ -60,7 +65,8 @@ class Inward:
         )
         self._lock = threading.Lock()
         self._state = NOTHING
-        self._speakers: dict[int, tuple[str, bool]] = {}
+        self._speakers: dict[int, str] = {}
+        self._voices: dict[tuple[str, str], _Voice] = {}
         self._asked: dict[Wanted, _Asked] = {}
         self._topics: dict[int, Wanted] = {}
         self._clients: dict[str, int] = {}
@@ -75,13 +81,17 @@ class Inward:
     def settle(self, wishes: Wishes, state: RosState) -> None:
         """Show what ROS has; take the topics from it that the graph wants."""
         self._state = state
-        self._speakers = {one.number: (one.node, one.latched) for one in state.publishers}
+        self._speakers = {one.number: one.node for one in state.publishers}
         traits = self._traits(state)
+        latched = {(one.node, one.topic) for one in state.publishers if one.latched}
+        self._voices = {
+            (node, topic): _Voice(kind, (node, topic) in latched)
+            for node, one in traits.items()
+            for topic, kind in one.publishers.items()
+        }
         self._mirrors.settle(traits)
-        for one in state.publishers:
-            kind = traits[one.node].publishers.get(one.topic)
-            if kind is not None and one.latched:
-                self._mirrors.voice(one.node, one.topic, kind, True)
+        for node, topic in latched & set(self._voices):
+            self._mirrors.voice(node, topic, self._voices[node, topic].kind, True)
         self._settle_topics(wishes, state)
         self._settle_clients(state)
 
@@ -178,22 +188,19 @@ class Inward:
             self._link.drop(channel)
 
     def _voice(self, wanted: Wanted, number: int) -> Publisher | None:
-        node, latched = self._speakers.get(number) or self._only_speaker(wanted)
-        found = self._book.message(wanted.type_name, f"topic {wanted.topic}", reliable=True)
-        if found is None:
-            return None
-        ends = [
-            one for one in self._state.publishers if (one.node, one.topic) == (node, wanted.topic)
-        ]
-        reliable = all(one.reliable for one in ends)
-        return self._mirrors.voice(node, wanted.topic, found._replace(reliable=reliable), latched)
+        topic, type_name = wanted
+        node = self._speakers.get(number) or self._only_speaker(wanted)
+        found = self._voices.get((node, topic))
+        if found is not None and found.kind.type_name == type_name:
+            return self._mirrors.voice(node, topic, found.kind, found.latched)
+        # It speaks before ROS has told of it.
+        kind = self._book.message(type_name, f"topic {topic}", reliable=True)
+        return kind and self._mirrors.voice(BRIDGE_NAME, topic, kind, False)
 
-    def _only_speaker(self, wanted: Wanted) -> tuple[str, bool]:
+    def _only_speaker(self, wanted: Wanted) -> str:
         """Whoever speaks when nobody says: an older rclpy, or a publisher that is just new."""
-        for one in self._state.publishers:
-            if (one.topic, one.type_name) == wanted:
-                return one.node, one.latched
-        return BRIDGE_NAME, False
+        found = (one.node for one in self._state.publishers if one[1:3] == wanted)
+        return next(found, BRIDGE_NAME)
 
     def _call(self, name: str, kind: ServiceKind, request: Any) -> Any:
         with self._lock:

@@ -121,6 +121,7 @@ def open_side(
         try:
             return Side(one, environ)
         except _StartError as error:
-            reasons.append(f"\n  {one.path} ({one.source}): {error}")
-    text = f"no Python with ROS 2's rclpy was found{''.join(reasons)}"
-    raise GraphError(coded("bridge.no-rclpy", text, fix=hint(environ)))
+            reasons.append(f"  {one.path} ({one.source}): {error}")
+    text = coded("bridge.no-rclpy", "no Python with ROS 2's rclpy was found", fix=hint(environ))
+    first, *rest = text.splitlines()
+    raise GraphError("\n".join([first, *reasons, *rest]))

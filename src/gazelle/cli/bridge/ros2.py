@@ -22,9 +22,10 @@ def main(argv: list[str]) -> int:
     environ = dict(os.environ)
     learn_workspace_types()
     stop = threading.Event()
-    _stop_on_signals(stop)
     with Graph.open() as graph:
+        # Starting ROS may take long; until then a signal ends the process at once.
         bridge = Bridge(graph, candidates(options.python, environ), environ)
+        _stop_on_signals(stop)
         bridge.on_end(stop.set)
         try:
             _say(bridge.about, graph.domain, is_network=is_open(environ))

@@ -19,7 +19,11 @@ _HEAD = 4
 
 
 class Speakers:
-    """The publishers of all topics by their gid; safe to use from many threads."""
+    """The publishers of all topics by their gid; safe to use from many threads.
+
+    Attributes:
+        news: set when one is heard of by its messages first.
+    """
 
     def __init__(self, node: Any, own_names: set[str]) -> None:
         """Know nobody yet.
@@ -30,6 +34,7 @@ class Speakers:
         """
         self._node = node
         self._own_names = own_names
+        self.news = threading.Event()
         self._lock = threading.Lock()
         self._own: set[bytes] = set()
         self._numbers: dict[bytes, int] = {}
@@ -46,6 +51,7 @@ class Speakers:
         """Return the number of the publisher with a gid, 0 when it is of this process."""
         found = self._known(gid)
         if found < 0:
+            self.news.set()
             self.learn(topic)
             found = self._known(gid)
         return found if found >= 0 else self._number(gid)

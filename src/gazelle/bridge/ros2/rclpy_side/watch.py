@@ -30,6 +30,7 @@ class Watch:
             OSError: it has.
         """
         before: dict[str, list[_Row]] = {}
+        news = self._endpoints.speakers.news
         while True:
             started = time.monotonic()
             state = self._state()
@@ -37,7 +38,8 @@ class Watch:
                 self._pipes.send_control(report="state", **state)
                 before = state
             # A large graph takes long to look at; most of the time is for messages.
-            time.sleep(max(_PERIOD_S, 4 * (time.monotonic() - started)))
+            news.wait(max(_PERIOD_S, 4 * (time.monotonic() - started)))
+            news.clear()
 
     def _state(self) -> dict[str, list[_Row]]:
         own = set(self._endpoints.own_names)
@@ -83,7 +85,7 @@ def _row(one: Any, topic: str) -> _Row:
 
 def _is_named(one: Any) -> bool:
     """Whether ROS knows already whose it is; it learns that a moment after the topic."""
-    return one.node_name != "_NODE_NAME_UNKNOWN_"
+    return str(one.node_name) != "_NODE_NAME_UNKNOWN_"
 
 
 def _full(name: str, namespace: str) -> str:
