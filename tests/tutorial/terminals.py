@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import fcntl
 import os
@@ -20,6 +21,7 @@ _PATIENCE_S = 20.0
 _PROMPT = re.compile(r"\[(\d+)\]\$ \Z")
 # What a terminal acts on and does not show: colours, titles, modes.
 _CONTROL = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]|\x1b\][^\x07]*\x07")
+_UNFINISHED = re.compile(r"(\r|\x1b\[?[?\d;]*|\x1b\][^\x07]*)\Z")
 # Opening the terminal makes it the controlling one, so that Ctrl-C reaches what runs in it.
 _OPEN = 'exec bash --noprofile --norc -i <>"$0" >&0 2>&0'
 
@@ -68,6 +70,10 @@ class Terminal:
         self._mark = self.text.index("\n", self._mark)
         return self.wait_for(pattern)
 
+    def pause(self, seconds: float) -> None:
+        """Do what people do between two keys."""
+        threading.Event().wait(seconds)
+
     def interrupt(self, *, code: int | None = None) -> str:
         """Press Ctrl-C and return what is shown until the prompt."""
         self.type("\x03")
@@ -108,8 +114,12 @@ class Terminal:
     def _read(self) -> None:
         # The other end is closed: the shell has ended.
         with contextlib.suppress(OSError):
+            decoder, rest = codecs.getincrementaldecoder("utf-8")("replace"), ""
             while piece := os.read(self._keys, 65536):
-                shown = _CONTROL.sub("", piece.decode(errors="replace")).replace("\r\n", "\n")
+                raw = rest + decoder.decode(piece)
+                # A piece may end between the two characters of a line's end, or within a colour.
+                whole = _UNFINISHED.sub("", raw)
+                rest = raw[len(whole) :]
                 with self._changed:
-                    self.text += shown
+                    self.text += _CONTROL.sub("", whole).replace("\r\n", "\n")
                     self._changed.notify_all()
