@@ -64,8 +64,8 @@ class Connection:
         """Serve the page until it goes."""
         writer = asyncio.create_task(self._write())
         self._studio.pages.add(self)
-        for message in self._studio.hello():
-            self.post(json_text(message))
+        for greeting in self._studio.hello():
+            self.post(json_text(greeting))
         try:
             async for message in self._socket:
                 await self._take(message)

@@ -28,24 +28,37 @@ class Frames:
     """
 
     def __init__(self, studio: Studio) -> None:
-        """Listen to ``/tf`` and ``/tf_static``."""
+        """Prepare; nothing is listened to before `use`."""
         self.buffer = TransformBuffer()
-        self._listener = TransformListener(self.buffer, studio.node)
-        self._followers: tuple[Callable[[], None], ...] = ()
+        self._studio = studio
         self._lock = threading.Lock()
-        self._closed = False
-        studio.on_close(self._close)
-        threading.Thread(target=self._run, name="studio frames", daemon=True).start()
+        self._users: tuple[Callable[[], None], ...] = ()
+        self._end: Callable[[], None] | None = None
 
-    def follow(self, follower: Callable[[], None]) -> Callable[[], None]:
-        """Call something short when frames have moved; returns what ends that."""
+    def use(self, on_change: Callable[[], None] = lambda: None) -> Callable[[], None]:
+        """Listen to ``/tf`` and ``/tf_static`` while somebody is interested.
+
+        Args:
+            on_change: something short that is called when frames have moved.
+
+        Returns:
+            What ends the interest.
+        """
+
+        def user() -> None:
+            on_change()
+
         with self._lock:
-            self._followers += (follower,)
-        follower()
+            self._users += (user,)
+            if self._end is None:
+                self._end = self._start()
 
         def leave() -> None:
             with self._lock:
-                self._followers = tuple(one for one in self._followers if one is not follower)
+                self._users = tuple(one for one in self._users if one is not user)
+                end, self._end = (None, self._end) if self._users else (self._end, None)
+            if end is not None:
+                end()
 
         return leave
 
@@ -66,18 +79,26 @@ class Frames:
                 raise
             return newest.pose
 
-    def _close(self) -> None:
-        self._closed = True
-        self._listener.close()
+    def _start(self) -> Callable[[], None]:
+        listener = TransformListener(self.buffer, self._studio.node)
+        ended = threading.Event()
+        thread = threading.Thread(target=self._run, args=(ended,), name="studio tf", daemon=True)
+        thread.start()
 
-    def _run(self) -> None:
-        pause = threading.Event()
-        while not self._closed:
+        def end() -> None:
+            ended.set()
+            listener.close()
+            self.buffer.clear()
+
+        return end
+
+    def _run(self, ended: threading.Event) -> None:
+        while not ended.is_set():
             if self.buffer.wait_for_change(_LOOK_S):
-                for follower in self._followers:
-                    follower()
+                for user in self._users:
+                    user()
             # What comes together is told once.
-            pause.wait(_TELL_S)
+            ended.wait(_TELL_S)
 
 
 def poses_in(latest: dict[str, StampedPose], fixed_frame: str) -> dict[str, Pose | None]:

@@ -12,7 +12,7 @@ from gazelle.studio.displays.pictures import (
     checked_colormap,
     encoded_picture,
 )
-from gazelle.studio.displays.showing import Site, open_newest
+from gazelle.studio.displays.showing import Site, open_newest, open_on
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
@@ -30,7 +30,7 @@ _LARGEST_PX = 16_384
 
 def open_image(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     """Stream ``image``."""
-    return open_picture(Site(studio, channel, params))
+    return open_on(Site(studio, channel, params), open_picture)
 
 
 def open_picture(site: Site) -> OpenStream:

@@ -74,7 +74,7 @@ class Colouring(NamedTuple):
 
 def ramp(values: NDArray[Any], bounds: tuple[float, float] | None, colours: Packed) -> Packed:
     """Return the colour of each value between its bounds, which are the values' own if None."""
-    numbers = np.asarray(values, np.float32)
+    numbers = np.ascontiguousarray(values, np.float32)
     if not len(numbers):
         return np.zeros(0, np.uint32)
     low, high = bounds or (float(numbers.min()), float(numbers.max()))
@@ -86,7 +86,7 @@ def ramp(values: NDArray[Any], bounds: tuple[float, float] | None, colours: Pack
     places = (numbers - np.float32(low)) * np.float32(factor)
     if bounds is not None:
         np.clip(places, 0.0, 255.0, out=places)
-    return colours[places.astype(np.uint8)]
+    return np.take(colours, places.astype(np.uint8))
 
 
 def flat_colour(rgb: tuple[int, int, int]) -> int:

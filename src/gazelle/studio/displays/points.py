@@ -139,7 +139,9 @@ class _Cloud:
         x, y, z = (fields[name] for name in "xyz")
         together = y.offset == x.offset + 4 and z.offset == x.offset + 8
         if together and all(one.datatype == 7 for one in (x, y, z)):
-            return np.ascontiguousarray(self._view(x.offset, self._order + "f4", 3), np.float32)
+            # As items of twelve bytes they are copied twice as fast as as rows of three.
+            packed = np.ascontiguousarray(self._view(int(x.offset), "V12")).view(np.uint8)
+            return packed.view(self._order + "f4").reshape(-1, 3).astype(np.float32, copy=False)
         columns = [self.column(one) for one in (x, y, z)]
         return np.ascontiguousarray(np.stack(columns, axis=1), np.float32)
 
@@ -147,14 +149,14 @@ class _Cloud:
         kind = kind or _FIELD_TYPES.get(field.datatype, "")
         if not kind:
             raise StudioError(f"field '{field.name}' is of the unknown type {field.datatype}")
-        return self._view(int(field.offset), self._order + kind, 1)[:, 0]
+        return self._view(int(field.offset), self._order + kind)
 
-    def _view(self, offset: int, kind: str, width: int) -> NDArray[Any]:
+    def _view(self, offset: int, kind: str) -> NDArray[Any]:
         item = np.dtype(kind)
-        if offset + width * item.itemsize > self._step:
+        if offset + item.itemsize > self._step:
             raise StudioError("a field of the cloud lies outside of its points")
-        strides = (self._step * self._every, item.itemsize)
-        return np.ndarray((self.count, width), item, self._data, offset, strides)
+        strides = (self._step * self._every,)
+        return np.ndarray((self.count,), item, self._data, offset, strides)
 
 
 def _without_padding(data: Any, height: int, row: int, used: int) -> NDArray[np.uint8]:

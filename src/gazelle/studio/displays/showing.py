@@ -15,7 +15,7 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Site", "open_newest", "stamp_ns"]
+__all__ = ["Site", "open_newest", "open_on", "stamp_ns"]
 
 _RETRY_S = 0.5
 _NANO = 1_000_000_000
@@ -29,6 +29,7 @@ class Site:
         channel: where its frames go.
         params: topic, fixed frame and the display's own properties.
         frames: where frames are.
+        leave: ends the interest in frames, with the display.
     """
 
     def __init__(self, studio: Studio, channel: Channel, params: Params) -> None:
@@ -37,6 +38,7 @@ class Site:
         self.channel = channel
         self.params = params
         self.frames = studio.shared(Frames)
+        self.leave = self.frames.use() if "fixed_frame" in params else lambda: None
         self._fixed = params.text("fixed_frame", "map")
 
     def pose(self, header: Any) -> Pose:
@@ -56,6 +58,21 @@ class Site:
 def stamp_ns(stamp: Any) -> int:
     """Return a time of a message in nanoseconds."""
     return int(stamp.sec) * _NANO + int(stamp.nanosec)
+
+
+def open_on(site: Site, opener: Callable[[Site], OpenStream]) -> OpenStream:
+    """Open a display on a site that ends with it."""
+    try:
+        stream = opener(site)
+    except BaseException:
+        site.leave()
+        raise
+
+    def close() -> None:
+        stream.close()
+        site.leave()
+
+    return OpenStream(close, stream.info)
 
 
 def open_newest(

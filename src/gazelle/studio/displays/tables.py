@@ -10,7 +10,7 @@ from gazelle.studio.displays.maps import open_map
 from gazelle.studio.displays.markers import open_interactive, open_markers
 from gazelle.studio.displays.plain import open_plain
 from gazelle.studio.displays.points import open_points
-from gazelle.studio.displays.showing import Site
+from gazelle.studio.displays.showing import Site, open_on
 from gazelle.studio.displays.turtles import open_turtles
 from gazelle.studio.errors import unknown
 from gazelle.studio.params import Params
@@ -57,7 +57,7 @@ def _open_display(studio: Studio, channel: Channel, params: Params) -> OpenStrea
     opener = DISPLAYS.get(_ALIASES.get(name, name))
     if opener is None:
         raise unknown("display", name, DISPLAYS)
-    return opener(Site(studio, channel, params))
+    return open_on(Site(studio, channel, params), opener)
 
 
 STREAMS: dict[str, StreamKind] = {

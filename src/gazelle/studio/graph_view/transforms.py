@@ -24,14 +24,16 @@ def open_tf(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     poses = _Poses(studio, frames, params.text("fixed_frame"))
     rate_hz = params.number("rate_hz", 30.0, least=0.1, most=100.0)
     pace = Pace(channel, lambda: channel.offer(poses.frames), rate_hz)
-    return OpenStream(frames.follow(pace))
+    leave = frames.use(pace)
+    pace()
+    return OpenStream(leave)
 
 
 def open_tree(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``tf.tree``."""
     frames = studio.shared(Frames)
     every(channel, _TREE_S, lambda: channel.offer(lambda: _tree(studio, frames)))
-    return OpenStream(lambda: None)
+    return OpenStream(frames.use())
 
 
 class _Poses:
