@@ -178,7 +178,12 @@ class Node:
         )
 
     def create_service(
-        self, name: str, service_type: Any, handler: Callable[[Any], Any]
+        self,
+        name: str,
+        service_type: Any,
+        handler: Callable[..., Any],
+        *,
+        with_caller: bool = False,
     ) -> ServiceServer:
         """Answer a service.
 
@@ -187,11 +192,19 @@ class Node:
             service_type: service class, of ROS 1 or 2.
             handler: takes a request, returns a response; what it raises reaches the caller as
                 `ServiceCallError`.
+            with_caller: give the handler the global name of the node that asks too; it is empty
+                when nobody knows.
         """
         entity = self._entity(Kind.SERVICE, name, wire.service_name_of(service_type))
-        return self._keep(
-            ServiceServer(self.graph, entity, service_type, handler, on_error=self._on_error)
+        made = ServiceServer(
+            self.graph,
+            entity,
+            service_type,
+            handler,
+            with_caller=with_caller,
+            on_error=self._on_error,
         )
+        return self._keep(made)
 
     def create_client(self, name: str, service_type: Any) -> ServiceClient:
         """Prepare calls of a service."""

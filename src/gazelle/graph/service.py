@@ -39,8 +39,9 @@ class ServiceServer:
         graph: Graph,
         entity: Entity,
         service_class: Any,
-        handler: Callable[[Any], Any],
+        handler: Callable[..., Any],
         *,
+        with_caller: bool,
         on_error: Callable[[str], None],
     ) -> None:
         """Offer the service; use `Node.create_service`."""
@@ -51,6 +52,7 @@ class ServiceServer:
         self.entity = entity
         self._graph = graph
         self._handler = handler
+        self._with_caller = with_caller
         self._on_error = on_error
         self._closed = False
         text = token(graph.domain, entity)
@@ -99,7 +101,9 @@ class ServiceServer:
     def _response_to(self, query: Any) -> bytes:
         """Return the response's bytes, none when the handler gave no response."""
         data = query.payload.to_bytes() if query.payload is not None else b""
-        response = self._handler(wire.decode(wire.request_type(self.service_class), data))
+        request = wire.decode(wire.request_type(self.service_class), data)
+        words = (request, self._caller_of(query)) if self._with_caller else (request,)
+        response = self._handler(*words)
         if response is None:
             return b""
         wanted = wire.response_type(self.service_class)
@@ -109,6 +113,12 @@ class ServiceServer:
                 f"not a {wanted.__qualname__}"
             )
         return wire.encode(response)
+
+    def _caller_of(self, query: Any) -> str:
+        attached = query.attachment
+        gid = Attachment.from_bytes(attached.to_bytes() if attached else b"").gid
+        entity = self._graph.entity_with_gid(gid)
+        return "" if entity is None else entity.node
 
 
 class ServiceClient:

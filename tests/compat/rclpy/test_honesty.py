@@ -111,3 +111,67 @@ assert node.count_services('/quiet/get_type_description') == 0
 assert node.count_services('/quiet/get_parameters') == 1
 """
     )
+
+
+def test_levels_of_loggers_are_set_by_service(passes: Callable[..., Any]) -> None:
+    passes(
+        HEAD
+        + """
+import threading
+from rclpy.impl.logging_severity import LoggingSeverity
+from rcl_interfaces.msg import LoggerLevel
+from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
+talkative = rclpy.create_node('talkative', enable_logger_service=True)
+executor = rclpy.executors.SingleThreadedExecutor()
+executor.add_node(node)
+executor.add_node(talkative)
+threading.Thread(target=executor.spin, daemon=True).start()
+setter = node.create_client(SetLoggerLevels, '/talkative/set_logger_levels')
+assert setter.wait_for_service(5)
+asked = [LoggerLevel(name='talkative', level=40), LoggerLevel(name='talkative', level=7)]
+done, refused = setter.call(SetLoggerLevels.Request(levels=asked)).results
+assert done.successful and not refused.successful
+assert refused.reason == 'Failed reason: Invalid logger level.'
+assert talkative.get_logger().get_effective_level() == LoggingSeverity.ERROR
+getter = node.create_client(GetLoggerLevels, '/talkative/get_logger_levels')
+found = getter.call(GetLoggerLevels.Request(names=['talkative', 'other'])).levels
+assert [(one.name, one.level) for one in found] == [('talkative', 40), ('other', 0)]
+assert node.count_services('/program/get_logger_levels') == 0
+"""
+    )
+
+
+def test_futures_are_awaited_by_asyncio_and_by_executors(passes: Callable[..., Any]) -> None:
+    passes(
+        HEAD
+        + """
+import asyncio
+from rclpy.task import Future
+first, second = Future(), Future()
+node.create_timer(0.01, lambda: first.set_result(1))
+async def in_executor():
+    second.set_result(await first + 1)
+rclpy.get_global_executor().create_task(in_executor)
+async def spin():
+    while not second.done():
+        rclpy.spin_once(node, timeout_sec=0)
+        await asyncio.sleep(0.001)
+async def main():
+    spinning = asyncio.ensure_future(spin())
+    found = await first, await second
+    await spinning
+    return found
+assert asyncio.run(asyncio.wait_for(main(), 10)) == (1, 2)
+"""
+    )
+
+
+def test_names_of_events_and_overrides_can_be_imported(passes: Callable[..., Any]) -> None:
+    passes("""
+from rclpy.event_handler import IncompatibleTypeInfo, QoSOfferedDeadlineMissedInfo
+from rclpy.event_handler import QoSOfferedIncompatibleQoSInfo, QoSPublisherMatchedInfo
+from rclpy.event_handler import QoSRequestedDeadlineMissedInfo, QoSRequestedIncompatibleQoSInfo
+from rclpy.event_handler import QoSSubscriptionMatchedInfo
+from rclpy.qos_overriding_options import QosCallbackResult
+assert QosCallbackResult(successful=True).reason == ''
+""")

@@ -204,3 +204,45 @@ except rospy.ROSException as error:
     assert 'unregistered' in str(error)
 """
     )
+
+
+def test_messages_and_requests_say_where_they_come_from(passes: Callable[..., Any]) -> None:
+    passes("""
+import rospy
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, SetBoolResponse
+rospy.init_node('program')
+got = []
+rospy.Subscriber('chat', String, got.append)
+rospy.Subscriber('chat', rospy.AnyMsg, got.append)
+talker = rospy.Publisher('chat', String, latch=True, queue_size=1)
+talker.publish('hello')
+while len(got) < 2:
+    rospy.sleep(0.01)
+for message in got:
+    header = message._connection_header
+    assert header['callerid'] == '/program' and header['topic'] == '/chat', header
+    assert header['type'] == 'std_msgs/String' and header['latching'] == '1', header
+    assert header['md5sum'] == String._md5sum
+    assert header['message_definition'] == String._full_text
+asked = []
+def answer(request):
+    asked.append(request._connection_header)
+    return SetBoolResponse(success=True)
+rospy.Service('switch', SetBool, answer)
+rospy.ServiceProxy('switch', SetBool)(True)
+assert asked[0]['callerid'] == '/program' and asked[0]['service'] == '/switch', asked
+assert asked[0]['type'] == 'std_srvs/SetBool' and asked[0]['md5sum'] == SetBool._md5sum
+""")
+
+
+def test_headers_of_ones_own_are_told_to_be_lost(program: Callable[..., Any]) -> None:
+    running = program("""
+import rospy
+from std_msgs.msg import String
+rospy.init_node('program')
+rospy.Publisher('chat', String, queue_size=1, headers={'cookies': 'oreo'})
+""")
+    assert running.wait() == 0, running.text
+    line = "headers are not sent: cookies will not be in anybody's _connection_header"
+    assert line in running.text

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "EventWatch",
+    "IncompatibleTypeInfo",
     "MatchedInfo",
     "PublisherEventCallbacks",
     "QoSIncompatibleInfo",
@@ -36,6 +37,12 @@ __all__ = [
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
     "QoSMissedInfo",
+    "QoSOfferedDeadlineMissedInfo",
+    "QoSOfferedIncompatibleQoSInfo",
+    "QoSPublisherMatchedInfo",
+    "QoSRequestedDeadlineMissedInfo",
+    "QoSRequestedIncompatibleQoSInfo",
+    "QoSSubscriptionMatchedInfo",
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
 ]
@@ -92,6 +99,19 @@ class QoSMessageLostInfo(NamedTuple):
 
     total_count: int
     total_count_change: int
+
+
+class IncompatibleTypeInfo(NamedTuple):
+    """How many partners have another type."""
+
+    total_count: int
+    total_count_change: int
+
+
+# One form serves both ends; rclpy has a name for each.
+QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo = MatchedInfo
+QoSOfferedDeadlineMissedInfo = QoSRequestedDeadlineMissedInfo = QoSMissedInfo
+QoSOfferedIncompatibleQoSInfo = QoSRequestedIncompatibleQoSInfo = QoSIncompatibleInfo
 
 
 class SubscriptionEventCallbacks:

@@ -13,6 +13,7 @@ __all__ = [
     "RcutilsLogger",
     "get_logger",
     "get_logger_effective_level",
+    "get_logger_level",
     "get_logging_severity_from_string",
     "set_default_level",
     "set_logger_level",
@@ -133,6 +134,11 @@ def get_logger_effective_level(name: str) -> LoggingSeverity:
             return level
         name = name.rpartition(".")[0]
     return _default[0]
+
+
+def get_logger_level(name: str) -> LoggingSeverity:
+    """Return a logger's own level, UNSET when it has none."""
+    return _levels.get(name, LoggingSeverity.UNSET)
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:

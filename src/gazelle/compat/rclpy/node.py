@@ -19,6 +19,7 @@ from gazelle.compat.rclpy.event_handler import (
 )
 from gazelle.compat.rclpy.exceptions import NotInitializedException
 from gazelle.compat.rclpy.guard_condition import GuardCondition
+from gazelle.compat.rclpy.logger_levels import offer_logger_levels
 from gazelle.compat.rclpy.node_graph import GraphQueries
 from gazelle.compat.rclpy.node_parameters import ParameterHolder
 from gazelle.compat.rclpy.parameter import Parameter
@@ -56,6 +57,7 @@ class Node(ParameterHolder, GraphQueries):
         parameter_overrides: values that count more than defaults.
         allow_undeclared_parameters: setting declares.
         automatically_declare_parameters_from_overrides: declare what the overrides name.
+        enable_logger_service: let others get and set the levels of loggers.
 
     Raises:
         NotInitializedException: `rclpy.init` has not been called.
@@ -79,7 +81,7 @@ class Node(ParameterHolder, GraphQueries):
     ) -> None:
         from gazelle.compat.rclpy.arguments import RosArguments, parse_ros_arguments
 
-        del start_parameter_services, enable_logger_service
+        del start_parameter_services
         self.context = context or get_default_context()
         if not self.context.ok():
             raise NotInitializedException
@@ -111,6 +113,8 @@ class Node(ParameterHolder, GraphQueries):
         overrides |= {one.name: one.value for one in parameter_overrides or []}
         self._offer_parameters(overrides, allow_undeclared_parameters)
         self._offer_type_descriptions()
+        if enable_logger_service:
+            offer_logger_levels(self)
         if automatically_declare_parameters_from_overrides:
             for key in [key for key in overrides if not self.has_parameter(key)]:
                 self.declare_parameter(key, overrides[key])

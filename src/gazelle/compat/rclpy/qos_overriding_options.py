@@ -15,7 +15,14 @@ from gazelle.interfaces import message_type
 if TYPE_CHECKING:
     from gazelle.compat.rclpy.node import Node
 
-__all__ = ["InvalidQosOverridesError", "QoSOverridingOptions", "overridden"]
+__all__ = [
+    "InvalidQosOverridesError",
+    "QoSOverridingOptions",
+    "QosCallbackResult",
+    "overridden",
+]
+
+QosCallbackResult = message_type("rcl_interfaces/msg/SetParametersResult")
 
 
 class InvalidQosOverridesError(Exception):

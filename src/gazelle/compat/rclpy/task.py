@@ -16,6 +16,10 @@ class _Executor(Protocol):
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any: ...
 
 
+# Per thread: the task of an executor that is just running.
+_here = threading.local()
+
+
 class Future:
     """A result that comes later; callbacks of an executor's futures run in the executor."""
 
@@ -33,9 +37,10 @@ class Future:
         if self._exception is not None and not self._exception_fetched:
             sys.stderr.write(f"The following exception was never retrieved: {self._exception}\n")
 
-    def __await__(self) -> Generator[Future, None, Any]:
+    def __await__(self) -> Generator[Future | None, None, Any]:
         while not self._done and not self._cancelled:
-            yield self
+            # asyncio's tasks take nothing of ours; they come round again, as with rclpy.
+            yield self if getattr(_here, "task", None) else None
         return self.result()
 
     def cancel(self) -> None:
@@ -161,7 +166,7 @@ class Task(Future):
                     return None
                 # A callable that hands a coroutine back, such as a bound partial.
                 self._handler = value
-            awaited = self._handler.send(None)
+            awaited = self._advance()
         except StopIteration as end:
             self.set_result(end.value)
             return None
@@ -173,3 +178,10 @@ class Task(Future):
             awaited = Future()
             awaited.set_result(None)
         return awaited
+
+    def _advance(self) -> Any:
+        outer, _here.task = getattr(_here, "task", None), self
+        try:
+            return self._handler.send(None)
+        finally:
+            _here.task = outer

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.compat.rospy.errors import ROSException, ROSInterruptException, ServiceException
 from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.rospy.topics import message_of
+from gazelle.compat.rospy.topics import message_of, warn_of_headers
 from gazelle.errors import GazelleError
 from gazelle.graph import ServiceRefusedError, ServiceUnavailableError
 from gazelle.interfaces import Ros1Message, Ros1Service
@@ -44,7 +44,7 @@ class Service:
         self.handler = handler
         self.error_handler = error_handler
         try:
-            self._impl = node.create_service(name, service_class, self._answer)
+            self._impl = node.create_service(name, service_class, self._answer, with_caller=True)
         except GazelleError as error:
             raise ServiceException(str(error)) from error
 
@@ -58,7 +58,13 @@ class Service:
         while not STATE.stopping.wait(0.5):
             continue
 
-    def _answer(self, request: Any) -> Any:
+    def _answer(self, request: Any, caller: str) -> Any:
+        request._connection_header = {
+            "callerid": caller,
+            "md5sum": self.service_class._md5sum,
+            "service": self.resolved_name,
+            "type": self.service_class._type,
+        }
         try:
             return self._response(self.handler(request))
         except ServiceException as error:
@@ -109,7 +115,8 @@ class ServiceProxy:
         persistent: bool = False,
         headers: dict[str, str] | None = None,
     ) -> None:
-        del persistent, headers
+        del persistent
+        warn_of_headers(headers)
         self.resolved_name = STATE.resolved(name)
         self.service_class = service_class
         self.request_class = service_class._request_class

@@ -6,7 +6,7 @@ import sys
 import threading
 import traceback
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from gazelle.compat.rospy.errors import (
@@ -16,7 +16,7 @@ from gazelle.compat.rospy.errors import (
 )
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
-from gazelle.graph import Node, RawMessage
+from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
 from gazelle.graph import Subscription as _Subscription
 from gazelle.interfaces import (
@@ -68,6 +68,14 @@ class Topic:
         self.reg_type = "pub"
 
 
+def warn_of_headers(headers: Mapping[str, str] | None) -> None:
+    """Say that a connection's own headers reach nobody: this graph has no connections."""
+    if headers:
+        names = ", ".join(sorted(headers))
+        text = f"headers are not sent: {names} will not be in anybody's _connection_header"
+        sys.stderr.write(f"[WARN] {text}\n")
+
+
 class Publisher(Topic):
     """Offers a topic.
 
@@ -90,7 +98,8 @@ class Publisher(Topic):
         queue_size: int | None = None,
     ) -> None:
         super().__init__(name, data_class)
-        del tcp_nodelay, headers
+        del tcp_nodelay
+        warn_of_headers(headers)
         if queue_size is None:
             warnings.warn(
                 "The publisher should be created with an explicit keyword argument 'queue_size'. "
@@ -207,6 +216,7 @@ class Subscriber(Topic):
         self.callback = callback
         self.callback_args = callback_args
         self._is_unregistered = False
+        self._headers: dict[bytes, dict[str, str]] = {}
         self.impl: _Subscription | None = None
         STATE.when_ready(lambda node: self._open(node, name, queue_size or 0))
 
@@ -231,29 +241,27 @@ class Subscriber(Topic):
             self._on_raw if raw else self._on_message,
             queue_size=queue_size,
             raw=raw,
+            with_info=True,
         )
         self.name = self.resolved_name = self.impl.topic
 
-    def _on_raw(self, raw: RawMessage) -> None:
+    def _on_raw(self, raw: RawMessage, info: MessageInfo) -> None:
         """Turn the wire's bytes into the ROS 1 bytes that AnyMsg holds."""
         cls = ros1_message_type(ros1_type_of(raw.type_name))
         message: Any = self.data_class()
         message._buff = to_ros1(from_cdr(cls, raw.data))
-        message._connection_header = {
-            "type": cls._type,
-            "md5sum": cls._md5sum,
-            "topic": self.name,
-            "message_definition": cls._full_text,
-        }
-        self._on_message(message)
+        self._on_message(message, info, cls)
 
-    def _on_message(self, message: Any) -> None:
+    def _on_message(
+        self, message: Any, info: MessageInfo, sent_class: type[Ros1Message] | None = None
+    ) -> None:
         if self.callback is None or STATE.stopping.is_set():
             return
         if not isinstance(message, self.data_class):
             # numpy_msg's classes: the graph knows only the class that they are made from.
             fields = [getattr(message, name) for name in type(message).__slots__]
             message = self.data_class(*fields)
+        message._connection_header = self._header(info, sent_class or self.data_class)
         try:
             if self.callback_args is not None:
                 self.callback(message, self.callback_args)
@@ -264,6 +272,25 @@ class Subscriber(Topic):
         except Exception:  # noqa: BLE001 - a user's callback may raise anything
             sys.stderr.write(f"[ERROR] bad callback: {self.callback}\n")
             traceback.print_exc()
+
+    def _header(self, info: MessageInfo, sent_class: type[Ros1Message]) -> dict[str, str]:
+        """Return what a publisher of ROS 1 says when it is connected, as far as it is known."""
+        found = self._headers.get(info.gid)
+        if found is None:
+            assert STATE.node is not None
+            entity = STATE.node.graph.entity_with_gid(info.gid)
+            found = self._headers[info.gid] = {
+                "callerid": info.publisher,
+                "latching": str(int(entity is not None and entity.qos.latched)),
+                "md5sum": sent_class._md5sum,
+                "message_definition": sent_class._full_text,
+                "topic": self.name,
+                "type": sent_class._type,
+            }
+            if entity is None:
+                # Its announcement can come after its first message: ask again at the next one.
+                del self._headers[info.gid]
+        return found
 
 
 def wait_for_message(topic: str, topic_type: type[Ros1Message], timeout: Any = None) -> Any:

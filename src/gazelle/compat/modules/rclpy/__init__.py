@@ -52,6 +52,8 @@ for _name, _module in {
     "executors": executors,
     "expand_topic_name": names,
     "guard_condition": guard_condition,
+    "impl": logging,
+    "impl.logging_severity": logging,
     "lifecycle": lifecycle,
     "lifecycle.node": _lifecycle_node,
     "lifecycle.publisher": _lifecycle_entities,
