@@ -43,6 +43,7 @@ _BASH = """\
 _gazelle_complete() {
   local IFS=$'\\n'
   COMPREPLY=($(@GAZELLE@ complete "${COMP_WORDS[@]:0:COMP_CWORD+1}" 2>/dev/null))
+  case "${COMPREPLY[0]}" in *:=) compopt -o nospace ;; esac
 }
 complete -o default -F _gazelle_complete @NAMES@
 """

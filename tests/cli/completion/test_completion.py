@@ -69,6 +69,30 @@ def test_names_of_the_graph(robot: Node, capsys: Any) -> None:
     assert candidates("ros2", ["topic", "hz", "/cmd"]) == ["/cmd_vel"]
 
 
+def test_parameters_of_the_graph(robot: Node) -> None:
+    robot.graph.parameters.set("/robot/rate", 5)
+    assert candidates("rosparam", ["get", "/robot/r"]) == ["/robot/rate"]
+    assert candidates("rosparam", ["set", "/robot/rate", ""]) == []
+
+
+def test_types_in_the_words_of_each_generation(port: int) -> None:
+    assert "geometry_msgs/TwistStamped" in candidates("rosmsg", ["show", "geometry_msgs/Tw"])
+    assert candidates("rostopic", ["pub", "/cmd_vel", "geometry_msgs/PointS"]) == [
+        "geometry_msgs/PointStamped"
+    ]
+    assert candidates("ros2", ["interface", "show", "std_srvs/srv/Tr"]) == ["std_srvs/srv/Trigger"]
+    assert candidates("rossrv", ["package", "std_s"]) == ["std_srvs"]
+    assert candidates("ros2", ["topic", "ec"]) == ["echo"]
+
+
+def test_arguments_of_a_launch_file(package: Path) -> None:
+    text = '<launch><arg name="model" default="m"/><arg name="fixed" value="1"/></launch>'
+    (package / "launch" / "demo.launch").write_text(text, encoding="utf-8")
+    assert candidates("roslaunch", ["demo_pkg", "demo.launch", "m"]) == ["model:="]
+    assert candidates("roslaunch", ["demo_pkg", "demo.launch", "f"]) == []
+    assert candidates("roslaunch", ["demo_pkg", "no.launch", ""]) == []
+
+
 def test_without_a_graph_nothing_is_offered(port: int) -> None:
     assert candidates("rostopic", ["echo", "/"]) == []
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 
 from gazelle.cli.commands import COMMANDS
+from gazelle.cli.completion.names import launch_arguments, named, package_names
 from gazelle.cli.tool import Tool
 from gazelle.errors import GazelleError
-from gazelle.graph import Graph
 from gazelle.workspace import Workspace
 
 __all__ = ["candidates", "subcommands"]
@@ -44,24 +44,29 @@ def subcommands(command: str, words: Iterable[str] = ()) -> list[str]:
     module = COMMANDS[command].module
     for word in words:
         module = f"{module}.{word}"
-    try:
-        names = vars(import_module(module))
-    except ModuleNotFoundError:
-        return []
+    for name in (module, f"{module}.command"):
+        try:
+            names = vars(import_module(name))
+        except ModuleNotFoundError:
+            continue
+        if found := _table(names):
+            return found
+    match = None if tuple(words) else _LISTED.fullmatch(COMMANDS[command].help)
+    return match[1].split(", ") if match else []
+
+
+def _table(names: Mapping[str, object]) -> list[str]:
     for one in names.values():
         if isinstance(one, Tool):
             return list(one.commands)
-    table = next((names[name] for name in _TABLES if isinstance(names.get(name), Mapping)), None)
-    if table is not None:
-        return [str(name) for name in table]
-    match = None if tuple(words) else _LISTED.fullmatch(COMMANDS[command].help)
-    return match[1].split(", ") if match else []
+    tables = [table for name in _TABLES if isinstance(table := names.get(name), Mapping)]
+    return [str(name) for name in tables[0]] if tables else []
 
 
 def _found(command: str, words: list[str]) -> Iterable[str]:
     position = len(words)
     if command in _SHELL_FUNCTIONS:
-        return _packages() if position == 1 else ()
+        return package_names() if position == 1 else ()
     if command in {"rosrun", "roslaunch", "rosversion"}:
         return _in_package(command, words)
     if command not in COMMANDS:
@@ -70,7 +75,7 @@ def _found(command: str, words: list[str]) -> Iterable[str]:
         return _ros2(words)
     if position == 1:
         return subcommands(command)
-    return _named(command.removeprefix("ros"), words[0])
+    return named(command.removeprefix("ros"), words, ros2=False)
 
 
 def _ros2(words: list[str]) -> Iterable[str]:
@@ -80,14 +85,16 @@ def _ros2(words: list[str]) -> Iterable[str]:
         return _in_package({"run": "rosrun", "launch": "roslaunch"}[words[0]], words[1:])
     if len(words) == 2:
         return subcommands("ros2", words[:1])
-    return _named(words[0], words[1])
+    return named(words[0], words[1:], ros2=True)
 
 
 def _in_package(command: str, words: list[str]) -> Iterable[str]:
     if len(words) == 1:
-        return _packages()
-    if len(words) != 2 or command == "rosversion":
+        return package_names()
+    if command == "rosversion":
         return ()
+    if len(words) > 2:
+        return launch_arguments(words[:2]) if command == "roslaunch" else ()
     package = Workspace.discover().packages.get(words[0])
     if command == "roslaunch":
         return {path.name for path in package.path.rglob("*.launch*")} if package else ()
@@ -95,25 +102,6 @@ def _in_package(command: str, words: list[str]) -> Iterable[str]:
 
     files = package.executable_names if package else ()
     return {*files, *builtin_types(words[0])}
-
-
-def _packages() -> Iterable[str]:
-    return Workspace.discover().packages
-
-
-def _named(kind: str, subcommand: str) -> Iterable[str]:
-    """Return the names in the running graph that a command takes."""
-    ways: dict[str, Callable[[Graph], Iterable[str]]] = {
-        "topic": lambda graph: (one.name for one in graph.topics()),
-        "node": lambda graph: graph.node_names(),
-        "service": lambda graph: (one.name for one in graph.services()),
-    }
-    if kind == "pack" and subcommand != "list":
-        return _packages()
-    if kind not in ways or subcommand in {"list", "find"}:
-        return ()
-    with Graph.open(role="client") as graph:
-        return sorted(ways[kind](graph))
 
 
 def _starting(names: Iterable[str], start: str) -> list[str]:
