@@ -108,6 +108,7 @@ class Viewer:
         )
         self._numbers = itertools.count(1)
         self._topics: dict[int, str] = {}
+        self._subscribed: dict[int, int] = {}
         self.channels: dict[str, dict[str, Any]] = {}
         self.services: dict[str, dict[str, Any]] = {}
         self.heard: dict[str, list[dict[str, Any]]] = {}
@@ -132,8 +133,13 @@ class Viewer:
         channel = self.wait_for(lambda: self.channels.get(topic))["id"]
         number = next(self._numbers)
         self._topics[number] = topic
-        self.send({"op": "subscribe", "subscriptions": [{"id": number, "channelId": channel}]})
+        self._subscribed[channel] = number
+        self._send_subscription(channel)
         return number
+
+    def _send_subscription(self, channel: int) -> None:
+        row = {"id": self._subscribed[channel], "channelId": channel}
+        self.send({"op": "subscribe", "subscriptions": [row]})
 
     def unsubscribe(self, number: int) -> None:
         self.send({"op": "unsubscribe", "subscriptionIds": [number]})
@@ -166,6 +172,9 @@ class Viewer:
         operation = json.loads(frame)
         self.heard.setdefault(operation["op"], []).append(operation)
         match operation["op"]:
+            case "status" if operation["message"].startswith("Unknown channel ID: "):
+                # foxglove-sdk 0.30 tells of a channel a moment before it knows it itself.
+                self._send_subscription(int(operation["message"].rpartition(" ")[2]))
             case "advertise":
                 self.channels |= {one["topic"]: one for one in operation["channels"]}
             case "unadvertise":

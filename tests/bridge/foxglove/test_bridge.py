@@ -11,6 +11,7 @@ from tests.bridge.foxglove.conftest import PlainChannel, PlainViewers
 from gazelle.bridge.foxglove import FoxgloveBridge
 from gazelle.bridge.foxglove.viewers import Requests
 from gazelle.graph import Graph, ServiceRefusedError
+from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import from_cdr, message_type, service_type, to_cdr
 
 Eventually = Callable[[Callable[[], Any]], Any]
@@ -196,6 +197,34 @@ def test_viewer_reads_sets_and_follows_parameters(
     eventually(lambda: {"/arm/joints": None}.items() <= _merged(viewers).items())
     graph.parameters.set("/new", 7)
     eventually(lambda: _merged(viewers).get("/new") == 7)
+
+
+def test_viewer_reads_sets_and_follows_parameters_of_nodes(
+    graph: Graph,
+    viewers: PlainViewers,
+    eventually: Eventually,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    node = graph.create_node("talker", rosout=False)
+    own = NodeParameters(
+        node,
+        "/talker",
+        {"rate": 1.5, "words": ["a", "b"], "fixed": 3},
+        descriptors={"fixed": Descriptor(read_only=True)},
+    )
+    asked = ["/talker.rate", "/talker.words", "/talker.fixed"]
+    values = {"/talker.rate": 1.5, "/talker.words": ["a", "b"], "/talker.fixed": 3}
+    eventually(lambda: viewers.requests.get_parameters(asked) == values)
+    everything = viewers.requests.get_parameters([])
+    assert {name: everything[name] for name in asked} == values
+    after = viewers.requests.set_parameters({"/talker.rate": 2, "/talker.fixed": 4})
+    assert after == {"/talker.rate": 2.0, "/talker.fixed": 3}
+    assert own.values["rate"] == 2.0
+    assert isinstance(own.values["rate"], float)
+    assert "a viewer cannot set parameter /talker.fixed: " in capfd.readouterr().err
+    eventually(lambda: _merged(viewers).get("/talker.rate") == 2.0)
+    own.close()
+    eventually(lambda: viewers.requests.get_parameters(asked) == {})
 
 
 def _merged(viewers: PlainViewers) -> dict[str, Any]:

@@ -40,7 +40,7 @@ def test_viewer_reads_messages_and_goes(
     row = viewer.channels["/chatter"]
     assert (row["encoding"], row["schemaEncoding"], row["schemaName"]) == ("cdr", "ros2msg", STRING)
     assert "string data" in row["schema"]
-    eventually(lambda: out.matched)
+    viewer.wait_for(lambda: out.matched)
     out.publish(String(data="hello"))
     viewer.wait_for(lambda: texts(viewer, "/chatter") == ["hello"])
     stamp_ns = viewer.messages["/chatter"][0][1]
@@ -51,16 +51,16 @@ def test_viewer_reads_messages_and_goes(
 
 
 def test_unsubscribing_and_topics_that_end(
-    graph: Graph, make_served: Make, connect: Connect, eventually: Eventually
+    graph: Graph, make_served: Make, connect: Connect
 ) -> None:
     out = graph.create_node("talker", rosout=False).create_publisher("/chatter", STRING)
     viewer = connect(make_served())
     number = viewer.subscribe("/chatter")
-    eventually(lambda: out.matched)
+    viewer.wait_for(lambda: out.matched)
     viewer.unsubscribe(number)
-    eventually(lambda: not out.matched)
+    viewer.wait_for(lambda: not out.matched)
     viewer.subscribe("/chatter")
-    eventually(lambda: out.matched)
+    viewer.wait_for(lambda: out.matched)
     out.unregister()
     viewer.wait_for(lambda: "/chatter" not in viewer.channels)
 
@@ -179,15 +179,13 @@ def test_viewer_gets_the_meshes_of_a_robot(
     assert viewer.assets == {0: b"solid arm", 1: None}
 
 
-def test_stalled_viewer_holds_up_nobody(
-    graph: Graph, make_served: Make, connect: Connect, eventually: Eventually
-) -> None:
+def test_stalled_viewer_holds_up_nobody(graph: Graph, make_served: Make, connect: Connect) -> None:
     out = graph.create_node("camera", rosout=False).create_publisher("/image", STRING)
     bridge = make_served()
     stalled, other = connect(bridge), connect(bridge)
     stalled.subscribe("/image")
     other.subscribe("/image")
-    eventually(lambda: out.matched)
+    other.wait_for(lambda: out.matched)
     big = "x" * 1_000_000
     start = time.monotonic()
     for number in range(100):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.assets import read_asset
 from gazelle.bridge.foxglove.connections import connections_of
+from gazelle.bridge.foxglove.node_parameters import NodeParameters
 from gazelle.bridge.foxglove.parameters import Parameters
 from gazelle.bridge.foxglove.pulse import Pulse
 from gazelle.bridge.foxglove.schemas import SchemaBook
@@ -62,7 +63,8 @@ class FoxgloveBridge:
         taken = f"/{_NAME}" in graph.node_names()
         self._node = graph.create_node(_NAME, namespace="/", anonymous=taken)
         self._speech = Speech(self._node, self._notice)
-        self._parameters = Parameters(graph.parameters, self._notice)
+        nodes = NodeParameters(graph, self._node, self._notice)
+        self._parameters = Parameters(graph.parameters, nodes, self._notice)
         self._looking = Mailbox(self._look, size=0, name="foxglove viewers")
         try:
             self._viewers = make_viewers(self)
