@@ -20,6 +20,8 @@ import pytest
 
 _SHARED = Path(__file__).parents[2] / "shared"
 _PATIENCE_S = 20.0
+# Windows that launch files name serve no page, except in the tests of the page.
+os.environ["GAZELLE_STUDIO"] = "0"
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
 
 

@@ -10,4 +10,4 @@ from gazelle.nodes.registry import builtin_node
 def test_windows_of_actionlib_are_told_not_missing(package: str, name: str) -> None:
     found = builtin_node(package, name)
     assert found is not None
-    assert found.target == "gazelle.nodes.view:run"
+    assert found.target == "gazelle.studio.views.plain:action_caller"

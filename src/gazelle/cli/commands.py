@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from gazelle.cli.views import VIEW_COMMANDS
+
 __all__ = ["COMMANDS", "Command"]
 
 
@@ -37,7 +39,7 @@ COMMANDS: dict[str, Command] = {
     "roswtf": Command("gazelle.cli.roswtf", "look for what is wrong in files and in the graph"),
     "rosclean": Command("gazelle.cli.rosclean", "check, purge: log files of nodes"),
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),
-    "gazebo": Command("gazelle.cli.gzserver", "run a world"),
+    "gazebo": Command("gazelle.cli.gazebo", "run a world and show it"),
     "spawn_model": Command("gazelle.cli.spawn_model", "put a model into a running world"),
     "controller_manager": Command(
         "gazelle.cli.controller_manager", "list, load, start, stop, spawn, kill controllers"
@@ -69,4 +71,5 @@ COMMANDS: dict[str, Command] = {
     "rosdep": Command("gazelle.cli.rosdep", "what packages need: install, check, keys"),
     "colcon": Command("gazelle.cli.colcon", "build, test, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
+    **{name: Command("gazelle.cli.views", text) for name, (_, text) in VIEW_COMMANDS.items()},
 }

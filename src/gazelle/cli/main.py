@@ -14,7 +14,7 @@ from gazelle.errors import GazelleError, UserFileError
 __all__ = ["main"]
 
 # One module runs several commands; it is told which.
-_SHARED_MODULES = ("gazelle.cli.rosmsg", "gazelle.cli.rospack")
+_SHARED_MODULES = ("gazelle.cli.rosmsg", "gazelle.cli.rospack", "gazelle.cli.views")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from gazelle.nodes.view_names import VIEWS
+
 if TYPE_CHECKING:
     import threading
 
@@ -46,24 +48,6 @@ class BuiltinNode:
         return getattr(import_module(module), function)  # type: ignore[no-any-return]
 
 
-_VIEWS = (
-    ("actionlib", "axclient.py"),
-    ("actionlib", "axserver.py"),
-    ("actionlib_tools", "axclient.py"),
-    ("actionlib_tools", "axserver.py"),
-    ("rviz", "rviz"),
-    ("rviz2", "rviz2"),
-    ("rqt_gui", "rqt_gui"),
-    ("rqt_graph", "rqt_graph"),
-    ("rqt_plot", "rqt_plot"),
-    ("rqt_image_view", "rqt_image_view"),
-    ("rqt_robot_steering", "rqt_robot_steering"),
-    ("rqt_reconfigure", "rqt_reconfigure"),
-    ("dynamic_reconfigure", "reconfigure_gui"),
-    ("rqt_console", "rqt_console"),
-    ("rqt_tf_tree", "rqt_tf_tree"),
-    ("image_view", "image_view"),
-)
 _SERVER_NAMES = (
     ("gazebo_ros", "gazebo"),
     ("gazebo_ros", "debug"),
@@ -102,7 +86,6 @@ _NODES = (
         "gazelle.nodes.joint_state_publisher:run",
         light=True,
         help="publishes joint states of a robot description, without sliders",
-        aliases=(("joint_state_publisher_gui", "joint_state_publisher_gui"),),
     ),
     BuiltinNode(
         "robot_state_publisher",
@@ -212,22 +195,6 @@ _NODES = (
         )
     ),
     BuiltinNode(
-        "gazebo_ros",
-        "gzclient",
-        "gazelle.nodes.view:run",
-        light=True,
-        help="stands for a window: stays alive and says what is missing",
-        aliases=(("gazebo", "gzclient"), ("gazebo_ros", "gzclient.py"), *_VIEWS),
-    ),
-    BuiltinNode(
-        "turtlesim",
-        "turtlesim_node",
-        "gazelle.nodes.turtlesim.simulator:run",
-        light=True,
-        help="turtles that draw, without a window",
-        name="turtlesim",
-    ),
-    BuiltinNode(
         "turtlesim",
         "turtle_teleop_key",
         "gazelle.nodes.turtlesim.teleop:run",
@@ -307,6 +274,18 @@ _NODES = (
         "gazelle.nodes.teleop.twist_keyboard:run_ros2",
         light=False,
         help="drives any robot from the keyboard, ROS 2's name",
+    ),
+    *(
+        BuiltinNode(
+            view.package,
+            view.type,
+            view.target,
+            light=False,
+            help=view.help,
+            aliases=view.aliases,
+            name=view.name,
+        )
+        for view in VIEWS
     ),
 )
 

@@ -10,6 +10,7 @@ import webbrowser
 
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
+from gazelle.studio.views.presence import offer
 
 __all__ = ["main"]
 
@@ -25,6 +26,7 @@ def main(argv: list[str]) -> int:
         studio = Studio(graph)
         studio.node.on_shutdown(lambda _reason: stop.set())
         with Server(studio, host=options.host, port=options.port) as server:
+            offer(server)
             print(f"Studio: {server.url}", flush=True)
             if options.browser:
                 _open_browser(server.url)

@@ -1,0 +1,53 @@
+"""Nodes that do something by themselves and have a window beside: sliders and turtles."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+
+from gazelle.graph import Graph
+from gazelle.nodes import joint_state_publisher as joints
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.turtlesim import simulator
+from gazelle.studio.views.presence import Request, is_switched_off, present
+
+__all__ = ["joint_state_publisher_gui", "turtlesim"]
+
+_NodeFunction = Callable[[NodeArguments, Graph, threading.Event], int]
+
+
+def joint_state_publisher_gui(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Publish joint states, moved by the sliders of a panel."""
+    topic = f"/_gazelle/sliders/{arguments.name}"
+    request = Request("joint_state_publisher_gui", {"topic": topic, "publish": True})
+    sources = [*arguments.params.get("source_list", ()), topic]
+    extended = replace(arguments, params={**arguments.params, "source_list": sources})
+    return _beside(joints.run, request, extended, graph, stop)
+
+
+def turtlesim(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Let turtles draw, and show their canvas."""
+    request = Request("turtlesim", {"node": arguments.name})
+    return _beside(simulator.run, request, arguments, graph, stop)
+
+
+def _beside(
+    run: _NodeFunction,
+    request: Request,
+    arguments: NodeArguments,
+    graph: Graph,
+    stop: threading.Event,
+) -> int:
+    """Run a node, and in a thread beside it what shows its panel."""
+    if not is_switched_off():
+        window = graph.create_node(f"{arguments.name}_window", anonymous=True, rosout=False)
+
+        def say(text: str) -> None:
+            window.log("info", text)
+
+        showing = threading.Thread(
+            target=present, args=(window, request, stop, say), name="panel", daemon=True
+        )
+        showing.start()
+    return run(arguments, graph, stop)

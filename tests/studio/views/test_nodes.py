@@ -1,0 +1,73 @@
+"""What the words of windows' commands mean to the page."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.registry import builtin_node, builtin_nodes
+from gazelle.nodes.view_names import VIEWS
+from gazelle.studio.views import nodes
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return the panel and parameters that a command asks for."""
+    seen: list[tuple[str, dict[str, Any]]] = []
+
+    def run_view(panel: str, params: dict[str, Any], *_rest: object) -> int:
+        seen.append((panel, params))
+        return 0
+
+    monkeypatch.setattr(nodes, "run_view", run_view)
+
+    def ask(package: str, name: str, *words: str) -> tuple[str, dict[str, Any]]:
+        node = builtin_node(package, name)
+        assert node is not None
+        function: Any = node.load()
+        function(read_arguments(words, name), None, threading.Event())
+        return seen[-1]
+
+    return ask
+
+
+def test_rviz_opens_its_file_in_the_callers_folder(
+    asked: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert asked("rviz", "rviz", "-d", "a.rviz", "-f", "odom") == (
+        "rviz",
+        {"file": str(tmp_path / "a.rviz"), "frame": "odom"},
+    )
+    assert asked("rviz2", "rviz2") == ("rviz", {})
+
+
+def test_plot_takes_fields_apart(asked: Any) -> None:
+    panel, params = asked("rqt_plot", "rqt_plot", "/turtle1/pose/x:y", "odom/twist/")
+    assert panel == "rqt_plot"
+    assert params == {"curves": ["/turtle1/pose/x", "/turtle1/pose/y", "/odom/twist/"]}
+
+
+def test_image_view_knows_its_topic_by_word_and_by_remapping(asked: Any) -> None:
+    assert asked("rqt_image_view", "rqt_image_view", "cam/image")[1] == {"topic": "/cam/image"}
+    assert asked("image_view", "image_view", "image:=/a")[1] == {"topic": "/a"}
+
+
+@pytest.mark.parametrize(
+    ("plugin", "panel"),
+    [("rqt_plot", "rqt_plot"), ("rqt_graph.ros_graph.RosGraph", "rqt_graph")],
+)
+def test_rqt_opens_one_plugin_by_its_class_or_package(asked: Any, plugin: str, panel: str) -> None:
+    assert asked("rqt_gui", "rqt_gui", "--standalone", plugin)[0] == panel
+    assert asked("rqt_gui", "rqt_gui")[0] == "rqt_gui"
+
+
+def test_every_view_can_be_loaded_and_runs_in_a_process_of_its_own() -> None:
+    targets = {view.target for view in VIEWS}
+    found = [node for node in builtin_nodes() if node.target in targets]
+    assert len(found) == len(VIEWS)
+    assert all(callable(node.load()) and not node.light for node in found)
