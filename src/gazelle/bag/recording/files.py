@@ -39,7 +39,7 @@ class Ros1Files:
         most_files: int = 0,
         repeat_latched: bool = False,
     ) -> None:
-        """Create the first file.
+        """Prepare the first file; the first flush or message creates it.
 
         Args:
             stem: gives the name of each file, without ``.bag``.
@@ -59,12 +59,12 @@ class Ros1Files:
         self._connections: list[Connection] = []
         self._own: dict[int, Connection] = {}
         self._latched: dict[int, BagMessage] = {}
-        self._open()
+        self._next()
 
     @property
     def size(self) -> int:
         """Bytes of the file that is being written."""
-        return self._writer.size
+        return 0 if self._writer is None else self._writer.size
 
     def add(self, connection: Connection) -> Connection:
         """Add a connection; returns it with its number in these bags."""
@@ -76,21 +76,22 @@ class Ros1Files:
         """Write one message."""
         own = self._own.get(connection.id)
         if own is None:
-            own = self._own[connection.id] = self._writer.add(connection)
-        self._writer.write(own, stamp_ns, data)
+            own = self._own[connection.id] = self._file().add(connection)
+        self._file().write(own, stamp_ns, data)
         if self._repeats and connection.latching:
             self._latched[connection.id] = BagMessage(connection, stamp_ns, data)
 
     def flush(self) -> None:
         """Hand everything to the system."""
-        self._writer.flush()
+        self._file().flush()
 
     def split(self, stamp_ns: int) -> Path:
         """Go on in a new file; returns the finished one."""
         done = self._finish()
         if self._most_files and len(self._done) >= self._most_files:
             self._done.pop(0).unlink(missing_ok=True)
-        self._open()
+        self._next()
+        self._file()
         for message in self._latched.values():
             self.write(message.connection, stamp_ns, message.data)
         return done
@@ -99,16 +100,21 @@ class Ros1Files:
         """Finish the last file."""
         self._finish()
 
-    def _open(self) -> None:
+    def _next(self) -> None:
         stem = self._stem() + (f"_{self._count}" if self._split else "")
         self._count += 1
         self.path = Path(f"{stem}.bag")
         self._active = Path(f"{stem}.bag.active")
-        self._writer = Ros1Writer(self._active, **self._options)  # type: ignore[arg-type]
+        self._writer: Ros1Writer | None = None
         self._own = {}
 
+    def _file(self) -> Ros1Writer:
+        if self._writer is None:
+            self._writer = Ros1Writer(self._active, **self._options)  # type: ignore[arg-type]
+        return self._writer
+
     def _finish(self) -> Path:
-        self._writer.close()
+        self._file().close()
         if self._active.exists():
             self._active.replace(self.path)
             self._done.append(self.path)

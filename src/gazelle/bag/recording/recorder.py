@@ -158,6 +158,20 @@ class Recorder:
             topic, None, take, raw=True, with_info=True, inline=True
         )
 
+    def begin(self, selection: Selection) -> None:
+        """Subscribe what is wanted and there, then create the file.
+
+        Whoever waits for the file, or for the words that follow, may publish at once: by then the
+        hub has told everybody of the subscriptions.
+
+        Raises:
+            BagError: the file cannot be created.
+        """
+        for topic in (*selection.topics, *self._found(selection)):
+            self.subscribe(topic)
+        self._graph.parameters.has("/")
+        self._sink.flush()
+
     def run(self, selection: Selection, stop: threading.Event) -> None:
         """Record until told to stop or a limit is reached; the sink is closed in any case.
 
@@ -169,8 +183,8 @@ class Recorder:
         look, flushed_s = True, time.monotonic()
         try:
             while not (stop.is_set() or self._ended.is_set()):
-                if look and selection.is_open:
-                    for topic in selection.found(self._graph.discovery.known()):
+                if look:
+                    for topic in self._found(selection):
                         self.subscribe(topic)
                 look = self._wait()
                 self._write_waiting()
@@ -183,6 +197,9 @@ class Recorder:
                 one.unregister()
             self._write_waiting()
             self._sink.close()
+
+    def _found(self, selection: Selection) -> list[str]:
+        return selection.found(self._graph.discovery.known()) if selection.is_open else []
 
     def _take(self, item: _Item) -> None:
         if self._paused:

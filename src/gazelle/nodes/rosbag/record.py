@@ -73,8 +73,7 @@ def record(
         options.buffsize << 20,
     )
     recorder = Recorder(graph, node, sink, limits=limits, say=say)
-    for topic in selection.topics:
-        recorder.subscribe(topic)
+    recorder.begin(selection)
     say("info", f"Recording to '{sink.path}'.")
     if options.publish:
         begin = node.create_publisher(

@@ -69,8 +69,7 @@ def _record(graph: Graph, options: argparse.Namespace, stop: threading.Event) ->
 
     _say("info", "Press SPACE for pausing/resuming")
     _say("info", "Listening for topics...")
-    for topic in selection.topics:
-        recorder.subscribe(topic)
+    recorder.begin(selection)
     _say("info", "Recording...")
     with keyboard(on_key):
         recorder.run(selection, stop)

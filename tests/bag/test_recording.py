@@ -1,0 +1,53 @@
+"""A recorder hears before its file can be seen."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import pytest
+
+from gazelle.bag import BagError, open_bag
+from gazelle.bag.recording import Recorder, Ros1Files, Selection
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+
+_INT = message_type("std_msgs/msg/Int32")
+
+
+def test_who_waits_for_the_file_loses_no_message(tmp_path: Path, free_port: int) -> None:
+    selection, stop = Selection(("/named",), every=True), threading.Event()
+    with Graph.open(port=free_port) as hub, Graph.open(port=free_port, role="client") as own:
+        names = ("/named", "/there")
+        talker = hub.create_node("talker")
+        outs = [talker.create_publisher(name, _INT) for name in names]
+        assert own.discovery.wait_for(lambda known: {"/there"} <= {one.name for one in known}, 5.0)
+        sink = Ros1Files(lambda: str(tmp_path / "a"))
+        recorder = Recorder(own, own.create_node("recorder"), sink)
+        file = tmp_path / "a.bag.active"
+        assert not file.exists()
+        recorder.begin(selection)
+        assert file.exists() and set(recorder.topics) >= set(names)
+        assert hub.discovery.wait_for(lambda _known: all(one.matched for one in outs), 1.0)
+        for number in range(20):
+            for out in outs:
+                out.publish(_INT(data=number))
+        thread = threading.Thread(target=recorder.run, args=(selection, stop))
+        thread.start()
+        for _ in range(500):
+            if recorder.written >= 40 or stop.wait(0.01):
+                break
+        stop.set()
+        thread.join()
+    counts = [one.connection.topic for one in open_bag(tmp_path / "a.bag").messages()]
+    assert [counts.count(name) for name in names] == [20, 20]
+
+
+def test_a_file_that_cannot_be_created_is_told_at_the_beginning(
+    tmp_path: Path, free_port: int
+) -> None:
+    with Graph.open(port=free_port) as graph:
+        sink = Ros1Files(lambda: str(tmp_path / "nowhere" / "a"))
+        recorder = Recorder(graph, graph.create_node("recorder"), sink)
+        with pytest.raises(BagError, match="No such file or directory"):
+            recorder.begin(Selection(("/named",)))
