@@ -25,3 +25,10 @@ export function asCallError(problem: unknown): CallError {
   if (problem instanceof CallError) return problem;
   return new CallError(problem instanceof Error ? problem.message : String(problem));
 }
+
+/** An error in one line: message, hint, what there is. */
+export function inOneLine(problem: unknown): string {
+  const error = asCallError(problem);
+  const known = error.known.length > 0 ? `there is ${error.known.slice(0, 8).join(', ')}` : '';
+  return [error.message, error.hint, known].filter(Boolean).join('; ');
+}

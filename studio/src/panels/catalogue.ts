@@ -1,9 +1,7 @@
 /** Every kind of panel, in the order of the menu. Code is loaded when a panel is first opened. */
 
 import { registerPanel, type PanelKind } from '../panel';
-
-/** The 3D scene and its side panels: Gazebo's and RViz's. */
-const SCENE: readonly PanelKind[] = [];
+import { SCENE } from '../scene/kinds';
 
 const SIMULATION: readonly PanelKind[] = [
   {

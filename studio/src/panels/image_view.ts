@@ -10,13 +10,13 @@ import { BasePanel } from './base';
 
 const TYPES = ['sensor_msgs/Image', 'sensor_msgs/CompressedImage'];
 const ZOOMS = [['fit', 'Fit'], ['0.5', '50 %'], ['1', '100 %'], ['2', '200 %'], ['4', '400 %']] as const;
-const COLORMAPS = [['gray', 'Gray'], ['turbo', 'Turbo'], ['viridis', 'Viridis'], ['jet', 'Jet']] as const;
+const COLORMAPS = [['gray', 'Gray'], ['hot', 'Hot'], ['jet', 'Jet'], ['rainbow', 'Rainbow']] as const;
 
 /** rqt_image_view. */
 export class ImageView extends BasePanel {
   readonly title = 'Image View';
   private topic = '';
-  private colormap = 'turbo';
+  private colormap = 'gray';
   private zoom = 'fit';
   private channel: Channel | null = null;
   private source: [number, number] = [0, 0];

@@ -1,7 +1,7 @@
 /** Joint State Publisher: a slider for every joint that can move. */
 
 import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
-import { button, h, notice, spacer, toolbar } from '../widgets/dom';
+import { button, h, notice, spacer, toggle, toolbar } from '../widgets/dom';
 import { nameInput } from '../widgets/name_input';
 import { BasePanel } from './base';
 
@@ -9,6 +9,8 @@ interface Joint { name: string; lower: number; upper: number; centre: number; sl
 interface Mimic { name: string; joint: string; multiplier: number; offset: number }
 
 const PUBLISH_EVERY_MS = 100;
+/** Publishers that are this panel, or stand for it. */
+const OWN = /\/(studio|joint_state_publisher(_gui)?)[^/]*$/;
 const MOVABLE = new Set(['revolute', 'continuous', 'prismatic']);
 
 /** joint_state_publisher_gui. */
@@ -20,6 +22,9 @@ export class JointSliders extends BasePanel {
   private joints: Joint[] = [];
   private mimics: Mimic[] = [];
   private kept: JsonObject = {};
+  /** Undecided until the robot is known: nobody's joint states shall be talked over by chance. */
+  private publishing: boolean | null = null;
+  private readonly publishButton = toggle('Publish', false, (on) => { this.publishing = on; this.changed(); }, { icon: 'send', title: 'Publish the positions' });
   private readonly topicInput: HTMLInputElement;
   private readonly body = h('div', { class: 'scroll joints' }, notice('Reading the robot description …'));
 
@@ -30,7 +35,7 @@ export class JointSliders extends BasePanel {
       chosen: (name) => { this.topic = name || this.topic; this.host.touched(); },
     });
     this.element.append(
-      toolbar('Joint state publisher', button('Randomize', () => this.setAll((joint) => joint.lower + Math.random() * (joint.upper - joint.lower)), { icon: 'random' }),
+      toolbar('Joint state publisher', this.publishButton, button('Randomize', () => this.setAll((joint) => joint.lower + Math.random() * (joint.upper - joint.lower)), { icon: 'random' }),
         button('Center', () => this.setAll((joint) => joint.centre), { icon: 'centre' }), spacer(),
         h('span', {}, this.topicInput), button('', () => void this.load(), { icon: 'refresh', title: 'Read the robot description again' })),
       this.body);
@@ -43,12 +48,13 @@ export class JointSliders extends BasePanel {
     this.source = textOf(params, 'source', this.source);
     this.topic = textOf(params, 'topic', this.topic);
     this.topicInput.value = this.topic;
+    if (typeof params['publish'] === 'boolean') this.publishing = params['publish'];
     if (isObject(params['positions'])) this.kept = params['positions'];
     void this.load();
   }
 
   override state(): JsonObject {
-    return { parameter: this.parameter, source: this.source, topic: this.topic, positions: this.positions() };
+    return { parameter: this.parameter, source: this.source, topic: this.topic, publish: this.publishing, positions: this.positions() };
   }
 
   private positions(): JsonObject {
@@ -75,7 +81,18 @@ export class JointSliders extends BasePanel {
     this.body.replaceChildren(...this.joints.map((joint) => h('div', { class: 'joint-row' },
       h('span', { class: 'ellipsis', title: joint.name }, joint.name), joint.slider, joint.number)));
     if (this.joints.length === 0) this.body.append(notice('This robot has no joint that can move.'));
+    this.decide();
     this.publish();
+  }
+
+  /** Begins to publish unless somebody else tells the joints' positions already. */
+  private decide(): void {
+    const others = this.host.graph.value.topics.find((each) => each.name === this.topic)?.publishers.filter((name) => !OWN.test(name)) ?? [];
+    this.publishing ??= others.length === 0;
+    this.publishButton.setAttribute('aria-pressed', String(this.publishing));
+    if (!this.publishing && others.length > 0) {
+      this.body.prepend(h('div', { class: 'hint-line' }, `${others.join(', ')} publishes on ${this.topic}; press Publish to do so as well.`));
+    }
   }
 
   private joint(value: JsonObject): Joint {
@@ -105,7 +122,7 @@ export class JointSliders extends BasePanel {
   }
 
   private publish(): void {
-    if (this.joints.length === 0 || this.connection.state !== 'open') return;
+    if (!this.publishing || this.joints.length === 0 || this.connection.state !== 'open') return;
     const positions = new Map(this.joints.map((joint) => [joint.name, Number(joint.number.value)]));
     for (const mimic of this.mimics) {
       const leader = positions.get(mimic.joint);

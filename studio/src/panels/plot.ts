@@ -103,7 +103,7 @@ export class Plot extends BasePanel {
 
   /** A field that is not there is waited for: a plot is often opened before its node. */
   private miss(entry: Entry, problem: unknown): void {
-    if (!entry.missing) this.host.fail(problem, entry.text);
+    if (!entry.missing) this.host.fail(problem);
     entry.missing = true;
     this.showLegend();
   }
@@ -199,7 +199,7 @@ export class Plot extends BasePanel {
 
   private missingRow(entry: Entry): HTMLElement {
     return h('div', { class: 'legend-row missing', role: 'listitem' }, h('span', { class: 'ellipsis', title: entry.text }, entry.text),
-      h('span', { class: 'dim' }, 'not there yet'),
+      h('span', { class: 'dim' }, 'no values yet'),
       button('', () => this.remove(entry), { icon: 'close', title: `Remove ${entry.text}`, class: 'ghost' }));
   }
 

@@ -75,7 +75,7 @@ export class PlotChart {
       legend: { show: false },
       cursor: { drag: { x: true, y: false, setScale: false }, points: { size: 5 } },
       scales: { x: { time: false }, y: { range: (_chart, low, high) => padded(low, high) } },
-      axes: [{ ...axis, size: 34, values: (_chart, ticks) => ticks.map((tick) => short(tick, 8)) },
+      axes: [{ ...axis, size: 34, space: 90, values: (_chart, ticks) => ticks.map(timeText) },
         { ...axis, size: 58, values: (_chart, ticks) => ticks.map((tick) => short(tick, 5)) }],
       series: [{}, ...curves.map((curve) => ({
         label: curve.name, stroke: curve.colour, width: 1.5, show: curve.shown, spanGaps: true, points: { show: false },
@@ -104,6 +104,17 @@ export class PlotChart {
     this.range = [low, high];
     this.zoomed(true);
   }
+}
+
+const WALL_S = 1e8;
+
+/** Simulated seconds as they are, wall time as a clock shows it. */
+function timeText(time_s: number): string {
+  if (time_s < WALL_S) return short(time_s, 8);
+  const time = new Date(time_s * 1000);
+  const two = (value: number) => String(value).padStart(2, '0');
+  const rest = time.getMilliseconds() > 0 ? `.${String(time.getMilliseconds()).padStart(3, '0').replace(/0+$/, '')}` : '';
+  return `${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}${rest}`;
 }
 
 function padded(low: number | null, high: number | null): [number, number] {

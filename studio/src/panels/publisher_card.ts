@@ -1,7 +1,7 @@
 /** One publisher: topic, rate, on or off, its message. */
 
 import type { Connection } from '../connection';
-import { asCallError } from '../errors';
+import { inOneLine } from '../errors';
 import { isObject, numberOf, type Json, type JsonObject } from '../json';
 import type { PanelHost } from '../panel';
 import { button, checkbox, h, setText } from '../widgets/dom';
@@ -72,9 +72,8 @@ export class PublisherCard {
       this.form.fill(this.start.texts);
       body.replaceChildren(this.form.element);
     } catch (problem) {
-      const error = asCallError(problem);
       body.replaceChildren();
-      setText(this.problem, [error.message, error.hint].filter(Boolean).join(' '));
+      setText(this.problem, inOneLine(problem));
     }
   }
 
@@ -123,8 +122,7 @@ export class PublisherCard {
       setText(this.problem, '');
       if (isObject(value) && 'count' in value) setText(this.sent, `${numberOf(value, 'count')} sent`);
     } catch (problem) {
-      const error = asCallError(problem);
-      setText(this.problem, [error.message, error.hint, error.known.slice(0, 8).join(', ')].filter(Boolean).join(' '));
+      setText(this.problem, inOneLine(problem));
     }
   }
 }

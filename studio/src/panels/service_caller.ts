@@ -1,6 +1,6 @@
 /** Service Caller: a form for the request, the response as a tree. */
 
-import { asCallError } from '../errors';
+import { inOneLine } from '../errors';
 import { isObject, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
 import { MessageForm, type Field } from '../widgets/message_form';
@@ -72,9 +72,8 @@ export class ServiceCaller extends BasePanel {
       this.response.classList.remove('bad');
       setText(this.response, asYaml(response) || '(the response has no fields)');
     } catch (problem) {
-      const error = asCallError(problem);
       this.response.classList.add('bad');
-      setText(this.response, [error.message, error.hint, error.known.join(', ')].filter(Boolean).join('\n'));
+      setText(this.response, inOneLine(problem));
     }
     setText(this.took, `${(performance.now() - begin).toFixed(0)} ms`);
     this.callButton.disabled = false;

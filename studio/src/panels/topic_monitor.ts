@@ -2,7 +2,7 @@
 
 import type { Channel } from '../channel';
 import { isObject, textsOf, type Json, type JsonObject } from '../json';
-import type { TopicValue } from '../graph_store';
+import { shortType, type TopicValue } from '../graph_store';
 import { h, perFrame, setText, spacer, toolbar } from '../widgets/dom';
 import { carryField } from '../widgets/field_drag';
 import { bandwidth, rate } from '../widgets/format';
@@ -93,7 +93,9 @@ export class TopicMonitor extends BasePanel {
     tick.hidden = row.topic === null;
     tick.checked = on;
     setText(label, row.field?.name ?? row.path);
-    setText(type, row.topic?.type ?? '');
+    setText(type, shortType(row.topic?.type ?? ''));
+    label.title = row.path;
+    type.title = row.topic?.type ?? '';
     setText(bytes, on ? bandwidth(stats?.bytes_per_s) || '–' : '');
     setText(hz, on ? rate(stats?.hz) || '–' : '');
     setText(value, row.field ? row.field.value : on && !this.messages.has(row.path) ? 'no message yet' : '');

@@ -54,16 +54,21 @@ export class Dock {
       this.toasts.fail(new Error(`There is no panel named ${name}.`));
       return;
     }
-    const open = this.api.panels.find((panel) => panel.view.contentComponent === kind.kind);
-    if (kind.single && open) {
-      open.api.setActive();
-      this.frames.get(open.id)?.open(params);
-      return;
-    }
+    if (kind.single && this.openIn(kind.kind, params)) return;
     this.api.addPanel({
       id: this.freshId(kind.kind), component: kind.kind, title: kind.title, params: { state: params },
       ...(place ? this.position(place) : {}),
     });
+  }
+
+  /** Hands parameters to an open panel of a kind and brings it to the front; answers whether there is one. */
+  openIn(kind: string, params: JsonObject): boolean {
+    const open = this.panelOf(kind);
+    const frame = open && this.frames.get(open.id);
+    if (!open || !frame) return false;
+    open.api.setActive();
+    frame.open(params);
+    return true;
   }
 
   /** Puts a default layout in place of what is open. */

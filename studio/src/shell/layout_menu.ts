@@ -14,6 +14,8 @@ import type { Toasts } from './toasts';
 export class Layouts {
   private commands: readonly string[] = [];
   private begun = false;
+  /** Kinds that commands asked for, whose parameters are still to come. */
+  private readonly awaited = new Set<string>();
 
   constructor(
     connection: Connection, private readonly dock: Dock, private readonly store: LayoutStore, private readonly toasts: Toasts,
@@ -39,19 +41,23 @@ export class Layouts {
     openMenu(anchor, items, 'Layout');
   }
 
-  /** What the page opens with: the commands' panels, as they were left the last time. */
+  /** What the page opens with: as this tab was before a reload, or the commands' panels as they were left. */
   private begin(panels: readonly string[]): void {
     const asked = new URLSearchParams(location.search).get('panels');
-    this.commands = asked ? asked.split(',').filter(Boolean) : panels;
-    if (!this.dock.restore(this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands));
+    const wanted = asked ? asked.split(',').filter(Boolean) : panels;
+    const kept = wanted.length === 0 ? this.store.tab() : null;
+    this.commands = kept?.commands ?? wanted;
+    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands));
+    for (const name of panels) this.awaited.add(findPanel(name)?.kind ?? name);
     this.begun = true;
   }
 
   private show(panel: string, params: JsonObject): void {
     const name = textOf(params, 'layout');
+    const kind = findPanel(panel)?.kind;
     if (panel === 'layout' && name) void this.load(name);
-    else if (findPanel(panel)) this.dock.show(panel, params);
-    else this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
+    else if (!kind) this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
+    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.dock.show(kind, params);
   }
 
   private reset(): void {

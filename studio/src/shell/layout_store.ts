@@ -1,10 +1,11 @@
 /** Named layouts: with the server where it keeps them, in the browser otherwise. */
 
 import type { Connection } from '../connection';
-import { isObject, type Json, type JsonObject } from '../json';
+import { isObject, textsOf, type Json, type JsonObject } from '../json';
 
 const PREFIX = 'gazelle.layout.';
 const LAST = 'gazelle.last.';
+const TAB = 'gazelle.tab';
 
 /** Saves, loads, lists and deletes named layouts. */
 export class LayoutStore {
@@ -54,13 +55,21 @@ export class LayoutStore {
     return read(LAST + key(commands));
   }
 
+  /** What was open in this tab before it was reloaded. */
+  tab(): { commands: string[]; layout: Json } | null {
+    const kept = parsed(sessionStorage.getItem(TAB));
+    return isObject(kept) ? { commands: textsOf(kept, 'commands'), layout: kept['layout'] ?? null } : null;
+  }
+
   /** Keeps what is open for the next time. */
   keepLast(commands: readonly string[], value: JsonObject): void {
+    sessionStorage.setItem(TAB, JSON.stringify({ commands: [...commands], layout: value }));
     localStorage.setItem(LAST + key(commands), JSON.stringify(value));
   }
 
   /** Forgets what was open. */
   forgetLast(commands: readonly string[]): void {
+    sessionStorage.removeItem(TAB);
     localStorage.removeItem(LAST + key(commands));
   }
 
@@ -74,12 +83,15 @@ function key(commands: readonly string[]): string {
 }
 
 function read(name: string): Json {
-  const text = localStorage.getItem(name);
+  return parsed(localStorage.getItem(name));
+}
+
+/** What cannot be read counts as nothing kept. */
+function parsed(text: string | null): Json {
   if (text === null) return null;
   try {
     return JSON.parse(text) as Json;
   } catch {
-    localStorage.removeItem(name);
     return null;
   }
 }

@@ -14,6 +14,9 @@ interface Routed extends Placed { points: Point[] }
 
 const FONT = '12px system-ui, sans-serif';
 const LINE = 14;
+const HEIGHT = 28;
+/** What a line of a node to itself needs, above and below. */
+const LOOP = 68;
 const STYLE = ['node', 'node-line', 'topic', 'topic-line', 'text', 'dim', 'panel', 'line-strong', 'accent'] as const;
 
 /** A drawing of a graph in which a box can be chosen: it and its neighbours stand out. */
@@ -68,9 +71,13 @@ export class GraphDrawing {
   private draw(): void {
     const graph = laidOut(this.drawing, this.direction);
     this.labels.clear();
-    const edges = this.drawing.edges.map((edge) => this.edge(edge, graph.edge(edge.from, edge.to) as unknown as Routed));
-    const nodes = this.drawing.nodes.map((node) => box(node, graph.node(node.id) as unknown as Placed));
+    const at = (id: string) => graph.node(id) as unknown as Placed;
+    const edges = this.drawing.edges.map((edge) => this.edge(edge,
+      edge.from === edge.to ? loop(at(edge.from)) : (graph.edge(edge.from, edge.to) as unknown as Routed)));
+    const nodes = this.drawing.nodes.map((node) => box(node, at(node.id)));
     this.view.group.replaceChildren(arrowhead(), ...edges, ...nodes);
+    // Labels lie above all lines, which would cross them out otherwise.
+    for (const label of [...this.view.group.querySelectorAll('.edge-label')]) this.view.group.append(label);
     const size = graph.graph() as { width?: number; height?: number };
     this.view.setSize(Math.max(0, size.width ?? 0), Math.max(0, size.height ?? 0));
     this.highlight();
@@ -81,9 +88,10 @@ export class GraphDrawing {
       s('path', { d: curve(routed.points), 'marker-end': 'url(#arrowhead)' }));
     if (edge.title) group.append(s('title', {}, edge.title));
     if (edge.label) {
-      const text = textLines(lines(edge.label), routed.x, routed.y, 'edge-label');
+      const texts = lines(edge.label);
+      const text = textLines(texts, routed.x, routed.y, '');
       this.labels.set(`${edge.from}\n${edge.to}`, text);
-      group.append(text);
+      group.append(s('g', { class: 'edge-label', 'data-from': edge.from, 'data-to': edge.to }, backing(texts, routed), text));
     }
     return group;
   }
@@ -108,7 +116,7 @@ export class GraphDrawing {
       if (edge.from === this.chosen || edge.to === this.chosen) near.add(edge.from).add(edge.to);
     }
     if (this.chosen) near.add(this.chosen);
-    for (const element of this.view.group.querySelectorAll<SVGElement>('.edge, .box')) {
+    for (const element of this.view.group.querySelectorAll<SVGElement>('.edge, .edge-label, .box')) {
       const { id, from, to } = element.dataset;
       const on = id ? near.has(id) : from === this.chosen || to === this.chosen;
       element.classList.toggle('faded', this.chosen !== null && !on);
@@ -124,8 +132,9 @@ function idOf(target: EventTarget | null): string | null {
 function laidOut(drawing: Drawing, direction: string) {
   const graph = new graphlib.Graph({ directed: true });
   graph.setGraph({ rankdir: direction, nodesep: 18, ranksep: direction === 'LR' ? 46 : 34, marginx: 4, marginy: 4 });
-  for (const node of drawing.nodes) graph.setNode(node.id, { width: textWidth(node.label) + 26, height: 28 });
-  for (const edge of drawing.edges) {
+  const looped = new Set(drawing.edges.filter((edge) => edge.from === edge.to).map((edge) => edge.from));
+  for (const node of drawing.nodes) graph.setNode(node.id, { width: textWidth(node.label) + 26, height: HEIGHT + (looped.has(node.id) ? LOOP : 0) });
+  for (const edge of drawing.edges.filter((each) => each.from !== each.to)) {
     const label = lines(edge.label);
     const width = Math.max(0, ...label.map(textWidth));
     graph.setEdge(edge.from, edge.to, { width: width + (label.length > 0 ? 8 : 0), height: label.length * LINE, labelpos: 'c' });
@@ -134,9 +143,23 @@ function laidOut(drawing: Drawing, direction: string) {
   return graph;
 }
 
+/** The line of a node that hears itself: above its box. */
+function loop(at: Placed): Routed {
+  const top = at.y - HEIGHT / 2;
+  const points = [{ x: at.x - 18, y: top }, { x: at.x - 30, y: top - 26 }, { x: at.x + 30, y: top - 26 }, { x: at.x + 18, y: top }];
+  return { x: at.x, y: top - 24, width: 0, height: 0, points };
+}
+
+/** What keeps lines from running through a label. */
+function backing(texts: string[], at: Point): SVGElement {
+  const width = Math.max(...texts.map(textWidth)) * 0.93 + 6;
+  const height = texts.length * LINE;
+  return s('rect', { x: at.x - width / 2, y: at.y - height / 2, width, height, rx: 3 });
+}
+
 function box(node: DrawnNode, at: Placed): SVGElement {
   const group = s('g', { class: `box ${node.shape}`, 'data-id': node.id, tabindex: 0, role: 'button', 'aria-label': node.title ?? node.label },
-    s('rect', { x: at.x - at.width / 2, y: at.y - at.height / 2, width: at.width, height: at.height, rx: node.shape === 'node' ? 14 : 3 }),
+    s('rect', { x: at.x - at.width / 2, y: at.y - HEIGHT / 2, width: at.width, height: HEIGHT, rx: node.shape === 'node' ? 14 : 3 }),
     textLines([node.label], at.x, at.y, 'box-label'));
   if (node.title) group.append(s('title', {}, node.title));
   return group;
@@ -144,7 +167,7 @@ function box(node: DrawnNode, at: Placed): SVGElement {
 
 function textLines(texts: string[], x: number, y: number, name: string): SVGElement {
   const top = y - ((texts.length - 1) * LINE) / 2 + 4;
-  return s('text', { class: name, 'text-anchor': 'middle' },
+  return s('text', { class: name || undefined, 'text-anchor': 'middle' },
     ...texts.map((text, index) => s('tspan', { x, y: top + index * LINE }, text)));
 }
 

@@ -74,12 +74,12 @@ export class VirtualList<T> {
     const last = Math.min(this.rows.length, first + inSight);
     this.element.setAttribute('aria-rowcount', String(this.rows.length));
     for (let index = first; index < last; index += 1) this.place(index - first, index);
-    for (let at = Math.max(0, last - first); at < this.pool.length; at += 1) this.pool[at].hidden = true;
+    for (let at = Math.max(0, last - first); at < this.pool.length; at += 1) this.pool[at].remove();
   }
 
   private place(at: number, index: number): void {
     const element = this.pool[at] ?? this.grow();
-    element.hidden = false;
+    if (!element.isConnected) this.canvas.append(element);
     element.dataset['row'] = String(index);
     element.setAttribute('aria-rowindex', String(index + 1));
     element.style.transform = `translateY(${index * this.maker.height}px)`;
@@ -91,7 +91,6 @@ export class VirtualList<T> {
     element.classList.add('row');
     element.style.height = `${this.maker.height}px`;
     if (!element.hasAttribute('role')) element.setAttribute('role', this.maker.role === 'listbox' ? 'option' : 'row');
-    this.canvas.append(element);
     this.pool.push(element);
     return element;
   }
