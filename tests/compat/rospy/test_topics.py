@@ -86,7 +86,7 @@ assert ["/scan", "sensor_msgs/LaserScan"] in rospy.get_published_topics()
 
 
 def test_latched_messages_of_others_arrive_in_ros_1_form(passes: Run, node: Node) -> None:
-    latched = {"latch": True}
+    latched: dict[str, Any] = {"latch": True}
     name = message_type("std_msgs/msg/String")
     node.create_publisher("/map_name", name, **latched).publish(name(data="office"))
     odometry = message_type("nav_msgs/msg/Odometry")()
