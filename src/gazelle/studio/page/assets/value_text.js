@@ -1,0 +1,1 @@
+function e(e){let t=e.trim();if(/^(true|yes|on)$/i.test(t))return!0;if(/^(false|no|off)$/i.test(t))return!1;if(/^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/.test(t))return Number(t);if(/^[[{"]/.test(t))try{return JSON.parse(t)}catch{return t}return t}export{e as t};

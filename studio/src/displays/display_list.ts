@@ -1,0 +1,132 @@
+/** The displays of one view, its fixed frame, and how both are saved. */
+import { isObject, textOf, type Json, type JsonObject } from '../json';
+import { Display, type Stage } from './display';
+import { displayKind } from './registry';
+import { parseColour } from '../model/materials';
+import * as THREE from 'three';
+
+/** A display as `rviz.open` and layouts write it. */
+export interface DisplayValue {
+  class: string;
+  name: string;
+  enabled: boolean;
+  topic?: string;
+  properties: JsonObject;
+}
+
+/** The list behind the Displays panel. */
+export class DisplayList {
+  readonly displays: Display[] = [];
+  backgroundColour = '48; 48; 48';
+  private readonly listeners = new Set<(what: 'list' | 'status' | 'properties', display?: Display) => void>();
+
+  constructor(readonly stage: Stage) {
+    stage.frames.onRenamed(() => this.chooseFrame());
+  }
+
+  get fixedFrame(): string {
+    return this.stage.frames.fixed;
+  }
+
+  /** Be told of changes. Returns what ends it. */
+  watch(listener: (what: 'list' | 'status' | 'properties', display?: Display) => void): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  /** Add a display of a class; null for one that does not exist. */
+  add(className: string, initial: JsonObject = {}, name?: string): Display | null {
+    const kind = displayKind(className);
+    if (!kind) return null;
+    const display = new Display(kind, name ?? this.freeName(kind.name), this.stage, initial);
+    display.onChange = (what) => this.tell(what, display);
+    this.displays.push(display);
+    this.tell('list');
+    this.stage.view.invalidate();
+    return display;
+  }
+
+  remove(display: Display): void {
+    this.displays.splice(this.displays.indexOf(display), 1);
+    display.dispose();
+    this.tell('list');
+  }
+
+  setFixedFrame(name: string): void {
+    if (name === this.fixedFrame) return;
+    this.stage.frames.setFixed(name);
+    this.displays.forEach((display) => display.refix());
+    this.tell('list');
+  }
+
+  setBackground(value: string): void {
+    this.backgroundColour = value;
+    const [r, g, b] = parseColour(value);
+    this.stage.view.scene.background = new THREE.Color(r, g, b);
+    this.stage.view.invalidate();
+  }
+
+  hold(held: boolean): void {
+    this.displays.forEach((display) => display.hold(held));
+    this.stage.frames.hold(held);
+  }
+
+  /** Take what `rviz.open` answers or a layout kept; tells which classes are not known. */
+  load(value: JsonObject): string[] {
+    [...this.displays].forEach((display) => this.remove(display));
+    const unknown: string[] = [];
+    if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
+    if (textOf(value, 'background')) this.setBackground(textOf(value, 'background'));
+    const displays = Array.isArray(value['displays']) ? value['displays'] : [];
+    for (const each of displays.filter(isObject)) {
+      const given = each as unknown as DisplayValue;
+      const topic: JsonObject = given.topic ? { Topic: given.topic } : {};
+      const display = this.add(given.class, { ...given.properties, ...topic }, given.name || undefined);
+      if (!display) unknown.push(given.class);
+      else if (given.enabled === false) display.setEnabled(false);
+    }
+    this.tell('list');
+    return unknown;
+  }
+
+  /** What a layout keeps. */
+  save(): JsonObject {
+    const displays = this.displays.map((each) => ({
+      class: each.kind.name, name: each.name, enabled: each.enabled, properties: each.props.toObject(),
+    }));
+    return { fixed_frame: this.fixedFrame, background: this.backgroundColour, displays: displays as unknown as Json };
+  }
+
+  dispose(): void {
+    this.displays.forEach((display) => display.dispose());
+    this.displays.length = 0;
+    this.stage.frames.dispose();
+  }
+
+  private tell(what: 'list' | 'status' | 'properties', display?: Display): void {
+    this.listeners.forEach((listener) => listener(what, display));
+  }
+
+  private freeName(base: string): string {
+    let name = base;
+    for (let i = 2; this.displays.some((display) => display.name === name); i++) name = `${base} ${i}`;
+    return name;
+  }
+
+  /** While nobody chose a frame, the root of the tree is the natural one, as soon as it is known. */
+  private chooseFrame(): void {
+    const { infos, fixed } = this.stage.frames;
+    if (this.displays.length === 0 || this.chosen) return this.tell('list');
+    const root = ['map', 'odom', 'world'].find((name) => infos.some((info) => info.name === name || info.parent === name)) ?? rootOf(infos);
+    if (root && root !== fixed) this.setFixedFrame(root);
+    else this.tell('list');
+  }
+
+  /** The person or a file chose the frame: it stays, also while it does not exist. */
+  chosen = false;
+}
+
+function rootOf(infos: readonly { name: string; parent: string }[]): string | undefined {
+  const children = new Set(infos.filter((info) => info.parent).map((info) => info.name));
+  return infos.find((info) => !children.has(info.name))?.name ?? infos[0]?.parent;
+}

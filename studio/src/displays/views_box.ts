@@ -1,0 +1,73 @@
+/** Views: the camera's type and numbers, as RViz's panel of this name. */
+import { h, select, setText } from '../widgets/dom';
+import { VIEW_KINDS, type ViewKind, type ViewState } from '../scene/cameras';
+import type { View } from '../scene/view';
+
+type Field = 'distance' | 'yaw' | 'pitch' | 'scale' | 'angle' | 'x' | 'y' | 'z';
+const FIELDS: Record<ViewKind, readonly Field[]> = {
+  Orbit: ['distance', 'yaw', 'pitch', 'x', 'y', 'z'],
+  ThirdPersonFollower: ['distance', 'yaw', 'pitch', 'x', 'y', 'z'],
+  FPS: ['yaw', 'pitch', 'x', 'y', 'z'],
+  TopDownOrtho: ['scale', 'angle', 'x', 'y'],
+};
+const NAMES: Record<Field, string> = {
+  distance: 'Distance', yaw: 'Yaw', pitch: 'Pitch', scale: 'Scale', angle: 'Angle', x: 'Focal Point X', y: 'Focal Point Y', z: 'Focal Point Z',
+};
+
+/** The box with the numbers of one view's camera. */
+export class ViewsBox {
+  readonly element = h('div', { class: 'views-box' });
+  private readonly stop: () => void;
+  private readonly inputs = new Map<Field, HTMLInputElement>();
+  private kind: ViewKind | null = null;
+
+  constructor(private readonly view: View) {
+    this.stop = view.afterDraw(() => this.refresh());
+    this.refresh();
+  }
+
+  dispose(): void {
+    this.stop();
+  }
+
+  private refresh(): void {
+    const { state } = this.view.rig;
+    if (state.kind !== this.kind) this.build(state.kind);
+    this.inputs.forEach((input, field) => {
+      const value = read(state, field).toFixed(3);
+      if (document.activeElement !== input && input.value !== value) input.value = value;
+    });
+  }
+
+  private build(kind: ViewKind): void {
+    this.kind = kind;
+    this.inputs.clear();
+    const type = select('Type', Object.entries(VIEW_KINDS), kind, (next) => this.view.rig.setKind(next as ViewKind));
+    this.element.replaceChildren(this.row('Type', type), ...FIELDS[kind].map((field) => {
+      const input = h('input', { type: 'number', step: 'any', 'aria-label': NAMES[field] });
+      input.addEventListener('change', () => this.write(field, Number(input.value)));
+      this.inputs.set(field, input);
+      return this.row(NAMES[field], input);
+    }));
+  }
+
+  private row(name: string, control: HTMLElement): HTMLElement {
+    const words = h('span', { class: 'property-name' });
+    setText(words, name);
+    return h('div', { class: 'property-row' }, words, h('span', { class: 'property-value' }, control));
+  }
+
+  private write(field: Field, value: number): void {
+    if (!Number.isFinite(value)) return;
+    const axis = 'xyz'.indexOf(field);
+    if (axis < 0) return this.view.rig.set({ [field]: value });
+    const focal = [...this.view.rig.state.focal] as [number, number, number];
+    focal[axis] = value;
+    this.view.rig.set({ focal });
+  }
+}
+
+function read(state: ViewState, field: Field): number {
+  const axis = 'xyz'.indexOf(field);
+  return axis < 0 ? (state[field as 'yaw'] as number) : state.focal[axis];
+}

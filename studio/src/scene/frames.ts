@@ -1,0 +1,84 @@
+/** Where coordinate frames are in the fixed frame: the `tf` stream, once for a view. */
+import type { Channel } from '../channel';
+import type { Connection } from '../connection';
+import { floats, type Frame } from '../frame';
+import { isObject, type Json } from '../json';
+
+/** A frame of the tree. */
+export interface FrameInfo {
+  name: string;
+  parent: string;
+  static: boolean;
+}
+
+const POSE_LENGTH = 7;
+
+/** All frames, and who wants to know. */
+export class Frames {
+  infos: FrameInfo[] = [];
+  poses: Float32Array = new Float32Array(0);
+  fixed = '';
+  private index = new Map<string, number>();
+  private channel: Channel | null = null;
+  private readonly moved = new Set<() => void>();
+  private readonly renamed = new Set<() => void>();
+
+  constructor(private readonly connection: Connection) {}
+
+  /** Choose the fixed frame; opens the stream at first. */
+  setFixed(name: string): void {
+    if (name === this.fixed && this.channel) return;
+    this.fixed = name;
+    const params = { fixed_frame: name };
+    if (this.channel) this.channel.change(params);
+    else {
+      this.channel = this.connection.open('tf', params, {
+        onData: (value) => this.takeNames(value),
+        onFrame: (frame) => this.takePoses(frame),
+      });
+    }
+  }
+
+  /** Where the pose of a frame begins in `poses`; -1 when there is no way to it. */
+  at(name: string): number {
+    const clean = name.replace(/^\//, '');
+    const index = this.index.get(clean) ?? this.index.get(name);
+    if (index === undefined) return -1;
+    const at = index * POSE_LENGTH;
+    return at + POSE_LENGTH <= this.poses.length && !Number.isNaN(this.poses[at]) ? at : -1;
+  }
+
+  /** Be called after every new set of poses. Returns what ends it. */
+  onMoved(listener: () => void): () => void {
+    this.moved.add(listener);
+    return () => this.moved.delete(listener);
+  }
+
+  /** Be called when frames come, go or change parents. Returns what ends it. */
+  onRenamed(listener: () => void): () => void {
+    this.renamed.add(listener);
+    return () => this.renamed.delete(listener);
+  }
+
+  /** Hidden views need no poses. */
+  hold(held: boolean): void {
+    this.channel?.hold(held);
+  }
+
+  dispose(): void {
+    this.channel?.close();
+    this.channel = null;
+  }
+
+  private takeNames(value: Json): void {
+    if (!isObject(value) || !Array.isArray(value['frames'])) return;
+    this.infos = value['frames'] as unknown as FrameInfo[];
+    this.index = new Map(this.infos.map((info, index) => [info.name, index]));
+    this.renamed.forEach((listener) => listener());
+  }
+
+  private takePoses(frame: Frame): void {
+    this.poses = floats(frame, frame.count * POSE_LENGTH);
+    this.moved.forEach((listener) => listener());
+  }
+}

@@ -1,0 +1,86 @@
+/** `window.gazelle`: what is drawn, in numbers, so that tests can act as a person and look at the structure. */
+import * as THREE from 'three';
+import type { JsonObject } from '../json';
+import type { Mode } from '../model/modes';
+import { scenePanels, activeScene } from './active';
+import type { ScenePanel } from './scene_panel';
+
+/** What tests see of a scene panel. */
+interface SceneReport {
+  kind: string;
+  bodies: number;
+  models: string[];
+  selected: unknown;
+  tool: string;
+  fixedFrame: string;
+  displays: Record<string, unknown>;
+  camera: unknown;
+  following: boolean;
+  drawn: number;
+  scriptMs: number;
+  calls: number;
+  triangles: number;
+  geometries: number;
+  highlighted: number;
+  contacts: number;
+  shadows: boolean;
+}
+
+/** Put the handle on the window, once. */
+export function publishHandle(): void {
+  const owner = window as unknown as { gazelle?: Record<string, unknown> };
+  if (owner.gazelle?.scene) return;
+  owner.gazelle = {
+    ...owner.gazelle,
+    scenes: () => scenePanels().map(report),
+    scene: (kind?: 'gazebo' | 'rviz') => report(panelOf(kind)),
+    pose: (body: string, kind?: 'gazebo' | 'rviz') => pose(panelOf(kind), body),
+    screen: (body: string, kind?: 'gazebo' | 'rviz') => screen(panelOf(kind), body),
+    project: (point: [number, number, number], kind?: 'gazebo' | 'rviz') => panelOf(kind).view.toPage(new THREE.Vector3(...point)),
+    overlays: (mode: Mode) => panelOf('gazebo').assembly.count(mode),
+    look: (state: object, kind?: 'gazebo' | 'rviz') => panelOf(kind).view.rig.set(state),
+    addDisplay: (name: string, properties: JsonObject, kind?: 'gazebo' | 'rviz') => Boolean(panelOf(kind).displays.add(name, properties)),
+    drawNow: (kind?: 'gazebo' | 'rviz') => panelOf(kind).view.drawNow(),
+    objects: (kind?: 'gazebo' | 'rviz') => count(panelOf(kind).view.scene),
+  };
+}
+
+function panelOf(kind?: 'gazebo' | 'rviz'): ScenePanel {
+  const found = activeScene(kind);
+  if (!found) throw new Error('no scene panel is open');
+  return found;
+}
+
+function report(panel: ScenePanel): SceneReport {
+  const { view, assembly, displays, world } = panel;
+  const { render, memory } = view.renderer.info;
+  const shown = displays.displays.map((each) => [each.name, {
+    class: each.kind.name, enabled: each.enabled, level: each.level, counts: each.counts(), topic: each.topic,
+    status: Object.fromEntries([...each.status].map(([what, line]) => [what, line.text])),
+  }]);
+  return {
+    kind: panel.kind, bodies: assembly.bodies.length, models: assembly.value?.models.map((model) => model.name) ?? [],
+    selected: world.selection, tool: panel.tool.name, fixedFrame: displays.fixedFrame, displays: Object.fromEntries(shown),
+    camera: view.rig.state, following: view.rig.following, drawn: view.drawn, scriptMs: view.scriptMs, calls: render.calls,
+    triangles: render.triangles, geometries: memory.geometries, highlighted: panel.highlight.count,
+    contacts: panel.contacts.count, shadows: view.renderer.shadowMap.enabled,
+  };
+}
+
+function pose(panel: ScenePanel, body: string): number[] | null {
+  const node = panel.assembly.bodies.find((each) => each.value.name === body);
+  return node ? [...node.root.position.toArray(), ...node.root.quaternion.toArray()] : null;
+}
+
+/** The middle of a body's box on the page. */
+function screen(panel: ScenePanel, body: string): { x: number; y: number } | null {
+  const node = panel.assembly.bodies.find((each) => each.value.name === body);
+  if (!node) return null;
+  return panel.view.toPage(panel.assembly.worldBox([node]).getCenter(new THREE.Vector3()));
+}
+
+function count(scene: THREE.Object3D): Record<string, number> {
+  const found: Record<string, number> = {};
+  scene.traverseVisible((object) => (found[object.type] = (found[object.type] ?? 0) + 1));
+  return found;
+}

@@ -1,0 +1,95 @@
+/** 2D Pose Estimate and 2D Nav Goal: press for the place, drag for the direction. */
+import * as THREE from 'three';
+import { aim, thinArrow } from '../displays/sensors';
+import type { JsonObject } from '../json';
+import { groundPoint } from '../scene/picking';
+import { stampedHeader, typeFor } from './publish';
+import type { Bench, Tool } from './tool';
+
+interface Goal {
+  name: string;
+  key: string;
+  about: string;
+  colour: number;
+  publish(bench: Bench, pose: JsonObject): void;
+}
+
+/** Tells the localization where the robot is. */
+export function poseEstimate(bench: Bench): Tool {
+  return arrowTool(bench, {
+    name: '2D Pose Estimate', key: 'p', about: 'Press where the robot is, drag where it looks: /initialpose.', colour: 0x3ecf5a,
+    publish(to, pose) {
+      const covariance = new Array<number>(36).fill(0);
+      covariance[0] = covariance[7] = 0.25;
+      covariance[35] = 0.06853891909122467;
+      send(to, '/initialpose', 'geometry_msgs/PoseWithCovarianceStamped', { pose: { pose, covariance } });
+    },
+  });
+}
+
+/** Sends the robot somewhere. */
+export function navGoal(bench: Bench): Tool {
+  return arrowTool(bench, {
+    name: '2D Nav Goal', key: 'g', about: 'Press where the robot shall go, drag where it shall look: the goal.', colour: 0xff2fd0,
+    publish(to, pose) {
+      send(to, '/move_base_simple/goal', 'geometry_msgs/PoseStamped', { pose });
+      send(to, '/goal_pose', 'geometry_msgs/PoseStamped', { pose });
+    },
+  });
+}
+
+/** Publish in the fixed frame. */
+function send(bench: Bench, topic: string, type: string, body: JsonObject): void {
+  const message = { header: stampedHeader(bench.displays.fixedFrame), ...body };
+  bench.connection.call('topic.publish', { topic, type: typeFor(bench.graph, type), message }).catch(bench.fail);
+}
+
+function arrowTool(bench: Bench, goal: Goal): Tool {
+  const arrow = thinArrow();
+  arrow.material.color.setHex(goal.colour);
+  arrow.visible = false;
+  let from: THREE.Vector3 | null = null;
+  let yaw = 0;
+  const point = (event: PointerEvent): THREE.Vector3 | null => groundPoint(bench.view, event.clientX, event.clientY);
+  const show = (): void => {
+    const size = bench.view.metresPerPixel(arrow.position) * 90;
+    aim(arrow, new THREE.Vector3(Math.cos(yaw), Math.sin(yaw), 0).multiplyScalar(size), 1);
+    bench.view.invalidate(true);
+  };
+  return {
+    name: goal.name, key: goal.key, about: goal.about, cursor: 'crosshair',
+    begin() {
+      bench.view.hands.add(arrow);
+      bench.say(`${goal.name}: press for the place and drag for the direction.`);
+    },
+    end() {
+      from = null;
+      arrow.removeFromParent();
+      bench.view.invalidate(true);
+    },
+    down(event) {
+      if (event.button !== 0) return false;
+      from = point(event);
+      yaw = 0;
+      if (from) arrow.position.copy(from).setZ(0.02);
+      if (from) show();
+      return true;
+    },
+    move(event) {
+      if (!from) return false;
+      const to = point(event);
+      if (to && to.distanceTo(from) > 0.01) yaw = Math.atan2(to.y - from.y, to.x - from.x);
+      show();
+      return true;
+    },
+    up() {
+      if (!from) return false;
+      const position = { x: from.x, y: from.y, z: 0 };
+      goal.publish(bench, { position, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } });
+      const shown = `[${from.x.toFixed(3)}, ${from.y.toFixed(3)}], yaw ${yaw.toFixed(3)}`;
+      bench.done();
+      bench.say(`${goal.name} in ${bench.displays.fixedFrame}: ${shown}`);
+      return true;
+    },
+  };
+}
