@@ -94,7 +94,9 @@ def test_between_two_times_through_a_fixed_frame() -> None:
          "frame_ids cannot start with a '/' like: "),
         ("map", "island", 0, ConnectivityError,
          "Could not find a connection between 'map' and 'island' because they are not part of the "
-         "same tree.Tf has two or more unconnected trees."),
+         "same tree.Tf has two or more unconnected trees.\n  nobody publishes a transform from the "
+         "tree of 'map' to 'sea'; that is the job of robot_state_publisher, which wants every "
+         "joint in /joint_states, or a static_transform_publisher"),
         ("map", "laser", 5 * S, ExtrapolationError,
          "Lookup would require extrapolation 3.000000000s into the future.  Requested time "
          "5.000000000 but the latest data is at time 2.000000000, when looking up transform from "

@@ -19,6 +19,7 @@ from gazelle.graph.tf.errors import (
     TransformError,
     UnknownFrameError,
 )
+from gazelle.graph.tf.gaps import gap_text
 from gazelle.graph.tf.history import History, Sample, StaticHistory
 
 __all__ = ["FrameInfo", "StampedPose", "TransformBuffer"]
@@ -356,8 +357,12 @@ class TransformBuffer:
     def _unconnected(self, target: str, source: str) -> ConnectivityError:
         return ConnectivityError(
             f"Could not find a connection between '{target}' and '{source}' because they are not "
-            "part of the same tree.Tf has two or more unconnected trees."
+            "part of the same tree.Tf has two or more unconnected trees.\n"
+            f"  {gap_text(self._root(target), self._root(source))}"
         )
+
+    def _root(self, frame: str) -> str:
+        return self._ancestors(frame)[-1]
 
     def _waiting(self, look: Callable[[], StampedPose], timeout_s: float) -> StampedPose:
         deadline = time.monotonic() + timeout_s
