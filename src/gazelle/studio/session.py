@@ -35,7 +35,7 @@ class Studio:
     def __init__(self, graph: Graph) -> None:
         """Join as a node of a name of its own; the graph stays open when Studio is closed."""
         self.graph = graph
-        self.node = graph.create_node("studio", anonymous=True, rosout=False)
+        self.node = graph.create_node("_studio", anonymous=True, rosout=False, is_ros2=True)
         graph.clock.follow(self.node)
         self.taps = Taps(self.node)
         self.workers = Workers(_WORKERS)

@@ -10,7 +10,7 @@ from gazelle.graph import Graph
 from gazelle.nodes import joint_state_publisher as joints
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.turtlesim import simulator
-from gazelle.studio.views.presence import Request, is_switched_off, present
+from gazelle.studio.views.presence import Request, is_switched_off, present, say
 
 __all__ = ["joint_state_publisher_gui", "turtlesim"]
 
@@ -42,10 +42,6 @@ def _beside(
     """Run a node, and in a thread beside it what shows its panel."""
     if not is_switched_off():
         window = graph.create_node(f"{arguments.name}_window", anonymous=True, rosout=False)
-
-        def say(text: str) -> None:
-            window.log("info", text)
-
         showing = threading.Thread(
             target=present, args=(window, request, stop, say), name="panel", daemon=True
         )

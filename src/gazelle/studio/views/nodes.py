@@ -23,7 +23,7 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.studio.views.presence import Request, is_switched_off, present
+from gazelle.studio.views.presence import Request, is_switched_off, present, say
 
 __all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
 
@@ -43,11 +43,8 @@ def run_view(
     """Be a node that shows a panel until told to stop; launch files count on its staying alive."""
     node = start_node(arguments, graph)
 
-    def say(text: str) -> None:
-        node.log("info", text)
-
     if is_switched_off():
-        say(f"[{panel}] no window opens: GAZELLE_STUDIO=0; the node stays alive")
+        node.log("info", f"[{panel}] no window opens: GAZELLE_STUDIO=0; the node stays alive")
         stop.wait()
     else:
         present(node, Request(panel, params), stop, say)

@@ -14,7 +14,7 @@ from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
 
-__all__ = ["Request", "is_switched_off", "page_port", "present"]
+__all__ = ["Request", "is_switched_off", "offer", "open_browser", "page_port", "present", "say"]
 
 SERVICE = "/_gazelle/studio"
 _DO = "gazelle_msgs/Do"
@@ -42,6 +42,12 @@ class Request:
 def is_switched_off(environ: Mapping[str, str] = os.environ) -> bool:
     """Tell whether the user wants no page (``GAZELLE_STUDIO=0``)."""
     return environ.get("GAZELLE_STUDIO", "") in ("0", "off", "false", "no")
+
+
+def say(text: str) -> None:
+    """Tell a person at the terminal, also where a launch file sends output to log files."""
+    sys.stderr.write(f"{text}\n")
+    sys.stderr.flush()
 
 
 def page_port(graph: Graph) -> int:
