@@ -95,8 +95,14 @@ def test_folder_is_no_world(gz: Run, tmp_path: Path) -> None:
     assert found.err == f"'{tmp_path}' is a folder; gz sim wants a file of SDF with a world\n"
 
 
+def test_worlds_are_not_downloaded(gz: Run) -> None:
+    found = gz("sim", "-s", "https://fuel.gazebosim.org/1.0/openrobotics/worlds/shapes")
+    assert found.code == 255
+    assert "not found: nothing is downloaded; use a local path" in found.err
+
+
 def test_world_runs_its_iterations(gazelle: Run, world_file: str) -> None:
-    run = gazelle("gz", "sim", "-s", "-r", "--iterations", "50", world_file)
+    run = gazelle("gz", "sim", "-s", "-r", "--iterations", "50", f"file://{world_file}")
     assert run.wait() == 0
     assert "at 0.050000000 s" in run.text
 

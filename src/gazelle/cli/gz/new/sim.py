@@ -12,6 +12,7 @@ from gazelle._version import __version__
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.sdf.sdf_file import say
 from gazelle.diagnostics import did_you_mean
+from gazelle.workspace import Workspace
 
 __all__ = ["SimStart", "read_sim", "run"]
 
@@ -112,7 +113,7 @@ def run(words: list[str]) -> int:
         from gazelle.nodes.__main__ import main as run_node
 
         return run_node(["gazebo_ros/gzclient"])
-    _check_world(start.world)
+    start.world = _found_world(start.world)
     if "-r" not in start.flags:
         say(["gazelle: the world is paused, as gz sim has it without -r; gz world -p 0 lets it go"])
     return gzserver.main(start.server_words)
@@ -190,11 +191,17 @@ def _idle(words: str) -> str:
     return f"{words} has no effect here" + (f": {why}" if why else "")
 
 
-def _check_world(word: str) -> None:
-    """A folder or a URL is worth its own words.
+def _found_world(word: str) -> str:
+    """Return a world's file; URLs of files and of packages lead to one.
 
     Raises:
-        GzError: it is one.
+        GzError: a folder, or a URL of what is not on this machine.
     """
+    if "://" in word:
+        found = Workspace.discover().resolve(word)
+        if found.path is None:
+            raise GzError(found.explain(word))
+        word = str(found.path)
     if word and Path(word).is_dir():
         raise GzError(f"'{word}' is a folder; gz sim wants a file of SDF with a world")
+    return word
