@@ -42,6 +42,15 @@ def test_publishers_are_asked_for_when_they_are_new() -> None:
     assert speakers.number_of("/chatter", b"\1\3") == 0
 
 
+def test_publisher_of_a_namesake_is_not_kept_for_ours() -> None:
+    own = {"/talker"}
+    speakers = Speakers(FakeNode(Info("talker", "/", [1, 2])), own)
+    assert speakers.number_of("/chatter", b"\1\2") == 0
+    own.clear()
+    assert [number for _, number in speakers.learn("/chatter")] == [1]
+    assert speakers.number_of("/chatter", b"\1\2") == 1
+
+
 def test_each_published_message_is_swallowed_once() -> None:
     known = Echoes()
     known.note(b"\0\1\0\0hello\0")

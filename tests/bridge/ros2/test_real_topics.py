@@ -101,6 +101,30 @@ rclpy.spin""",
     assert time.monotonic() - ended < 2
 
 
+def test_name_that_ros_takes_later_gets_an_ending(
+    ros2: Ros2, graph: Graph, bridge: Bridge, eventually: Eventually, inbox: Any
+) -> None:
+    node = graph.create_node("mouth", namespace="/ns")
+    node.create_subscription("/chatter", STRING, inbox)
+    eventually(lambda: bridge.nodes == (("/ns/mouth",), ()))
+    program = ros2(TALKER)
+    eventually(lambda: bridge.nodes == (("/ns/mouth_gazelle",), ("/ns/mouth",)))
+    inbox.wait_for(3)
+    program.end()
+    eventually(lambda: bridge.nodes == (("/ns/mouth",), ()))
+
+
+@pytest.mark.usefixtures("bridge")
+def test_name_that_ros_does_not_allow_is_told(
+    ros2: Ros2, graph: Graph, notices: Any, eventually: Eventually
+) -> None:
+    node = graph.create_node("cam", namespace="/robot/2nd")
+    node.create_publisher("/chatter", STRING, latch=True).publish(STRING(data="hello"))
+    found = eventually(lambda: [one for one in notices.items if "2nd" in one])
+    assert found[0].startswith("ROS 2 does not take a name or a service of the graph: Invalid")
+    ros2(LISTENER.replace("10)", "LATCHED)")).wait_for("heard hello")
+
+
 @pytest.mark.usefixtures("bridge")
 def test_node_that_ends_leaves_ros(ros2: Ros2, graph: Graph) -> None:
     node = graph.create_node("short")

@@ -92,6 +92,8 @@ class Bridge:
                 return
             if self._session.is_over:
                 self._start_again()
+            if self._ended.is_set():
+                return
             self._try_to_settle()
 
     def _try_to_settle(self) -> None:

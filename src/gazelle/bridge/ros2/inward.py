@@ -70,7 +70,7 @@ class Inward:
         self._asked: dict[Wanted, _Asked] = {}
         self._topics: dict[int, Wanted] = {}
         self._clients: dict[str, int] = {}
-        self._heard: set[tuple[int, int]] = set()
+        self._heard: set[bytes] = set()
         self._told: set[tuple[str, str]] = set()
 
     @property
@@ -111,8 +111,8 @@ class Inward:
             publisher = self._voice(wanted, number)
             if publisher is None:
                 return
-            if (channel, number) not in self._heard:
-                self._heard.add((channel, number))
+            if publisher.gid not in self._heard:
+                self._heard.add(publisher.gid)
                 _await_match(publisher)
             publisher.publish_raw(cdr)
         except GazelleError as error:

@@ -105,8 +105,8 @@ class Session:
             return
         owner = self._outward.owner_of(channel) or self._inward.owner_of(channel)
         if owner is None:
-            return
-        if missing:
+            self._notice(f"ROS 2 does not take a name or a service of the graph: {error}")
+        elif missing:
             self._book.miss(owner[1], owner[0], error)
             self._on_change()
         else:

@@ -66,6 +66,9 @@ class Speakers:
             with self._lock:
                 self._own.add(gid)
             return 0
+        with self._lock:
+            # While two nodes had one name, the other's publishers were taken for ours.
+            self._own.discard(gid)
         return self._number(gid)
 
     def _number(self, gid: bytes) -> int:

@@ -54,7 +54,9 @@ class Endpoints:
         except MissingTypeError as problem:
             error, missing = str(problem), True
         except Exception as problem:  # noqa: BLE001 - told; rclpy has no common class
-            error, missing = f"{type(problem).__name__}: {problem}".splitlines()[0], False
+            # rclpy draws a caret below the bad letter of a name, on a line of its own.
+            text = " ".join(str(problem).split()).removesuffix(" ^")
+            error, missing = f"{type(problem).__name__}: {text}", False
         self._pipes.send_control(report="done", channel=channel, error=error, missing=missing)
 
     def publish(self, channel: int, data: bytes) -> None:
@@ -94,18 +96,25 @@ class Endpoints:
     def _do_node(self, command: dict[str, Any]) -> None:
         name = command["node"]
         namespace, _, base = name.rpartition("/")
-        node = import_module("rclpy.node").Node(
-            base,
-            namespace=namespace or "/",
-            enable_rosout=False,
-            start_parameter_services=False,
-        )
+        # Before it is there: the watch must not take it for somebody else's.
         self.own_names.add(name)
+        try:
+            node = import_module("rclpy.node").Node(
+                base,
+                namespace=namespace or "/",
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
+        except Exception:
+            self.own_names.discard(name)
+            raise
         self._nodes[name] = node
         self._executor.add_node(node)
 
     def _do_unnode(self, command: dict[str, Any]) -> None:
-        node = self._nodes.pop(command["node"])
+        node = self._nodes.pop(command["node"], None)
+        if node is None:
+            return
         self._executor.remove_node(node)
         node.destroy_node()
         self.own_names.discard(command["node"])
@@ -167,7 +176,8 @@ class Endpoints:
             drop()
 
     def _node(self, command: dict[str, Any]) -> Any:
-        return self._nodes[command["node"]]
+        """The node, or the bridge's own for one that ROS does not allow."""
+        return self._nodes.get(command["node"], self._home)
 
     def _taker(self, channel: int, topic: str) -> Callable[[bytes, Any], None]:
         def take(data: bytes, info: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections import deque
 from typing import Any
 
@@ -37,13 +38,16 @@ class Inbox:
 
     def _work_off(self) -> None:
         while self._waiting:
-            frame = self._waiting.popleft()
-            if frame.kind == FrameKind.CONTROL:
-                self._endpoints.obey(frame.control())
-            elif frame.kind == FrameKind.REQUEST:
-                self._endpoints.call(frame.channel, frame.number, frame.data)
-            else:
-                is_failure = frame.kind == FrameKind.FAILURE
-                self._endpoints.answer(
-                    frame.channel, frame.number, None if is_failure else frame.data
-                )
+            try:
+                self._handle(self._waiting.popleft())
+            except Exception:  # noqa: BLE001 - told; one bad frame must not end the process
+                traceback.print_exc()
+
+    def _handle(self, frame: Frame) -> None:
+        kind, channel, number, data = frame
+        if kind == FrameKind.CONTROL:
+            self._endpoints.obey(frame.control())
+        elif kind == FrameKind.REQUEST:
+            self._endpoints.call(channel, number, data)
+        else:
+            self._endpoints.answer(channel, number, None if kind == FrameKind.FAILURE else data)

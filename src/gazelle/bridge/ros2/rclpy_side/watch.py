@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from typing import Any
 
 from .endpoints import Endpoints
@@ -43,13 +44,9 @@ class Watch:
 
     def _state(self) -> dict[str, list[_Row]]:
         own = set(self._endpoints.own_names)
-        nodes = sorted(
-            {
-                _full(name, namespace)
-                for name, namespace in self._node.get_node_names_and_namespaces()
-            }
-            - own
-        )
+        counts = Counter(_full(*one) for one in self._node.get_node_names_and_namespaces())
+        # A name of ours that is there twice is somebody else's too: ours gets another one.
+        nodes = sorted(name for name, count in counts.items() if count > (name in own))
         publishers: list[_Row] = []
         subscriptions: list[_Row] = []
         for topic, _types in self._node.get_topic_names_and_types():
@@ -63,7 +60,9 @@ class Watch:
             "nodes": [[name] for name in nodes],
             "publishers": sorted(publishers),
             "subscriptions": sorted(subscriptions),
-            "services": sorted(row for name in nodes for row in self._services(name)),
+            "services": sorted(
+                row for name in nodes if name not in own for row in self._services(name)
+            ),
         }
 
     def _services(self, full: str) -> list[_Row]:
