@@ -84,6 +84,7 @@ def main() -> None:
     commands = {
         "bag": ["rosbag", "record", "-q", "-b", "1024", "-O", "a", "/load"],
         "mcap": ["ros2", "bag", "record", "-o", "a", "/load"],
+        "db3": ["ros2", "bag", "record", "-o", "a", "-s", "sqlite3", "/load"],
     }
     with Graph.open() as graph:
         with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:

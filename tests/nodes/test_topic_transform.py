@@ -93,6 +93,13 @@ def test_relay_field_fills_what_the_yaml_names(graph: Graph, imu: Any) -> None:
     assert found.header.stamp.sec > 0
 
 
+def test_relay_field_takes_whole_messages(graph: Graph, imu: Any) -> None:
+    yaml = "{header: m.header, pose: {orientation: m.quaternion}}"
+    words = ["/imu", "/out", "geometry_msgs/PoseStamped", yaml]
+    found, _ = answer(graph, imu, run_relay_field, words, "geometry_msgs/msg/PoseStamped")
+    assert (found.header.frame_id, found.pose.orientation.x) == ("base", 3.0)
+
+
 def test_an_expression_that_fails_is_told_with_the_message(graph: Graph, imu: Any) -> None:
     words = ["/imu/quaternion", "/out", "std_msgs/Float64", "m.q"]
     found, said = answer(graph, imu, run_transform, words, "std_msgs/msg/Float64")

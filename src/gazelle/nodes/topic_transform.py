@@ -11,7 +11,14 @@ from typing import Any
 
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
-from gazelle.interfaces import Generation, fill, ros1_message_type, time_keys
+from gazelle.interfaces import (
+    Generation,
+    Ros1Message,
+    fill,
+    ros1_message_type,
+    time_keys,
+    to_plain,
+)
 from gazelle.limits.yaml_text import load_yaml
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
@@ -99,7 +106,9 @@ def _evaluated(values: dict[str, Any], message: Any) -> dict[str, Any]:
             found[key] = _evaluated(value, message)
         elif isinstance(value, str):
             try:
-                found[key] = eval(value, {}, {"m": message})  # noqa: S307 - as in the original
+                result = eval(value, {}, {"m": message})  # noqa: S307 - as in the original
+                # A whole message for a field of its type: the original refuses that.
+                found[key] = to_plain(result) if isinstance(result, Ros1Message) else result
             except (NameError, SyntaxError):
                 found[key] = value
         else:
