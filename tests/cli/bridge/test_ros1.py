@@ -18,7 +18,7 @@ def test_bridge_without_a_name_shows_what_there_is(capsys: pytest.CaptureFixture
     assert main(["--help"]) == 0
     assert "ros1       nodes and tools of an installed ROS 1" in capsys.readouterr().out
     assert main(["ros3"]) == 2
-    assert "'ros3' is not a bridge; did you mean 'ros1'?" in capsys.readouterr().err
+    assert "'ros3' is not a bridge; did you mean 'ros2' or 'ros1'?" in capsys.readouterr().err
 
 
 def test_bridge_says_where_it_is_and_leaves_in_peace(gazelle: Run, free_port: int) -> None:
