@@ -1,0 +1,65 @@
+"""A recorder in another process keeps the definitions that a bag is played with."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from gazelle.bag import Connection, Encoding, Storage, create_bag, learn_definitions, open_bag
+from gazelle.bag.playing import Controls, Player, PlayOptions
+from gazelle.graph import Graph
+from gazelle.interfaces import full_text, md5sum
+
+_WAIT_S = 20.0
+
+
+@pytest.fixture(autouse=True)
+def own_texts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Texts that a test's bag brings are gone after it."""
+    monkeypatch.setattr(full_text, "_kept", {})
+
+
+def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port: int) -> None:
+    words = "# Of the bag.\nstring data  # words\n"
+    own = "# Nobody else knows this.\nint32 count\n"
+    connections = [
+        Connection(
+            0, "/word", "std_msgs/String", Encoding.ROS1, words, md5sum("std_msgs/String"), "/n"
+        ),
+        Connection(
+            0, "/own", "test_only_msgs/Own", Encoding.ROS1, own,
+            "602d642babe509c7c59f497c23e716a9", "/n",
+        ),
+    ]  # fmt: skip
+    writer = create_bag(tmp_path / "in.bag", Storage.ROS1)
+    for one in connections:
+        added = writer.add(one)
+        for place in range(3):
+            writer.write(added, 10**18 + place * 10**6, b"\0\0\0\0")
+    writer.close()
+    topics = [one.topic for one in connections]
+    command = [sys.executable, "-m", "gazelle.cli", "rosbag", "record", "-O", "out", "-l", "3"]
+    environ = {**os.environ, "GAZELLE_PORT": str(free_port)}
+    with Graph.open(port=free_port) as graph:
+        recorder = subprocess.Popen([*command, *topics], cwd=tmp_path, env=environ)
+        bag = open_bag(tmp_path / "in.bag")
+        learn_definitions(bag.connections)
+        quiet = (lambda *_args: None, lambda *_args: None)
+        node = graph.create_node("player")
+        player = Player(node, [bag], PlayOptions(), Controls(), *quiet)
+        pause = threading.Event()
+        for _ in range(1000):
+            if all(one.matched for one in player.publishers) or pause.wait(0.01):
+                break
+        player.play()
+        assert recorder.wait(_WAIT_S) == 0
+    found = {one.topic: one for one in open_bag(tmp_path / "out.bag").connections}
+    for one in connections:
+        kept = found[one.topic]
+        assert (kept.type_name, kept.definition) == (one.type_name, one.definition)
+        assert kept.md5sum == one.md5sum
