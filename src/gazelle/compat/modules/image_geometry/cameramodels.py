@@ -1,0 +1,5 @@
+"""image_geometry.cameramodels."""
+
+from gazelle.compat.images.camera_models import PinholeCameraModel, StereoCameraModel
+
+__all__ = ["PinholeCameraModel", "StereoCameraModel"]

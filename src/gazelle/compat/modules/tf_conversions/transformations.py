@@ -1,0 +1,4 @@
+"""tf_conversions.transformations."""
+
+from gazelle.compat.tf.matrices import *  # noqa: F403
+from gazelle.compat.tf.transformations import *  # noqa: F403
