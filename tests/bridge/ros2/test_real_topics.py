@@ -121,7 +121,7 @@ def test_name_that_ros_does_not_allow_is_told(
     node = graph.create_node("cam", namespace="/robot/2nd")
     node.create_publisher("/chatter", STRING, latch=True).publish(STRING(data="hello"))
     found = eventually(lambda: [one for one in notices.items if "2nd" in one])
-    assert found[0].startswith("ROS 2 does not take a name or a service of the graph: Invalid")
+    assert found[0].startswith("ROS 2 does not take a name of the graph: Invalid")
     ros2(LISTENER.replace("10)", "LATCHED)")).wait_for("heard hello")
 
 

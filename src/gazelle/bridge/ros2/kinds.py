@@ -96,9 +96,8 @@ class TypeBook:
         distro = self._distro or "<distro>"
         text = f"{where} does not go to ROS 2, whose Python lacks its type {name}: {error}"
         fix = (
-            f"apt install ros-{distro}-{package.replace('_', '-')} (pip: "
-            f"ros-{package.replace('_', '-')}), or source the workspace that builds {package}; "
-            "then start the bridge again"
+            f"apt install ros-{distro}-{package.replace('_', '-')}, or source the workspace that "
+            f"builds {package}; then start the bridge again"
         )
         self._notice(coded("bridge.type-missing", text, fix=fix))
 

@@ -104,8 +104,11 @@ class Session:
             self._on_change()
             return
         owner = self._outward.owner_of(channel) or self._inward.owner_of(channel)
-        if owner is None:
-            self._notice(f"ROS 2 does not take a name or a service of the graph: {error}")
+        if owner is None and not missing:
+            self._notice(f"ROS 2 does not take a name of the graph: {error}")
+        elif owner is None:
+            # Given up already: the same type was missing elsewhere, and told.
+            return
         elif missing:
             self._book.miss(owner[1], owner[0], error)
             self._on_change()
