@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.studio.bags import tables as bags
 from gazelle.studio.displays import tables as displays
 from gazelle.studio.downloads import download, save_file
 from gazelle.studio.files import Route
@@ -17,6 +18,7 @@ from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
 from gazelle.studio.scenes.robot import get_robot
 from gazelle.studio.session import Studio
+from gazelle.studio.settings import tables as settings
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.world import tables as world
 
@@ -28,10 +30,17 @@ Method = Callable[[Studio, Params], Any]
 METHODS: dict[str, Method] = {
     **graph_view.METHODS,
     **world.METHODS,
+    **bags.METHODS,
+    **settings.METHODS,
     "file.save": save_file,
     "robot.get": get_robot,
 }
-STREAMS: dict[str, StreamKind] = {**graph_view.STREAMS, **displays.STREAMS, **world.STREAMS}
+STREAMS: dict[str, StreamKind] = {
+    **graph_view.STREAMS,
+    **displays.STREAMS,
+    **world.STREAMS,
+    **bags.STREAMS,
+}
 ROUTES: dict[str, Route] = {
     **world.ROUTES,
     "file": download,

@@ -1,0 +1,1 @@
+"""Recording and playing bags from the page."""

@@ -1,0 +1,111 @@
+"""``bag.record``: topics into a bag."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+from gazelle.bag import Storage
+from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
+from gazelle.bag.rosbag2 import Rosbag2Writer
+from gazelle.graph import Node
+from gazelle.studio.errors import StudioError
+from gazelle.studio.session import Studio
+
+__all__ = ["FORMATS", "Recording"]
+
+FORMATS = ("bag", "mcap", "db3")
+_FLUSH_S = 10.0
+
+
+class Recording:
+    """A Studio's recorder; all pages see the same one."""
+
+    def __init__(self, studio: Studio) -> None:
+        """Record nothing."""
+        self._studio = studio
+        self._lock = threading.Lock()
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._recorder: Recorder | None = None
+        self._sink: Ros1Files | Rosbag2Writer | None = None
+        self._node: Node | None = None
+        self._path = ""
+        self._begun_s = 0.0
+        studio.on_close(self._close)
+
+    def begin(self, topics: list[str] | None, path: str, kind: str) -> str:
+        """Record until `stop`.
+
+        Args:
+            topics: global names; None for all that are not hidden.
+            path: file or folder, made up of the date when empty; ``.bag`` is added.
+            kind: one of `FORMATS`.
+
+        Returns:
+            where it goes.
+
+        Raises:
+            StudioError: something is being recorded already.
+            BagError: the file cannot be written.
+        """
+        with self._lock:
+            if self._recorder is not None:
+                raise StudioError(f"{self._path} is being recorded; stop that first")
+            self._sink, self._path = _sink(path, kind)
+            self._node = self._studio.graph.create_node("record", anonymous=True, rosout=False)
+            self._studio.graph.clock.follow(self._node)
+            selection = Selection(tuple(topics or ()), topics is None, hidden=False)
+            self._recorder = Recorder(self._studio.graph, self._node, self._sink)
+            self._recorder.begin(selection)
+            self._stop = threading.Event()
+            self._begun_s = time.monotonic()
+            self._thread = threading.Thread(
+                target=self._recorder.run, args=(selection, self._stop), name="recorder"
+            )
+            self._thread.start()
+            return self._path
+
+    def stop(self) -> str:
+        """End recording and return where it went; empty when nothing was recorded."""
+        with self._lock:
+            thread, node, path = self._thread, self._node, self._path
+            if thread is None or node is None:
+                return ""
+            self._stop.set()
+            thread.join(_FLUSH_S)
+            node.shutdown()
+            self._thread = self._recorder = self._sink = self._node = None
+            return path
+
+    def _close(self) -> None:
+        self.stop()
+
+    def state(self) -> dict[str, Any] | None:
+        """Return what the page shows; None while nothing is recorded."""
+        recorder, sink = self._recorder, self._sink
+        if recorder is None or sink is None:
+            return None
+        return {
+            "path": self._path,
+            "seconds": time.monotonic() - self._begun_s,
+            "messages": recorder.written,
+            "dropped": recorder.dropped,
+            "bytes": sink.size,
+            "topics": sorted(recorder.topics),
+        }
+
+
+def _sink(path: str, kind: str) -> tuple[Ros1Files | Rosbag2Writer, str]:
+    if kind not in FORMATS:
+        raise StudioError(f"there is no format '{kind}'", known=FORMATS)
+    if kind == "bag":
+        stem = str(Path(path).expanduser().absolute()).removesuffix(".bag") if path else ""
+        named = stem or str(Path(default_stem()).absolute())
+        return Ros1Files(lambda: named), f"{named}.bag"
+    folder = Path(path or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S")).expanduser().absolute()
+    if folder.exists():
+        raise StudioError(f"{folder} is there already", hint="record to another name")
+    return Rosbag2Writer(folder, Storage("mcap" if kind == "mcap" else "sqlite3")), str(folder)

@@ -1,0 +1,75 @@
+"""``layout.*``: layouts of the page under names, in the user's configuration folder."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, unquote
+
+from gazelle.studio.errors import StudioError, unknown
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "save_layout"]
+
+_SUFFIX = ".json"
+_MOST_BYTES = 4 << 20
+_LONGEST_NAME = 100
+
+
+def layout_folder(environ: Mapping[str, str] = os.environ) -> Path:
+    """Return where layouts are kept."""
+    home = environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
+    return Path(home) / "gazelle" / "layouts"
+
+
+def list_layouts(_studio: Studio, _params: Params) -> list[str]:
+    """``layout.list``: names, sorted."""
+    return sorted(unquote(file.stem) for file in layout_folder().glob(f"*{_SUFFIX}"))
+
+
+def load_layout(studio: Studio, params: Params) -> Any:
+    """``layout.load``."""
+    name = params.text("name")
+    try:
+        return json.loads(_file(name).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise unknown("layout", name, list_layouts(studio, params)) from None
+    except (OSError, ValueError) as error:
+        raise StudioError(f"the layout '{name}' cannot be read: {error}") from None
+
+
+def save_layout(_studio: Studio, params: Params) -> dict[str, Any]:
+    """``layout.save``: a crash leaves the old one whole."""
+    name, text = params.text("name"), json.dumps(params.any("value"))
+    if len(text) > _MOST_BYTES:
+        raise StudioError(f"the layout '{name}' has more than {_MOST_BYTES >> 20} MiB")
+    file = _file(name)
+    part = file.with_suffix(f".{os.getpid()}.part")
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(text, encoding="utf-8")
+        part.replace(file)
+    except OSError as error:
+        raise StudioError(f"the layout '{name}' cannot be kept: {error}") from None
+    return {}
+
+
+def delete_layout(studio: Studio, params: Params) -> dict[str, Any]:
+    """``layout.delete``."""
+    name = params.text("name")
+    try:
+        _file(name).unlink()
+    except FileNotFoundError:
+        raise unknown("layout", name, list_layouts(studio, params)) from None
+    return {}
+
+
+def _file(name: str) -> Path:
+    """A name may hold any character; the file's never leaves the folder."""
+    if not name.strip() or len(name) > _LONGEST_NAME:
+        raise StudioError(f"a layout's name has 1 to {_LONGEST_NAME} characters")
+    return layout_folder() / f"{quote(name, safe=' ').replace('.', '%2E')}{_SUFFIX}"

@@ -1,0 +1,142 @@
+"""``rviz.open``: a ``.rviz`` file as the page takes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.limits.yaml_text import load_yaml
+from gazelle.studio.errors import StudioError
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = ["open_rviz", "rviz_value"]
+
+_GROUPS = ("Group",)
+_TOPICS = ("Topic", "Image Topic", "Marker Topic", "Description Topic", "Depth Map Topic",
+           "Update Topic", "Interactive Markers Namespace")  # fmt: skip
+# Of the views: RViz's word, ours.
+_NUMBERS = {"Distance": "distance", "Yaw": "yaw", "Pitch": "pitch", "Scale": "scale",
+            "Angle": "angle"}  # fmt: skip
+_KNOWN_PARTS = ("Panels", "Visualization Manager", "Window Geometry", "Preferences", "Toolbars")
+
+
+def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
+    """``rviz.open``: of a ``path`` on this machine or of a ``text``."""
+    if "text" in params:
+        return rviz_value(params.text("text"), params.text("name", "the .rviz file"))
+    path = Path(params.text("path")).expanduser()
+    try:
+        return rviz_value(path.read_text(encoding="utf-8"), str(path))
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudioError(f"cannot read {path}: {error}") from None
+
+
+def rviz_value(text: str, name: str) -> dict[str, Any]:
+    """Return fixed frame, displays, view and tools of a ``.rviz`` file of either generation.
+
+    Raises:
+        StudioError: it is no such file; says where.
+    """
+    content = _content(text, name)
+    manager = content.get("Visualization Manager")
+    if not isinstance(manager, Mapping):
+        raise StudioError(
+            f"{name} is no .rviz file: it has no 'Visualization Manager'",
+            known=[str(key) for key in content],
+        )
+    options = _mapping(manager.get("Global Options"))
+    return {
+        "fixed_frame": str(options.get("Fixed Frame", "")),
+        "background": str(options.get("Background Color", "")),
+        "displays": list(_displays(manager.get("Displays"))),
+        "view": _view(_mapping(_mapping(manager.get("Views")).get("Current"))),
+        "tools": [_short(tool.get("Class", "")) for tool in _list(manager.get("Tools"))],
+        "unknown": sorted(str(key) for key in content if key not in _KNOWN_PARTS),
+    }
+
+
+def _content(text: str, name: str) -> Mapping[str, Any]:
+    try:
+        content = load_yaml(text)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f"{name}:{mark.line + 1}:{mark.column + 1}" if mark else name
+        raise StudioError(f"{where}: not YAML: {getattr(error, 'problem', error)}") from None
+    if not isinstance(content, Mapping):
+        raise StudioError(f"{name} is no .rviz file: it holds {type(content).__name__}")
+    return content
+
+
+def _displays(found: Any, *, enabled: bool = True) -> Iterator[dict[str, Any]]:
+    """Yield all displays; a group's go with the others, and are off where the group is."""
+    for item in _list(found):
+        short = _short(item.get("Class", ""))
+        on = enabled and bool(item.get("Enabled", item.get("Value", True)))
+        if short in _GROUPS:
+            yield from _displays(item.get("Displays"), enabled=on)
+            continue
+        topic = next((_topic(item[key]) for key in _TOPICS if _topic(item.get(key))), "")
+        skipped = {"Class", "Enabled", "Name", "Value", *_TOPICS}
+        properties = {str(key): _plain(item[key]) for key in item if key not in skipped}
+        if short == "RobotModel" and not topic and "Robot Description" in item:
+            topic = _absolute(str(item["Robot Description"]))
+        yield {
+            "class": short,
+            "name": str(item.get("Name", short)),
+            "enabled": on,
+            "topic": topic,
+            "properties": properties,
+        }
+
+
+def _view(current: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the view in the page's words; what the file does not say is left out."""
+    if not current:
+        return {}
+    value: dict[str, Any] = {"kind": _short(current.get("Class", "Orbit"))}
+    for theirs, ours in _NUMBERS.items():
+        if isinstance(current.get(theirs), int | float):
+            value[ours] = float(current[theirs])
+    focal = _mapping(current.get("Focal Point"))
+    if focal:
+        value["focal"] = [float(focal.get(axis, 0.0)) for axis in "XYZ"]
+    elif "X" in current and "Y" in current:
+        value["focal"] = [float(current["X"]), float(current["Y"]), 0.0]
+    return value
+
+
+def _topic(value: Any) -> str:
+    """ROS 2 writes a topic with its quality of service: ``{Value: /scan, Depth: 5 …}``."""
+    if isinstance(value, Mapping):
+        value = value.get("Value", "")
+    return _absolute(str(value)) if value else ""
+
+
+def _absolute(name: str) -> str:
+    return name if name.startswith("/") else f"/{name}"
+
+
+def _short(name: Any) -> str:
+    """``rviz/LaserScan`` and ``rviz_default_plugins/LaserScan`` are one display."""
+    return str(name).rpartition("/")[2]
+
+
+def _plain(value: Any) -> Any:
+    """Return a value that JSON knows."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_plain(item) for item in value]
+    return value if isinstance(value, bool | int | float | str) or value is None else str(value)
+
+
+def _mapping(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _list(value: Any) -> list[Mapping[str, Any]]:
+    return [item for item in value if isinstance(item, Mapping)] if isinstance(value, list) else []
