@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Publisher"]
 
+_UNSURE_S = 0.5
+
 
 class Publisher:
     """Sends messages of one type on one topic.
@@ -50,6 +52,8 @@ class Publisher:
         self._transport = threading.Lock()
         self._last: Any = None
         self._sequence = 0
+        self._unsure = True
+        self._sure_s = time.monotonic() + _UNSURE_S
         text = token(graph.domain, entity)
         self.gid = entity_gid(text)
         key = topic_key(graph.domain, self.topic, entity.type_name, entity.type_hash)
@@ -93,7 +97,7 @@ class Publisher:
         local = self._local.subscriptions
         if local:
             self._hand(message, local)
-        if self._matched_elsewhere():
+        if self._is_wanted_elsewhere():
             self._send(message)
 
     def publish_raw(self, data: bytes) -> None:
@@ -109,7 +113,7 @@ class Publisher:
             self.publish(wire.decode(self.message_class, data))
             return
         self._sequence += 1
-        if self._matched_elsewhere():
+        if self._is_wanted_elsewhere():
             self._send_bytes(data)
 
     def unregister(self) -> None:
@@ -142,6 +146,12 @@ class Publisher:
         attachment = self._attachment()
         for subscription in subscriptions:
             subscription.take_local(message, attachment)
+
+    def _is_wanted_elsewhere(self) -> bool:
+        """Whether to send; the hub takes a while to tell a new publisher who listens already."""
+        if self._unsure:
+            self._unsure = time.monotonic() < self._sure_s
+        return self._unsure or self._matched_elsewhere()
 
     def _matched_elsewhere(self) -> bool:
         with self._transport:
