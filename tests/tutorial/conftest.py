@@ -20,6 +20,8 @@ def open_terminal(tmp_path: Path, free_port: int) -> Iterator[Callable[[], Termi
     names = ("ROS_", "GAZELLE_", "AMENT_", "CMAKE_", "PYTHONPATH", "TURTLEBOT3_")
     environ = {key: value for key, value in os.environ.items() if not key.startswith(names)}
     environ["GAZELLE_PORT"] = str(free_port)
+    # No browser in tests; what is about the page has tests of its own.
+    environ["GAZELLE_STUDIO"] = "0"
     environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), environ["PATH"]])
     opened: list[Terminal] = []
 

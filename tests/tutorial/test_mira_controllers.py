@@ -75,6 +75,12 @@ def test_launch_starts_controllers_before_time_does_and_mira_stays_up(
 
     robot.eventually(lambda: abs(roll() - 0.1) < 2e-3)
 
+    words = ("rosrun", "dynamic_reconfigure", "dynparam")
+    assert in_workspace(*words, "set", f"{_ROLL}/pid", "p", "5.0", port=robot.port).wait() == 0
+    told = in_workspace(*words, "get", f"{_ROLL}/pid", port=robot.port)
+    assert told.wait() == 0
+    assert "'p': 5.0" in told.text
+
 
 def test_roll_joint_moves_as_an_independent_integration_does(
     mira: Simulation, workspaces_dir: Path

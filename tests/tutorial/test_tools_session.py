@@ -103,7 +103,7 @@ def _look_at_the_graph(desk: _Desk) -> None:
     desk.free.start("rostopic hz /turtle1/pose", r"^average rate: \d\d\.\d+$")
     assert re.search(r"^\tmin: 0\.0\d\ds max: .* std dev: .* window: \d+$", desk.free.text, re.M)
     desk.free.interrupt(code=0)
-    # The document's windows come with the page; until then they say so and do not end.
+    # The document's windows are panels of the page, which is switched off here.
     for name in ("rqt_graph", "rqt_plot"):
         desk.free.start(f"rosrun {name} {name}", _NO_WINDOW.format(name))
         desk.free.interrupt(code=0)
@@ -148,6 +148,8 @@ def _record_and_play(desk: _Desk, tmp_path: Path) -> None:
     desk.keys.pause(0.5)
     desk.free.interrupt(code=0)
     assert set(_counts(tmp_path / "subset.bag")) == {"/turtle1/cmd_vel", "/turtle1/pose"}
+    # The system stops what touches the terminal in the background; this does not.
+    assert "Stopped" not in run("rosbag play -q -r 9 subset.bag & wait")
 
 
 def test_words_as_printed_by_web_pages_are_told(open_terminal: Open) -> None:

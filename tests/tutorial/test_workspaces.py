@@ -6,9 +6,11 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.tutorial.terminals import Terminal
 
 _NODE = """import rclpy
 from rclpy.node import Node
@@ -122,3 +124,25 @@ rospack find turtlebot3_fake
     printed = _typed(script, tmp_path, free_port)
     place = tmp_path / "catkin_ws/src/turtlebot3_simulations/turtlebot3_fake"
     assert printed.splitlines()[-1] == str(place)
+
+
+@pytest.mark.tutorial
+def test_luck_workspace_is_built_and_found_by_the_next_terminal(
+    open_terminal: Callable[[], Terminal], tmp_path: Path
+) -> None:
+    first = open_terminal()
+    first.run("mkdir -p ~/luck_ws/src && cd ~/luck_ws/src")
+    made = first.run(
+        "ros2 pkg create luck_gazebo --build-type ament_python --dependencies gazebo_ros "
+        "gazebo_ros2_control controller_manager"
+    )
+    assert "going to create a new package\npackage name: luck_gazebo\n" in made
+    for line in ("cd luck_gazebo", "mkdir -p config", "touch config/controllers.yaml", "cd ../.."):
+        first.run(line)
+    assert "Summary: 1 package finished [" in first.run("colcon build --symlink-install")
+    told = first.run("rosdep install --from-paths src --ignore-src -r -y")
+    assert told.endswith("#All required rosdeps installed successfully\n")
+    second = open_terminal()
+    second.run("source ~/luck_ws/install/setup.bash 2>/dev/null")
+    prefix = second.run("ros2 pkg prefix luck_gazebo")
+    assert prefix == f"{tmp_path / 'luck_ws/install/luck_gazebo'}\n"

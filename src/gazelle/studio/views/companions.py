@@ -41,7 +41,9 @@ def _beside(
 ) -> int:
     """Run a node, and in a thread beside it what shows its panel."""
     if not is_switched_off():
-        window = graph.create_node(f"{arguments.name}_window", anonymous=True, rosout=False)
+        # Out of `rosnode list`, where the document's turtle has no such neighbour.
+        name = f"_{arguments.name}_window"
+        window = graph.create_node(name, anonymous=True, rosout=False, is_ros2=True)
         showing = threading.Thread(
             target=present, args=(window, request, stop, say), name="panel", daemon=True
         )
