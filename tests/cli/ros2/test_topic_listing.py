@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph, Node, Qos
 
 TWIST = "geometry_msgs/msg/Twist"
 
@@ -85,6 +85,18 @@ def test_info_shows_the_quality_of_service(robot: Node, run: Any) -> None:
         "  Liveliness lease duration: Infinite\n\nSubscription count: 0\n\n"
     )
     assert "Durability: TRANSIENT_LOCAL" in run("ros2", "topic", "info", "-v", "/map").out
+    wanted = Qos(False, True, 0, 1_500_000_000, 2_000_000, True, 3)
+    robot.create_subscription("/map", "nav_msgs/msg/OccupancyGrid", print, qos=wanted)
+    text = run("ros2", "topic", "info", "-v", "/map").out.rpartition("QoS profile:\n")[2]
+    assert text.splitlines()[:7] == [
+        "  Reliability: BEST_EFFORT",
+        "  History (Depth): KEEP_ALL",
+        "  Durability: TRANSIENT_LOCAL",
+        "  Lifespan: 2000000 nanoseconds",
+        "  Deadline: 1500000000 nanoseconds",
+        "  Liveliness: MANUAL_BY_TOPIC",
+        "  Liveliness lease duration: 3 nanoseconds",
+    ]
 
 
 def test_commands_do_not_show_themselves(

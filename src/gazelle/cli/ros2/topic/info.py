@@ -66,9 +66,13 @@ def _block(graph: Graph, one: Entity) -> str:
             f"  Reliability: {'RELIABLE' if qos.reliable else 'BEST_EFFORT'}",
             f"  History (Depth): {f'KEEP_LAST ({qos.depth})' if qos.depth else 'KEEP_ALL'}",
             f"  Durability: {'TRANSIENT_LOCAL' if qos.latched else 'VOLATILE'}",
-            "  Lifespan: Infinite",
-            "  Deadline: Infinite",
-            "  Liveliness: AUTOMATIC",
-            "  Liveliness lease duration: Infinite",
+            f"  Lifespan: {_limit(qos.lifespan_ns)}",
+            f"  Deadline: {_limit(qos.deadline_ns)}",
+            f"  Liveliness: {'MANUAL_BY_TOPIC' if qos.manual else 'AUTOMATIC'}",
+            f"  Liveliness lease duration: {_limit(qos.lease_ns)}",
         ]
     )
+
+
+def _limit(limit_ns: int) -> str:
+    return f"{limit_ns} nanoseconds" if limit_ns else "Infinite"
