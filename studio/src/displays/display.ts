@@ -108,6 +108,7 @@ export class Display {
     this.drawer.shown?.(enabled);
     if (enabled) this.begin();
     else this.end();
+    this.onChange('status');
     this.stage.view.moved();
   }
 

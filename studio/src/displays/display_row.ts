@@ -16,14 +16,15 @@ export class DisplayRow {
   readonly element: HTMLElement;
   private readonly head: HTMLElement;
   private readonly light = h('span', { class: 'display-light', 'aria-hidden': 'true' });
+  private readonly enabled = h('input', { type: 'checkbox' });
   private readonly name = h('span', { class: 'display-name' });
   private readonly body = h('div', { class: 'display-body', role: 'group' });
   private readonly status = h('div', { class: 'display-status' });
   private readonly open = new Set<string>();
 
   constructor(readonly display: Display, private readonly host: RowHost, expanded: boolean) {
-    const enabled = h('input', { type: 'checkbox', 'aria-label': `Show ${display.name}` });
-    enabled.checked = display.enabled;
+    const { enabled } = this;
+    enabled.setAttribute('aria-label', `Show ${display.name}`);
     enabled.addEventListener('change', () => {
       display.setEnabled(enabled.checked);
       host.touched();
@@ -57,6 +58,7 @@ export class DisplayRow {
   /** The status changed. */
   refreshStatus(): void {
     const { display } = this;
+    this.enabled.checked = display.enabled;
     this.light.dataset['level'] = display.enabled ? display.level : 'off';
     this.element.dataset['level'] = display.level;
     if (this.body.hidden) return;
@@ -73,27 +75,19 @@ export class DisplayRow {
 
   private rows(specs: readonly PropertySpec[], prefix: string): HTMLElement[] {
     const groups = new Map<string, PropertySpec[]>();
-    const found: HTMLElement[] = [];
-    const places = new Map<string, HTMLElement>();
+    const order: (PropertySpec | string)[] = [];
     for (const spec of specs) {
-      const rest = spec.path.slice(prefix.length);
-      const slash = rest.indexOf('/');
-      if (slash < 0) {
-        const row = this.row(spec, rest);
-        found.push(row);
-        continue;
+      const [group, ...deeper] = spec.path.slice(prefix.length).split('/');
+      if (!deeper.length) order.push(spec);
+      else if (groups.has(group)) groups.get(group)?.push(spec);
+      else {
+        groups.set(group, [spec]);
+        order.push(group);
       }
-      const group = rest.slice(0, slash);
-      if (!groups.has(group)) {
-        groups.set(group, []);
-        const place = h('div');
-        places.set(group, place);
-        found.push(place);
-      }
-      groups.get(group)?.push(spec);
     }
-    for (const [group, inner] of groups) places.get(group)?.replaceWith(this.group(group, inner, prefix));
-    return found;
+    return order.map((each) => typeof each === 'string'
+      ? this.group(each, groups.get(each) ?? [], prefix)
+      : this.row(each, each.path.slice(prefix.length)));
   }
 
   private group(name: string, specs: readonly PropertySpec[], prefix: string): HTMLElement {
