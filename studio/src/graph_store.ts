@@ -16,6 +16,8 @@ export interface GraphValue {
   actions: ActionValue[];
 }
 
+/** Nodes whose last name begins with an underscore are hidden, as in ROS 2: this page's own is one. */
+const HIDDEN = /\/_[^/]*$/;
 const EMPTY: GraphValue = { nodes: [], topics: [], services: [], actions: [] };
 
 /** The newest graph value and who wants to know of changes. */
@@ -46,7 +48,8 @@ export class GraphStore {
 
   private take(value: Json): void {
     if (!isObject(value)) return;
-    this.value = { ...EMPTY, ...(value as unknown as Partial<GraphValue>) };
+    const whole: GraphValue = { ...EMPTY, ...(value as unknown as Partial<GraphValue>) };
+    this.value = { ...whole, nodes: whole.nodes.filter((node) => !HIDDEN.test(node.name)) };
     for (const listener of this.listeners) listener(this.value);
   }
 }

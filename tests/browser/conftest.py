@@ -193,8 +193,11 @@ class Bench:
 
 
 @pytest.fixture
-def bench(free_port: int) -> Iterator[Bench]:
+def bench(
+    free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Bench]:
     """A graph of the test's own with a Studio on it, all in this process."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     if not _PAGE.is_file():
         pytest.skip("the page is not built (npm run build in studio/)")
     with (

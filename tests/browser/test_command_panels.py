@@ -62,11 +62,12 @@ def test_a_parameter_is_set_and_deleted(bench: Any, look: Any) -> None:
     assert field.input_value() == "0.5"
     field.fill("0.8")
     field.press("Enter")
-    bench.eventually(lambda: bench.graph.parameters.get("/speed") == 0.8)
+    bench.eventually(lambda: bench.graph.parameters.get("/speed", None) == 0.8)
     panel.get_by_label("Name of a parameter to set").fill("/gains")
     panel.get_by_label("Value to set").fill("[1, 2, 3]")
     panel.get_by_role("button", name="Set").click()
-    bench.eventually(lambda: bench.graph.parameters.get("/gains") == [1, 2, 3])
+    bench.eventually(lambda: bench.graph.parameters.get("/gains", None) == [1, 2, 3])
+    panel.get_by_label("Value of /gains", exact=True).wait_for()
     panel.get_by_label("Delete /speed").click()
     field.wait_for(state="detached")
     with pytest.raises(KeyError):
@@ -116,7 +117,7 @@ def test_a_slider_keeps_its_velocity_until_stop(bench: Any, look: Any) -> None:
             panel.get_by_label("Type").input_value() == "geometry_msgs/TwistStamped",
         )[-1]
     )
-    panel.get_by_label("Angular velocity in rad/s").fill("0.4")
+    panel.get_by_label("Angular velocity in rad/s", exact=True).fill("0.4")
     bench.eventually(lambda: len(heard) > 3)
     assert heard[-1].twist.angular.z == pytest.approx(0.4)
     assert heard[-1].header.stamp.sec > 0

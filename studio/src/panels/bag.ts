@@ -81,7 +81,8 @@ export class Bag extends BasePanel {
       this.host.fail(new Error('No topic is ticked to be recorded.'));
       return;
     }
-    await this.ask('bag.record', { topics: this.all ? null : [...this.chosen], path: this.path.value.trim(), format: this.format });
+    const topics: JsonObject = this.all ? {} : { topics: [...this.chosen] };
+    await this.ask('bag.record', { ...topics, path: this.path.value.trim(), format: this.format });
   }
 
   private async openBag(): Promise<void> {
@@ -103,6 +104,7 @@ export class Bag extends BasePanel {
     this.recording = state !== null;
     this.recordButton.classList.toggle('recording', this.recording);
     setText(this.recordButton.querySelector('span') ?? this.recordButton, this.recording ? 'Stop' : 'Record');
+    this.recordButton.title = this.recording ? 'Stop recording' : 'Record';
     setText(this.recordState, state
       ? `${textOf(state, 'path')}  ${clock(numberOf(state, 'seconds'))}  ${numberOf(state, 'messages')} messages  ${(numberOf(state, 'bytes') / 1e6).toFixed(1)} MB`
       : '');

@@ -26,7 +26,7 @@ export const FIRST_CHOICE: GraphChoice = {
   mode: 'nodes', nodes: '', topics: '', deadSinks: true, leafTopics: true, debug: true, tf: true, images: false, params: true, unreachable: false,
 };
 
-const QUIET = /^\/(rosout(_agg)?|diagnostics(_agg)?|diag_agg|runtime_logger|statistics|clock|cpu_monitor|monitor|hd_monitor|rxloggerlevel)$|\/(rqt|rviz|rosbag|record|studio)[^/]*$/;
+const QUIET = /^\/(rosout(_agg)?|diagnostics(_agg)?|diag_agg|runtime_logger|statistics|clock|cpu_monitor|monitor|hd_monitor|rxloggerlevel)$|\/(rqt|rviz|rosbag|record)[^/]*$/;
 const PARAMS = /\/(parameter_events|parameter_descriptions|parameter_updates)$/;
 
 /** The graph as it is drawn. */

@@ -21,7 +21,7 @@ export class ImageView extends BasePanel {
   private channel: Channel | null = null;
   private source: [number, number] = [0, 0];
   private readonly canvas = h('canvas', { class: 'picture', role: 'img', 'aria-label': 'Image' });
-  private readonly stage = h('div', { class: 'stage', tabindex: 0 }, this.canvas);
+  private readonly stage = h('div', { class: 'stage', tabindex: 0, 'aria-label': 'Image area: the wheel zooms' }, this.canvas);
   private readonly info = h('span', { class: 'dim' });
   private readonly pixel = h('output', { class: 'mono', 'aria-label': 'Pixel' });
   private readonly empty = notice('Choose an image topic.');

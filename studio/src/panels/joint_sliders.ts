@@ -10,7 +10,7 @@ interface Mimic { name: string; joint: string; multiplier: number; offset: numbe
 
 const PUBLISH_EVERY_MS = 100;
 /** Publishers that are this panel, or stand for it. */
-const OWN = /\/(studio|joint_state_publisher(_gui)?)[^/]*$/;
+const OWN = /\/(_?studio|joint_state_publisher(_gui)?)[^/]*$/;
 const MOVABLE = new Set(['revolute', 'continuous', 'prismatic']);
 
 /** joint_state_publisher_gui. */

@@ -21,6 +21,17 @@ export function askText(title: string, label: string, value = ''): Promise<strin
   });
 }
 
+/** Asks for a file of the person's machine; null when none is chosen. */
+export function askFile(accept: string): Promise<File | null> {
+  return new Promise((resolve) => {
+    const input = h('input', { type: 'file', accept, hidden: true });
+    input.addEventListener('change', () => { resolve(input.files?.[0] ?? null); input.remove(); });
+    input.addEventListener('cancel', () => { resolve(null); input.remove(); });
+    document.body.append(input);
+    input.click();
+  });
+}
+
 /** Asks whether something that cannot be undone shall be done. */
 export function confirmDanger(title: string, text: string, verb: string): Promise<boolean> {
   return new Promise((resolve) => {

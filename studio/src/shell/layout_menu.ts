@@ -1,10 +1,10 @@
 /** Which layout the page opens with, and the menu that saves, loads and resets layouts. */
 
 import type { Connection } from '../connection';
-import { textOf, type JsonObject } from '../json';
+import { isObject, textOf, type JsonObject } from '../json';
 import { findPanel } from '../panel';
 import { openMenu, type MenuItem } from '../widgets/menu';
-import { askText } from './dialog';
+import { askFile, askText } from './dialog';
 import type { Dock } from './dock';
 import type { LayoutStore } from './layout_store';
 import { NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
@@ -18,7 +18,7 @@ export class Layouts {
   private readonly awaited = new Set<string>();
 
   constructor(
-    connection: Connection, private readonly dock: Dock, private readonly store: LayoutStore, private readonly toasts: Toasts,
+    private readonly connection: Connection, private readonly dock: Dock, private readonly store: LayoutStore, private readonly toasts: Toasts,
   ) {
     connection.onHello((hello) => { if (!this.begun) this.begin(hello.panels); });
     connection.onShow((panel, params) => this.show(panel, params));
@@ -31,6 +31,7 @@ export class Layouts {
     const items: MenuItem[] = [
       { text: 'Save layout as…', run: () => void this.saveAs() },
       { text: 'Reset layout', run: () => this.reset() },
+      { text: 'Open perspective…', title: "A .perspective file of rqt", run: () => void this.openPerspective() },
       { text: 'Default layouts', heading: true },
       ...NAMED_LAYOUTS.map(([command, text]) => ({ text, run: () => this.dock.arrange(placesFor(command)) })),
     ];
@@ -70,6 +71,20 @@ export class Layouts {
     if (!name) return;
     const where = await this.store.save(name, this.dock.save());
     this.toasts.tell(where === 'server' ? `Layout ${name} is saved.` : `Layout ${name} is saved in this browser only.`);
+  }
+
+  /** Panels of an rqt perspective, in place of those that are open. */
+  private async openPerspective(): Promise<void> {
+    const file = await askFile('.perspective');
+    if (!file) return;
+    try {
+      const value = await this.connection.call('perspective.open', { name: file.name, text: await file.text() });
+      const panels = isObject(value) && Array.isArray(value['panels']) ? value['panels'].filter(isObject) : [];
+      this.dock.arrange([]);
+      for (const panel of panels) this.dock.show(textOf(panel, 'kind'), isObject(panel['params']) ? panel['params'] : {});
+    } catch (problem) {
+      this.toasts.fail(problem, file.name);
+    }
   }
 
   private async load(name: string): Promise<void> {

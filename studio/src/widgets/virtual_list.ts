@@ -20,6 +20,8 @@ export class VirtualList<T> {
   readonly element: HTMLElement;
   private readonly canvas = h('div', { class: 'rows', role: 'presentation' });
   private readonly pool: HTMLElement[] = [];
+  /** What each element shows: a click means that row, even if the list has changed since. */
+  private readonly shown = new WeakMap<HTMLElement, T>();
   private rows: readonly T[] = [];
   private stick = false;
   readonly refresh = perFrame(() => this.draw());
@@ -54,7 +56,7 @@ export class VirtualList<T> {
   /** The row that an element of it stands for. */
   rowAt(target: EventTarget | null): T | undefined {
     const element = target instanceof Element ? target.closest<HTMLElement>('[data-row]') : null;
-    return element ? this.rows[Number(element.dataset['row'])] : undefined;
+    return element ? this.shown.get(element) : undefined;
   }
 
   /** Brings a row into sight. */
@@ -83,6 +85,7 @@ export class VirtualList<T> {
     element.dataset['row'] = String(index);
     element.setAttribute('aria-rowindex', String(index + 1));
     element.style.transform = `translateY(${index * this.maker.height}px)`;
+    this.shown.set(element, this.rows[index]);
     this.maker.fill(element, this.rows[index], index);
   }
 

@@ -1,0 +1,58 @@
+"""The committed page is what its sources give, and small enough."""
+
+from __future__ import annotations
+
+import gzip
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+_ROOT = Path(__file__).parents[2]
+_SOURCES = _ROOT / "studio"
+_PAGE = _ROOT / "src" / "gazelle" / "studio" / "page"
+_MOST_BYTES = 500_000
+
+
+def test_the_page_transfers_in_less_than_500_kb() -> None:
+    sizes = {
+        path.name: len(gzip.compress(path.read_bytes(), 6)) for path in _files(_PAGE)
+    }
+    assert sum(sizes.values()) <= _MOST_BYTES, sizes
+
+
+def test_the_page_asks_nobody_else_for_anything() -> None:
+    html = (_PAGE / "index.html").read_text()
+    assert "http://" not in html
+    assert "https://" not in html
+    assert "<script>" not in html
+    assert "onclick" not in html
+
+
+@pytest.mark.slow
+def test_the_committed_page_is_what_its_sources_give(tmp_path: Path) -> None:
+    if shutil.which("npm") is None:
+        pytest.skip("npm is not installed")
+    if not (_SOURCES / "node_modules").is_dir():
+        pytest.skip("the page's packages are not installed (npm ci in studio/)")
+    _npm("run", "check")
+    _npm("exec", "--", "vite", "build", "--outDir", str(tmp_path / "page"), "--emptyOutDir")
+    built = {path.relative_to(tmp_path / "page"): path for path in _files(tmp_path / "page")}
+    committed = {path.relative_to(_PAGE): path for path in _files(_PAGE)}
+    assert sorted(built) == sorted(committed)
+    differing = [
+        str(name) for name, path in built.items() if path.read_bytes() != committed[name].read_bytes()
+    ]
+    assert not differing, "run npm run build in studio/ and commit the page"
+
+
+def _files(folder: Path) -> list[Path]:
+    return [path for path in sorted(folder.rglob("*")) if path.is_file()]
+
+
+def _npm(*words: str) -> None:
+    done = subprocess.run(
+        ["npm", *words], cwd=_SOURCES, capture_output=True, text=True, timeout=300, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
