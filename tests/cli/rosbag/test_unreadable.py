@@ -32,7 +32,9 @@ def forgotten_types(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def _make(path: Path) -> Path:
     """Write three readings of a type whose package nobody has."""
-    writer = create_bag(path, storage_of(path))
+    storage = storage_of(path)
+    assert storage is not None
+    writer = create_bag(path, storage)
     digest = hashlib.md5(_DEFINITION.strip().encode()).hexdigest()
     readings = writer.add(
         Connection(0, "/reading", _TYPE, Encoding.ROS1, _DEFINITION, digest, "/sensor", False)
