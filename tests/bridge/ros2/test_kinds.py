@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.bridge.ros2.kinds import TypeBook
+from gazelle.graph.wire import hash_of
 
 
 @pytest.fixture
@@ -48,6 +49,21 @@ def test_type_that_the_graph_lacks_is_told_once(told: list[str]) -> None:
         "service /s of /n does not cross the bridge: nothing here defines its type "
         "no_such_msgs/srv/Thing [bridge.type-missing]",
     ]
+
+
+def test_type_that_is_defined_otherwise_does_not_cross(told: list[str]) -> None:
+    book = TypeBook(told.append)
+    own = hash_of("std_msgs/msg/String")
+    assert book.agrees("std_msgs/msg/String", "topic /t", own)
+    assert book.agrees("std_msgs/msg/String", "topic /t", "")
+    assert book.agrees("no_such_msgs/msg/Thing", "topic /t", own)
+    assert told == []
+    assert not book.agrees("std_msgs/msg/String", "topic /t", "RIHS01_0123456789")
+    assert book.is_missing("std_msgs/msg/String")
+    assert told[0].startswith(
+        "topic /t does not cross the bridge: ROS 2 defines its type std_msgs/msg/String otherwise "
+        "(RIHS01_01234567… there, RIHS01_df668c74… here) [bridge.type-differs]"
+    )
 
 
 def test_types_are_read_from_what_ros_has_installed(told: list[str], tmp_path: Path) -> None:

@@ -149,6 +149,8 @@ def execute(goal):
             time.sleep(0.01)
         goal.canceled()
         return result
+    # Connections of topics need a moment, and rclpy starts at once.
+    time.sleep(0.5)
     goal.publish_feedback(Fibonacci.Feedback(sequence=[0, 1]))
     time.sleep(0.1)
     goal.succeed()

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph.errors import coded
+from gazelle.graph.wire import hash_of
 from gazelle.interfaces import (
     Generation,
     add_package,
@@ -19,6 +20,7 @@ from gazelle.interfaces import (
 
 __all__ = ["MessageKind", "ServiceKind", "TypeBook"]
 
+_HASH = "RIHS01_"
 _PARTS = ("msg", "srv", "action")
 _T = TypeVar("_T", "MessageKind", "ServiceKind")
 
@@ -100,6 +102,25 @@ class TypeBook:
             f"builds {package}; then start the bridge again"
         )
         self._notice(coded("bridge.type-missing", text, fix=fix))
+
+    def agrees(self, name: str, where: str, type_hash: str) -> bool:
+        """Return whether both sides define a type alike; if not, it does not cross.
+
+        Args:
+            name: the type.
+            where: what has it.
+            type_hash: of ROS's definition, empty when it is not known; then they agree.
+        """
+        own = hash_of(name)
+        if not (type_hash.startswith(_HASH) and own.startswith(_HASH)) or type_hash == own:
+            return True
+        self._missing.add(name)
+        text = (
+            f"{where} does not cross the bridge: ROS 2 defines its type {name} otherwise "
+            f"({type_hash[:15]}… there, {own[:15]}… here)"
+        )
+        self._tell(name, coded("bridge.type-differs", text))
+        return False
 
     def _found(self, look_up: Callable[[str], Any], name: str, where: str) -> Any:
         try:

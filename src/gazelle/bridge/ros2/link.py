@@ -4,12 +4,26 @@ from __future__ import annotations
 
 import itertools
 import threading
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from gazelle.bridge.ros2.rclpy_side.frames import Frame, FrameKind, Pipes
 from gazelle.graph.errors import ServiceRefusedError
 
-__all__ = ["Hearer", "Link"]
+__all__ = ["Hearer", "Link", "Outcome"]
+
+
+class Outcome(NamedTuple):
+    """How a command went.
+
+    Attributes:
+        error: why it failed, empty when it did not.
+        missing: ROS has no such type.
+        type_hash: of the type as ROS has built it, empty where it does not tell.
+    """
+
+    error: str
+    missing: bool
+    type_hash: str
 
 
 class Hearer(Protocol):
@@ -18,8 +32,8 @@ class Hearer(Protocol):
     def on_state(self, state: dict[str, Any]) -> None:
         """What there is in ROS has changed."""
 
-    def on_done(self, channel: int, error: str, missing: bool) -> None:
-        """A command was carried out, or not: then `error` says why."""
+    def on_done(self, channel: int, outcome: Outcome) -> None:
+        """A command was carried out, or not."""
 
     def on_message(self, channel: int, number: int, cdr: bytes) -> None:
         """A publisher, told by its number, has sent a message."""
@@ -141,7 +155,7 @@ class Link:
         if words.pop("report") == "state":
             self._hearer.on_state(words)
         else:
-            self._hearer.on_done(words["channel"], words["error"], words["missing"])
+            self._hearer.on_done(words.pop("channel"), Outcome(**words))
 
     def _finish(self, number: int, data: bytes, *, is_failure: bool) -> None:
         with self._lock:

@@ -135,16 +135,20 @@ class Outward:
             self._link.drop(gone.number)
         for key, quality in wanted.items():
             if key not in self._publishers:
-                made = self._link.do(
-                    "publisher",
-                    node=key.node,
-                    topic=key.topic,
-                    type=key.type_name,
-                    **quality._asdict(),
-                )
-                with self._lock:
-                    self._publishers[key] = _Channel(made, quality)
+                self._add_publisher(key, quality)
         return wanted
+
+    def _add_publisher(self, key: Spoken, quality: Quality) -> None:
+        # The report of how it went comes in another thread, which must find it entered.
+        with self._lock:
+            made = self._link.do(
+                "publisher",
+                node=key.node,
+                topic=key.topic,
+                type=key.type_name,
+                **quality._asdict(),
+            )
+            self._publishers[key] = _Channel(made, quality)
 
     def _settle_services(self, wishes: Wishes) -> None:
         for key in set(self._services) - set(wishes.services):
@@ -163,9 +167,10 @@ class Outward:
         if kind is None:
             return
         client = self._node.create_client(name, kind.service_class)
-        channel = self._link.do("service", node=node, topic=name, type=type_name)
-        self._services[key] = channel
-        self._served[channel] = _Served(name, kind, client)
+        with self._lock:
+            channel = self._link.do("service", node=node, topic=name, type=type_name)
+            self._services[key] = channel
+            self._served[channel] = _Served(name, kind, client)
 
     def _settle_taps(self, publishers: dict[Spoken, Quality], state: RosState) -> None:
         asked = {end.topic for end in state.subscriptions}

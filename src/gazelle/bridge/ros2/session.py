@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros2.inward import Inward
 from gazelle.bridge.ros2.kinds import TypeBook
-from gazelle.bridge.ros2.link import Link
+from gazelle.bridge.ros2.link import Link, Outcome
 from gazelle.bridge.ros2.outward import Outward
 from gazelle.bridge.ros2.side import About, Side
 from gazelle.bridge.ros2.state import NOTHING, RosState
@@ -97,19 +97,20 @@ class Session:
         self._state = RosState.from_report(state)
         self._on_change()
 
-    def on_done(self, channel: int, error: str, missing: bool) -> None:
+    def on_done(self, channel: int, outcome: Outcome) -> None:
         """See `Hearer`."""
-        if not error:
-            self._outward.channel_is_ready(channel)
-            self._on_change()
-            return
+        error = outcome.error
         owner = self._outward.owner_of(channel) or self._inward.owner_of(channel)
-        if owner is None and not missing:
+        if not error:
+            if owner is None or self._book.agrees(owner[1], owner[0], outcome.type_hash):
+                self._outward.channel_is_ready(channel)
+            self._on_change()
+        elif owner is None and not outcome.missing:
             self._notice(f"ROS 2 does not take a name of the graph: {error}")
         elif owner is None:
             # Given up already: the same type was missing elsewhere, and told.
             return
-        elif missing:
+        elif outcome.missing:
             self._book.miss(owner[1], owner[0], error)
             self._on_change()
         else:

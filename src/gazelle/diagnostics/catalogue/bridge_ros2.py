@@ -34,6 +34,15 @@ ENTRIES = (
         "",
     ),
     Entry(
+        "bridge.type-differs",
+        "warning",
+        "The two sides of the bridge to ROS 2 define a type differently",
+        "Messages cross as bytes, so the other side would read wrong values. Distributions of "
+        "ROS 2 change their messages now and then.",
+        "give both sides the same version of the package that defines it",
+        "type hash mismatch",
+    ),
+    Entry(
         "bridge.type-missing",
         "warning",
         "A type is known on one side of the bridge to ROS 2 only",

@@ -48,8 +48,9 @@ class Endpoints:
     def obey(self, command: dict[str, Any]) -> None:
         """Carry out a command and report how it went."""
         what, channel = command["do"], command.get("channel", 0)
+        type_hash = ""
         try:
-            getattr(self, f"_do_{what}")(command)
+            type_hash = getattr(self, f"_do_{what}")(command) or ""
             error, missing = "", False
         except MissingTypeError as problem:
             error, missing = str(problem), True
@@ -57,7 +58,9 @@ class Endpoints:
             # rclpy draws a caret below the bad letter of a name, on a line of its own.
             text = " ".join(str(problem).split()).removesuffix(" ^")
             error, missing = f"{type(problem).__name__}: {text}", False
-        self._pipes.send_control(report="done", channel=channel, error=error, missing=missing)
+        self._pipes.send_control(
+            report="done", channel=channel, error=error, missing=missing, type_hash=type_hash
+        )
 
     def publish(self, channel: int, data: bytes) -> None:
         """Publish a message; one for a topic that is gone by now is dropped."""
@@ -119,7 +122,7 @@ class Endpoints:
         node.destroy_node()
         self.own_names.discard(command["node"])
 
-    def _do_publisher(self, command: dict[str, Any]) -> None:
+    def _do_publisher(self, command: dict[str, Any]) -> str:
         node, topic, channel = self._node(command), command["topic"], command["channel"]
         made = node.create_publisher(
             class_of(command["type"]),
@@ -133,8 +136,9 @@ class Endpoints:
             self._echoes[topic] = Echoes(for_ever=True)
         self._publishers[channel] = (made, topic)
         self._drops[channel] = lambda: node.destroy_publisher(made)
+        return _type_hash(node, self._home.get_publishers_info_by_topic(topic), command["type"])
 
-    def _do_subscription(self, command: dict[str, Any]) -> None:
+    def _do_subscription(self, command: dict[str, Any]) -> str:
         node, topic, channel = self._node(command), command["topic"], command["channel"]
         taker = self._taker(channel, topic)
         kind = class_of(command["type"])
@@ -147,6 +151,7 @@ class Endpoints:
             event_callbacks=_silent("SubscriptionEventCallbacks"),
         )
         self._drops[channel] = lambda: node.destroy_subscription(made)
+        return _type_hash(node, self._home.get_subscriptions_info_by_topic(topic), command["type"])
 
     def _do_service(self, command: dict[str, Any]) -> None:
         node, channel = self._node(command), command["channel"]
@@ -198,6 +203,14 @@ class Endpoints:
         number = next(self._numbers)
         self._headers[channel, number] = header
         self._pipes.send(FrameKind.REQUEST, channel, number, self._serialize(request))
+
+
+def _type_hash(node: Any, infos: list[Any], type_name: str) -> str:
+    """Return the hash of a type as ROS has built it, empty before Iron."""
+    for one in infos:
+        if (one.node_name, one.topic_type) == (node.get_name(), type_name):
+            return str(getattr(one, "topic_type_hash", ""))
+    return ""
 
 
 def _silent(name: str) -> Any:
