@@ -143,12 +143,17 @@ def _page_file(path: str) -> Answer | None:
     """A file of the page; nothing outside its folder, whatever the path says."""
     if "\0" in path or "\\" in path:
         return None
-    found = (_PAGE / (path.lstrip("/") or "index.html")).resolve()
-    if not found.is_relative_to(_PAGE.resolve()) or not found.is_file():
+    try:
+        found = (_PAGE / (path.lstrip("/") or "index.html")).resolve()
+        if not found.is_relative_to(_PAGE.resolve()) or not found.is_file():
+            return None
+        data = found.read_bytes()
+    except OSError:
+        # The name is too long, or not of this file system.
         return None
     kind = _TYPES.get(found.suffix) or mimetypes.guess_type(found.name)[0]
     kind = kind or "application/octet-stream"
-    return Answer(found.read_bytes(), f"{kind}; charset=utf-8" if "text/" in kind else kind)
+    return Answer(data, f"{kind}; charset=utf-8" if "text/" in kind else kind)
 
 
 def _quoted(name: str) -> str:

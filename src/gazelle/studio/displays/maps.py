@@ -18,7 +18,7 @@ from gazelle.studio.taps import Sample
 __all__ = ["KIND_MAP", "open_map"]
 
 KIND_MAP = 21
-_REFRESH_S = 1.0
+_REFRESH_S = 0.5
 
 
 def open_map(site: Site) -> OpenStream:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from gazelle.graph.actions import as_message
+from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.interfaces import message_type, service_type
 from gazelle.studio.displays.showing import Site
 from gazelle.studio.errors import StudioError
@@ -103,13 +103,7 @@ def _pose(site: Site, marker: Any) -> Any:
     if not hasattr(marker, "ns"):
         raise StudioError(f"{marker.TYPE_NAME} is no marker")
     # Deleting needs no place.
-    return site.pose(marker.header) if marker.header.frame_id else _identity()
-
-
-def _identity() -> Any:
-    from gazelle.geometry.pose import IDENTITY_POSE
-
-    return IDENTITY_POSE
+    return site.pose(marker.header) if marker.header.frame_id else IDENTITY_POSE
 
 
 class _Meshes:
@@ -179,8 +173,7 @@ class _Interactive:
             answer = client.call(kind.Request(), _SERVICE_S)
         finally:
             client.unregister()
-        fields = {"markers": answer.markers, "seq_num": answer.sequence_number}
-        self._merge(as_message(fields, message_type(_INIT)))
+        self._merge(message_type(_INIT)(markers=answer.markers))
 
     def take(self, sample: Sample) -> None:
         """Runs in the transport's thread."""

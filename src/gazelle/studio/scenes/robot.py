@@ -5,9 +5,7 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from gazelle.description.loader import load_models
 from gazelle.diagnostics import Diagnostics
-from gazelle.sensors.scene_value import robot_value
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
@@ -24,6 +22,10 @@ _TOPIC_S = 2.0
 
 def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
     """``robot.get``: of ``parameter`` or ``topic``, of ``/robot_description`` in either."""
+    # Readers of descriptions take a third of the server's start; few pages wait for them.
+    from gazelle.description.loader import load_models
+    from gazelle.sensors.scene_value import robot_value
+
     text = _description(studio, params)
     found = Diagnostics()
     models = load_models(text, workspace=Workspace.discover(), diagnostics=found)

@@ -1,0 +1,104 @@
+"""A graph with a Studio on it, and pages."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import os
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from tests.studio.page import PATIENCE_S, Page
+
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import fill, message_type
+from gazelle.studio import Server, Studio
+
+_PORTS = itertools.count(os.getpid() % 1000)
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    """A graph that a module's tests share; each has topics of its own."""
+    with Graph.open(port=_free_port(), role="hub", environ={}) as opened:
+        yield opened
+
+
+@pytest.fixture
+def node(graph: Graph) -> Iterator[Node]:
+    """A node of the test."""
+    made = graph.create_node("test", rosout=False)
+    yield made
+    made.shutdown()
+
+
+@pytest.fixture(scope="module")
+def server(graph: Graph) -> Iterator[Server]:
+    """A server on the graph, on any free port."""
+    with Server(Studio(graph), port=0) as made:
+        yield made
+
+
+@pytest.fixture
+def connected(server: Server) -> Iterator[Callable[..., Page]]:
+    """Opens pages; they close with the test."""
+    pages: list[Page] = []
+
+    def make(**headers: str) -> Page:
+        pages.append(Page(server.port, **headers))
+        return pages[-1]
+
+    yield make
+    for page in pages:
+        page.close()
+
+
+@pytest.fixture
+def page(connected: Callable[..., Page]) -> Page:
+    """A page."""
+    return connected()
+
+
+Talk = Callable[..., Any]
+
+
+@pytest.fixture
+def talk(node: Node) -> Talk:
+    """Publishes a message with fields on a topic; each topic has one publisher."""
+    publishers: dict[str, Any] = {}
+
+    def publish(topic: str, type_name: str, **fields: Any) -> Any:
+        message_class = message_type(type_name)
+        latch = bool(fields.pop("latch", False))
+        if topic not in publishers:
+            publishers[topic] = node.create_publisher(topic, message_class, latch=latch)
+        message = message_class()
+        fill(message, fields)
+        publishers[topic].publish(message)
+        return publishers[topic]
+
+    return publish
+
+
+def eventually(condition: Callable[[], Any]) -> Any:
+    """Return what a condition gives as soon as that is true."""
+    deadline = time.monotonic() + PATIENCE_S
+    pause = threading.Event()
+    while not (found := condition()):
+        assert time.monotonic() < deadline, "did not happen in time"
+        pause.wait(0.01)
+    return found
+
+
+def _free_port() -> int:
+    """A port below those that the system hands out by itself, as the fixture `free_port` takes."""
+    for number in _PORTS:
+        port = 28_000 + number % 4_000
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("itertools.count ends")
