@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 
@@ -72,3 +73,24 @@ def _run(text: str) -> subprocess.CompletedProcess[str]:
         timeout=30,
         check=False,
     )
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signal masks")
+def test_stop_signal_is_heard_while_the_main_thread_cannot_hear_it() -> None:
+    """As when the kernel hands it to a thread of the transport, which Python's handlers await."""
+    text = """
+import signal, threading
+from gazelle.ending import at_stop_signal
+stop = threading.Event()
+at_stop_signal(stop.set)
+signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
+print("ready", flush=True)
+print("heard" if stop.wait(20) else "slept on", flush=True)
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", text], stdout=subprocess.PIPE, text=True
+    ) as program:
+        assert program.stdout is not None
+        assert program.stdout.readline() == "ready\n"
+        program.send_signal(signal.SIGTERM)
+        assert program.stdout.readline() == "heard\n"

@@ -8,7 +8,7 @@ import sys
 import threading
 from pathlib import Path
 
-from gazelle.ending import end_with
+from gazelle.ending import at_stop_signal, end_with
 from gazelle.errors import GazelleError
 from gazelle.graph.parent import end_with_parent
 
@@ -37,8 +37,7 @@ def _single(name: str, argv: list[str]) -> int:
     from gazelle.nodes.log_file import LogFile
 
     stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_args: stop.set())
+    at_stop_signal(stop.set)
     namespace = os.environ.get("ROS_NAMESPACE", "/")
     try:
         with Graph.open() as graph:

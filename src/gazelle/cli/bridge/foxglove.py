@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import ipaddress
-import signal
 import sys
 import threading
 
 from gazelle.bridge.foxglove import Allow, FoxgloveBridge, SdkViewers
 from gazelle.bridge.foxglove.viewers import Requests
 from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.ending import at_stop_signal
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 from gazelle.workspace import Workspace
@@ -26,8 +26,7 @@ def main(argv: list[str]) -> int:
     options = _parser().parse_args(argv)
     learn_workspace_types()
     stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda _number, _frame: stop.set())
+    at_stop_signal(stop.set)
     with Graph.open() as graph:
         try:
             bridge = FoxgloveBridge(

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 import threading
-from typing import Any
 
 from gazelle.bridge.ros1 import Address, Bridge, MasterAddress, master_address, own_address
 from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 
 __all__ = ["main"]
@@ -23,7 +22,7 @@ def main(argv: list[str]) -> int:
     address = own_address(os.environ)
     learn_workspace_types()
     stop = threading.Event()
-    _stop_on_signals(stop)
+    at_stop_signal(stop.set)
     with Graph.open() as graph:
         bridge = Bridge(graph, place, address)
         bridge.on_end(stop.set)
@@ -74,11 +73,3 @@ def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
             f"{address.host}; export ROS_IP with its address in their network",
             file=sys.stderr,
         )
-
-
-def _stop_on_signals(stop: threading.Event) -> None:
-    def on_signal(_number: int, _frame: Any) -> None:
-        stop.set()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, on_signal)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 import threading
-from typing import Any
 
 from gazelle.bridge.ros2 import About, Bridge, candidates, is_open
 from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 
 __all__ = ["main"]
@@ -25,7 +24,7 @@ def main(argv: list[str]) -> int:
     with Graph.open() as graph:
         # Starting ROS may take long; until then a signal ends the process at once.
         bridge = Bridge(graph, candidates(options.python, environ), environ)
-        _stop_on_signals(stop)
+        at_stop_signal(stop.set)
         bridge.on_end(stop.set)
         try:
             _say(bridge.about, graph.domain, is_network=is_open(environ))
@@ -61,11 +60,3 @@ def _say(about: About, domain: int, *, is_network: bool) -> None:
             "machine only",
             file=sys.stderr,
         )
-
-
-def _stop_on_signals(stop: threading.Event) -> None:
-    def on_signal(_number: int, _frame: Any) -> None:
-        stop.set()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, on_signal)

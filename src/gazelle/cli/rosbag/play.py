@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import signal
-
 from gazelle.bag.playing import Controls
 from gazelle.cli.tool import joined
+from gazelle.ending import at_stop_signal
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.rosbag.play import play, play_options
 
@@ -17,8 +16,7 @@ def run(words: list[str]) -> int:
     line = parse_command_line(words)
     options, paths = play_options(line.rest)
     controls = Controls(paused=options.pause)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_args: controls.stop())
+    at_stop_signal(controls.stop)
     with joined() as graph:
         node = graph.create_node(
             line.name or "play",

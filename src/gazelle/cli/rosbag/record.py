@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 
 from gazelle.cli.tool import joined
+from gazelle.ending import at_stop_signal
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.rosbag.record import main_options, record
 
@@ -17,8 +17,7 @@ def run(words: list[str]) -> int:
     line = parse_command_line(words)
     options, args = main_options(line.rest)
     stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_args: stop.set())
+    at_stop_signal(stop.set)
     with joined() as graph:
         node = graph.create_node(
             line.name or "record",

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import threading
 import webbrowser
 
+from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
 from gazelle.studio.views.presence import offer
@@ -21,7 +21,7 @@ def main(argv: list[str]) -> int:
     """Run until Ctrl-C, SIGTERM or ``rosnode kill``."""
     options = _parser().parse_args(argv)
     stop = threading.Event()
-    signal.signal(signal.SIGTERM, lambda *_: stop.set())
+    at_stop_signal(stop.set)
     with Graph.open() as graph:
         studio = Studio(graph)
         studio.node.on_shutdown(lambda _reason: stop.set())

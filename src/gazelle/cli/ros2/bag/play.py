@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import re
-import signal
 from functools import partial
 
 from gazelle.bag import Connection, learn_definitions, open_bag
@@ -13,6 +12,7 @@ from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 
 __all__ = ["main"]
@@ -32,8 +32,7 @@ def main(argv: list[str]) -> int:
     """Play a bag until it ends, or until Ctrl-C."""
     options = _options(argv)
     controls = Controls(paused=options.start_paused)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_args: controls.stop())
+    at_stop_signal(controls.stop)
     with Graph.open(role="client") as graph:
         return _play(graph, options, controls)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import re
-import signal
 import sys
 import threading
 import time
@@ -17,6 +16,7 @@ from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
+from gazelle.ending import at_stop_signal
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 
@@ -29,8 +29,7 @@ def main(argv: list[str]) -> int:
     """Record topics until Ctrl-C."""
     options = _options(argv)
     stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_args: stop.set())
+    at_stop_signal(stop.set)
     with Graph.open(role="client") as graph:
         return _record(graph, options, stop)
 
