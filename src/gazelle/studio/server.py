@@ -17,6 +17,7 @@ from gazelle.errors import GazelleError
 from gazelle.studio.catalogue import ROUTES
 from gazelle.studio.connection import Connection
 from gazelle.studio.files import answer_to, response
+from gazelle.studio.memory import keep_freed_memory
 from gazelle.studio.security import Guard, guard_for
 from gazelle.studio.session import Studio
 from gazelle.studio.workers import in_thread
@@ -57,6 +58,7 @@ class Server:
         self._stop = asyncio.Event()
         self._error: OSError | None = None
         self._guard = Guard(host, 0, "")
+        keep_freed_memory()
         self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
         self._thread.start()
         self._started.wait(_STARTING_S)
