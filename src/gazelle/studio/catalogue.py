@@ -15,6 +15,7 @@ from gazelle.studio.downloads import download, save_file
 from gazelle.studio.files import Route
 from gazelle.studio.graph_view import tables as graph_view
 from gazelle.studio.params import Params
+from gazelle.studio.plugins import tables as plugins
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
 from gazelle.studio.scenes.robot import get_robot
 from gazelle.studio.session import Studio
@@ -32,6 +33,7 @@ METHODS: dict[str, Method] = {
     **world.METHODS,
     **bags.METHODS,
     **settings.METHODS,
+    **plugins.METHODS,
     "file.save": save_file,
     "robot.get": get_robot,
 }
@@ -40,9 +42,11 @@ STREAMS: dict[str, StreamKind] = {
     **displays.STREAMS,
     **world.STREAMS,
     **bags.STREAMS,
+    **plugins.STREAMS,
 }
 ROUTES: dict[str, Route] = {
     **world.ROUTES,
+    **plugins.ROUTES,
     "file": download,
     "mesh": mesh_answer,
     "texture": texture_answer,

@@ -1,0 +1,116 @@
+"""``plugin.*``, the stream ``plugin`` and ``/plugin/…``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.studio.errors import StudioError
+from gazelle.studio.files import Answer
+from gazelle.studio.params import Params
+from gazelle.studio.plugins.rqt.manifests import rqt_plugins
+from gazelle.studio.plugins.rqt.porting import how_to_port
+from gazelle.studio.plugins.shows import Desk
+from gazelle.studio.plugins.sources import Source
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.workspace import Workspace
+
+__all__ = [
+    "file_answer",
+    "list_panels",
+    "open_panel",
+    "port_panel",
+    "reload_panel",
+    "take_event",
+]
+
+_ENDINGS = (".js", ".mjs")
+
+
+def list_panels(studio: Studio, _params: Params) -> list[dict[str, Any]]:
+    """``plugin.list``: what could be opened; no code of it runs."""
+    panels = [
+        {
+            "name": source.name,
+            "kind": "panel",
+            "title": source.title,
+            "group": source.texts.get("group", ""),
+            "about": source.texts.get("about") or source.origin,
+            "problem": source.problem,
+        }
+        for source in studio.shared(Desk).sources().values()
+    ]
+    foreign = [
+        {
+            "name": plugin.name,
+            "kind": "rqt",
+            "title": plugin.label,
+            "group": "",
+            "about": f"a plug-in of rqt in package {plugin.package}: how to port it",
+            "problem": "",
+        }
+        for plugin in rqt_plugins(Workspace.discover())
+    ]
+    return panels + foreign
+
+
+def open_panel(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``plugin``: events of one panel, whose code starts with its first page."""
+    show = studio.shared(Desk).show(params.text("name"))
+    leave = show.follow(channel)
+    source = show.source
+    script = _script(source)
+    info = {
+        "title": source.title,
+        "file": str(source.file),
+        "module": f"/plugin/{source.name}.js" if script else None,
+    }
+    return OpenStream(leave, info)
+
+
+def take_event(studio: Studio, params: Params) -> dict[str, Any]:
+    """``plugin.event``: what a person did with a widget."""
+    life = studio.shared(Desk).shown(params.text("name")).life
+    if life is None:
+        raise StudioError(f"the panel '{params.text('name')}' is not open")
+    life.event(params.text("widget", ""), params.any("value", None))
+    return {}
+
+
+def reload_panel(studio: Studio, params: Params) -> dict[str, Any]:
+    """``plugin.reload``: the panel begins anew with its file as it is now."""
+    desk, name = studio.shared(Desk), params.text("name")
+    show = desk.shown(name)
+    # A file that cannot be read now is no panel of the list; trying it tells why.
+    show.reload(desk.sources().get(name, show.source))
+    return {}
+
+
+def port_panel(_studio: Studio, params: Params) -> dict[str, Any]:
+    """``plugin.port``: how a plug-in of rqt becomes a panel."""
+    return how_to_port(params.text("name"), Workspace.discover())
+
+
+def file_answer(studio: Studio, rest: str) -> Answer | None:
+    """``/plugin/<name>.js``: the ES module; ``/plugin/<name>/<widget>``: a picture."""
+    desk = studio.shared(Desk)
+    name, slash, widget = rest.partition("/")
+    if slash:
+        try:
+            return desk.picture(name, widget)
+        except StudioError:
+            return None
+    source = desk.sources().get(name.removesuffix(".js"))
+    path = _script(source) if source is not None and name.endswith(".js") else None
+    if path is None:
+        return None
+    return Answer(path.read_bytes(), "text/javascript; charset=utf-8")
+
+
+def _script(source: Source) -> Any:
+    """Return the ES module's file: in the folder of the panel's file or below, nowhere else."""
+    name = source.texts.get("module", "")
+    folder = source.file.parent.resolve()
+    path = (folder / name).resolve()
+    inside = path.is_relative_to(folder) and path.suffix in _ENDINGS
+    return path if name and inside and path.is_file() else None

@@ -1,0 +1,1 @@
+"""Plug-ins of rqt in the user's packages, and how they become panels."""

@@ -1,0 +1,164 @@
+"""Where panels come from: files that were named, packages of the workspace, entry points."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from gazelle.diagnostics import nearest_names
+from gazelle.errors import GazelleError
+from gazelle.studio.plugins.reading import PanelClass, Unreadable, panel_classes
+from gazelle.workspace import Package, Workspace
+
+__all__ = ["ENTRY_POINTS", "FOLDER", "Source", "all_sources", "named_file", "sources_of_package"]
+
+FOLDER = "panels"
+"""Folder of a package whose Python files are looked at."""
+ENTRY_POINTS = "gazelle.panels"
+
+
+class Source(NamedTuple):
+    """A panel that could be opened; nothing of it has run.
+
+    Attributes:
+        name: ``package.Class``; unique.
+        file: where its class is.
+        class_name: of the class.
+        line: where it begins.
+        texts: title, group, about and module as far as they are written as texts.
+        origin: what it belongs to, in words.
+        folders: where the file may import from, besides its own folder.
+        module_name: of an installed one, which is imported by its name.
+        problem: why it cannot be opened, empty when it can.
+    """
+
+    name: str
+    file: Path
+    class_name: str
+    line: int = 1
+    texts: dict[str, str] = {}  # noqa: RUF012 - of a tuple, and never written
+    origin: str = ""
+    folders: tuple[Path, ...] = ()
+    module_name: str = ""
+    problem: str = ""
+
+    @property
+    def title(self) -> str:
+        """What the menu says."""
+        return self.texts.get("title") or self.class_name or self.file.name
+
+
+def all_sources(named: Iterable[Source], workspace: Workspace) -> dict[str, Source]:
+    """Return all panels by name: those that were named, the workspace's, installed ones."""
+    found: dict[str, Source] = {}
+    own = (package for package in workspace.packages.values() if not package.is_builtin)
+    for package in own:
+        for source in sources_of_package(package):
+            _keep(found, source)
+    for source in _installed():
+        _keep(found, source)
+    for source in named:
+        found[source.name] = source
+    return found
+
+
+def named_file(words: str) -> tuple[Source, ...]:
+    """Return the panels that ``FILE.py`` or ``FILE.py:Class`` means.
+
+    Raises:
+        GazelleError: there is no such file, it cannot be read, or has no such panel.
+    """
+    path, wanted = _split(words)
+    file = Path(path).expanduser().absolute()
+    if not file.is_file():
+        raise GazelleError(f"--panel {words}: there is no file {file}")
+    classes = panel_classes(file)
+    if isinstance(classes, Unreadable):
+        raise GazelleError(f"--panel {words}: {classes.reason}")
+    if not classes:
+        text = f"--panel {words}: the file has no class that derives from "
+        raise GazelleError(text + "gazelle.studio.plugins.Panel")
+    names = [one.name for one in classes]
+    if wanted and wanted not in names:
+        nearest = ", ".join(nearest_names(wanted, names) or names)
+        raise GazelleError(f"--panel {words}: the file has no panel '{wanted}'; it has {nearest}")
+    chosen = [one for one in classes if wanted in ("", one.name)]
+    return tuple(_source(file.stem, file, one, f"file {file}") for one in chosen)
+
+
+def sources_of_package(package: Package) -> Iterator[Source]:
+    """Yield the panels in a package's folder ``panels``."""
+    folders = (package.path / "src", package.path)
+    for file in sorted((package.path / FOLDER).glob("*.py")):
+        classes = panel_classes(file)
+        origin = f"package {package.name}"
+        if isinstance(classes, Unreadable):
+            name = f"{package.name}.{file.stem}"
+            yield Source(name, file, "", origin=origin, problem=classes.reason)
+            continue
+        for one in classes:
+            yield _source(package.name, file, one, origin)._replace(folders=folders)
+
+
+def _installed() -> Iterator[Source]:
+    for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
+        module_name, _, class_name = point.value.partition(":")
+        name = point.name.replace("/", ".")
+        origin = f"entry point {point.name} = {point.value}"
+        file = _file_of_module(module_name)
+        if file is None:
+            yield Source(
+                name,
+                Path(module_name),
+                class_name,
+                origin=origin,
+                problem=f"{origin}: there is no module {module_name}",
+            )
+            continue
+        classes = panel_classes(file)
+        known = () if isinstance(classes, Unreadable) else classes
+        found = next((one for one in known if one.name == class_name), None)
+        made = _source("", file, found or PanelClass(class_name, 1, {}), origin)
+        yield made._replace(name=name, module_name=module_name)
+
+
+def _file_of_module(name: str) -> Path | None:
+    """Return a module's file; only its first part is asked of Python, which runs nothing then."""
+    top, *rest = name.split(".")
+    try:
+        spec = importlib.util.find_spec(top)
+    except (ImportError, ValueError):
+        return None
+    if spec is None:
+        return None
+    if not rest:
+        return Path(spec.origin) if spec.origin else None
+    for place in spec.submodule_search_locations or ():
+        path = Path(place, *rest)
+        for file in (path.with_suffix(".py"), path / "__init__.py"):
+            if file.is_file():
+                return file
+    return None
+
+
+def _source(prefix: str, file: Path, one: PanelClass, origin: str) -> Source:
+    name = f"{prefix}.{one.name}"
+    return Source(name, file, one.name, one.line, one.texts, origin)
+
+
+def _keep(found: dict[str, Source], source: Source) -> None:
+    """Two of one name: the later one is named by its file too."""
+    name = source.name
+    if name in found:
+        head, _, last = name.rpartition(".")
+        name = f"{head}.{source.file.stem}.{last}" if head else f"{source.file.stem}.{last}"
+    found.setdefault(name, source._replace(name=name))
+
+
+def _split(words: str) -> tuple[str, str]:
+    """A drive letter has a colon too."""
+    path, colon, wanted = words.rpartition(":")
+    return (path, wanted) if colon and wanted.isidentifier() else (words, "")

@@ -1,0 +1,145 @@
+"""Which values a widget takes, from the panel's code and from the page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from gazelle.studio.plugins.pictures import checked_picture
+from gazelle.studio.plugins.widgets import (
+    Button,
+    Checkbox,
+    Choice,
+    Image,
+    Label,
+    Number,
+    Plot,
+    Slider,
+    Table,
+    TextInput,
+    Widget,
+)
+
+__all__ = ["accepted", "chosen", "first_value", "refitted"]
+
+_MOST_ROWS = 1000
+_EVENTS = (Slider, Number, Checkbox, Choice, TextInput, Button)
+"""Kinds that a person acts on."""
+
+
+def first_value(widget: Widget) -> Any:
+    """Return what a widget shows at the start."""
+    match widget:
+        case Slider():
+            return widget.min if widget.value is None else accepted(widget, widget.value)
+        case Choice():
+            return widget.value or next(iter(widget.options), "")
+        case Number() | Checkbox() | TextInput() | Label() | Table():
+            return accepted(widget, widget.value)
+        case _:
+            return None
+
+
+def accepted(widget: Widget, value: Any) -> Any:
+    """Return a value as the widget keeps it.
+
+    Raises:
+        TypeError: it is of another kind than the widget shows.
+        ValueError: it is out of limits or none of the options.
+    """
+    match widget:
+        case Slider() | Number():
+            return _within(widget, _number(widget, value))
+        case Checkbox():
+            return bool(value)
+        case Choice():
+            return _option(widget, value)
+        case TextInput():
+            return str(value)
+        case Label():
+            return _plain(value) if isinstance(value, int | float | np.generic) else str(value)
+        case Table():
+            return _rows(widget, value)
+        case Plot():
+            raise TypeError(f"'{widget.name}' is a plot: use add('{widget.name}', …)")
+        case Image() if not widget.topic:
+            return checked_picture(value)
+        case Image():
+            raise TypeError(f"'{widget.name}' shows the topic {widget.topic}; it takes no picture")
+        case _:
+            raise TypeError(f"'{widget.name}' is a {type(widget).__name__} and shows no value")
+
+
+def chosen(widget: Widget, value: Any) -> Any:
+    """Return what a person chose; numbers are brought within the limits.
+
+    Raises:
+        TypeError: the widget is not of a kind that a person acts on, or the value not of its kind.
+        ValueError: it is none of the options.
+    """
+    if not isinstance(widget, _EVENTS):
+        raise TypeError(f"'{widget.name}' is a {type(widget).__name__}: nobody acts on it")
+    if isinstance(widget, Button):
+        return None
+    if isinstance(widget, Slider | Number):
+        return _number(widget, min(max(_number(widget, value), widget.min), widget.max))
+    return accepted(widget, value)
+
+
+def refitted(widget: Widget, value: Any) -> Any:
+    """Return a value that a widget had as one that fits it now."""
+    if isinstance(widget, Choice):
+        return value if value in widget.options else first_value(widget)
+    if isinstance(widget, Slider | Number):
+        return chosen(widget, value)
+    return value
+
+
+def _number(widget: Slider | Number, value: Any) -> float:
+    value = _plain(value)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise TypeError(f"'{widget.name}' takes a number, not {value!r}")
+    return round(value) if _is_whole(widget) else float(value)
+
+
+def _is_whole(widget: Slider | Number) -> bool:
+    if isinstance(widget, Number):
+        return isinstance(widget.value, int)
+    return isinstance(widget.step, int)
+
+
+def _within(widget: Slider | Number, value: float) -> float:
+    if not widget.min <= value <= widget.max:
+        limits = f"{widget.min:g} to {widget.max:g}"
+        raise ValueError(f"'{widget.name}' goes from {limits}; {value:g} is outside")
+    return value
+
+
+def _option(widget: Choice, value: Any) -> str:
+    if value not in widget.options:
+        options = ", ".join(widget.options) or "there are none"
+        raise ValueError(f"'{widget.name}' has no option {value!r}; its options: {options}")
+    return str(value)
+
+
+def _rows(widget: Table, value: Any) -> list[list[Any]]:
+    if isinstance(value, Mapping):
+        value = value.items()
+    rows = [[_cell(cell) for cell in row] for row in value]
+    wrong = next((row for row in rows if len(row) != len(widget.columns)), None)
+    if wrong is not None:
+        text = f"'{widget.name}' has {len(widget.columns)} columns, not {len(wrong)}: {wrong}"
+        raise ValueError(text)
+    return rows[:_MOST_ROWS]
+
+
+def _cell(value: Any) -> Any:
+    value = _plain(value)
+    return value if isinstance(value, int | float | str) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
