@@ -451,11 +451,24 @@ def test_displays_refuse_what_they_do_not_know(
     assert known in caught.value.error["known"]
 
 
-def test_a_message_of_the_wrong_type_is_a_status(page: Page, talk: Talk) -> None:
-    for name in ("LaserScan", "Map", "Marker", "Path", "Image"):
-        stream = page.display(name, "/just_words")
-        talk("/just_words", "std_msgs/String", data="x")
-        assert stream.status.get(timeout=PATIENCE_S)["level"] == "error"
+@pytest.mark.parametrize(
+    ("display", "text"),
+    [
+        ("LaserScan", "std_msgs/msg/String has no header, so it has no place"),
+        ("Path", "std_msgs/msg/String has no header, so it has no place"),
+        ("DepthCloud", "std_msgs/msg/String has no header, so it has no place"),
+        ("Map", "std_msgs/msg/String is no map"),
+        ("Marker", "std_msgs/msg/String is no marker"),
+        ("Image", "std_msgs/msg/String is no picture"),
+    ],
+)
+def test_a_message_of_the_wrong_type_is_a_status(
+    page: Page, talk: Talk, display: str, text: str
+) -> None:
+    stream = page.display(display, "/just_words")
+    talk("/just_words", "std_msgs/String", data="x")
+    status = stream.status.get(timeout=PATIENCE_S)
+    assert (status["level"], status["text"]) == ("error", text)
 
 
 def _cloud(rows: list[Any], fourth: str, frame: str = "laser") -> dict[str, Any]:

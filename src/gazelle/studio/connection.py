@@ -6,6 +6,7 @@ import asyncio
 import json
 from collections import deque
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection
@@ -82,13 +83,17 @@ class Connection:
 
     def post(self, data: str | bytes, on_sent: Callable[[], None] | None = None) -> None:
         """Send a frame; from any thread."""
-        if not self._closed and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._put, data, on_sent)
+        self._soon(self._put, data, on_sent)
 
     def later(self, delay_s: float, call: Callable[[], None]) -> None:
         """Call something in the event loop; from any thread."""
-        if not self._closed and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._loop.call_later, delay_s, call)
+        self._soon(self._loop.call_later, delay_s, call)
+
+    def _soon(self, call: Callable[..., Any], *arguments: Any) -> None:
+        # The loop may close at any moment, and with it everybody who could be told.
+        with suppress(RuntimeError):
+            if not self._closed:
+                self._loop.call_soon_threadsafe(call, *arguments)
 
     def _put(self, data: str | bytes, on_sent: Callable[[], None] | None) -> None:
         self._out.append((data, on_sent))

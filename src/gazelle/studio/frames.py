@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["NO_POSE", "Frames", "pose_values", "poses_in"]
 
 NO_POSE = (float("nan"),) * 7
-_TELL_S = 0.01
+_TELL_S = 0.02
 _LOOK_S = 0.5
 
 

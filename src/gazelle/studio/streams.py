@@ -112,11 +112,6 @@ class Channel:
         """True when nothing more can be sent."""
         return self._closed
 
-    @property
-    def wanted(self) -> bool:
-        """True while a frame that is offered now would be made at once."""
-        return not self._closed and self._credits > 0 and not self._making
-
     def offer(self, make: Callable[[], Any]) -> None:
         """Give the newest data of a *latest* stream; whatever waited is forgotten.
 

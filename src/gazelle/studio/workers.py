@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from queue import SimpleQueue
 from typing import Any, TypeVar
 
@@ -59,7 +60,8 @@ async def in_thread(function: Callable[..., _T], *arguments: Any) -> _T:
             value = function(*arguments)
         except Exception as raised:  # noqa: BLE001 - it is raised again where it is awaited
             error = raised
-        if not loop.is_closed():
+        # The server may have closed meanwhile; then nobody waits any more.
+        with suppress(RuntimeError):
             loop.call_soon_threadsafe(settle, value, error)
 
     threading.Thread(target=run, daemon=True).start()

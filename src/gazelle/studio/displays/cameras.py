@@ -12,7 +12,7 @@ from gazelle.studio.displays.pictures import (
     checked_colormap,
     encoded_picture,
 )
-from gazelle.studio.displays.showing import Site, open_newest, open_on
+from gazelle.studio.displays.showing import Site, headed, open_newest, open_on
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
@@ -53,7 +53,7 @@ def open_camera(site: Site) -> OpenStream:
             text = f"No CameraInfo received on [{info.topic}]. Topic may not exist."
             site.channel.status("warn", text)
             return frame
-        header = sample.message().header
+        header = headed(sample).header
         value = {
             "camera_info": message_value(camera, None),
             "pose": pose_values(site.pose(header)),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
 from gazelle.studio.displays.point_colours import Colouring, ramp
-from gazelle.studio.displays.showing import Site, open_newest
+from gazelle.studio.displays.showing import Site, headed, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.stamps import stamp_s
@@ -50,7 +50,7 @@ def open_points(site: Site) -> OpenStream:
     budget = site.params.whole("budget", BUDGET, least=1, most=_LARGEST_BUDGET)
 
     def make(sample: Sample) -> Frame:
-        message = sample.message()
+        message = headed(sample)
         pose = site.pose(message.header)
         wanted = (colouring.channel,) if colouring.transformer in ("", "Intensity") else ()
         points = points_of(message, budget, wanted, colouring.transformer in ("", "RGB8"))

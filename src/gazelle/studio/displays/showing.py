@@ -15,7 +15,7 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Site", "open_newest", "open_on", "stamp_ns"]
+__all__ = ["Site", "headed", "open_newest", "open_on", "stamp_ns"]
 
 _RETRY_S = 0.5
 _NANO = 1_000_000_000
@@ -53,6 +53,18 @@ class Site:
             raise StudioError(
                 f"No transform from [{header.frame_id}] to [{self._fixed}]: {error}"
             ) from error
+
+
+def headed(sample: Sample) -> Any:
+    """Return a sample's message, which must have a header.
+
+    Raises:
+        StudioError: it has none, so nobody knows where it is.
+    """
+    message = sample.message()
+    if not hasattr(message, "header"):
+        raise StudioError(f"{sample.raw.type_name} has no header, so it has no place")
+    return message
 
 
 def stamp_ns(stamp: Any) -> int:
