@@ -7,6 +7,7 @@ import './styles/panels.css';
 import { Connection, socketUrl } from './connection';
 import { GraphStore } from './graph_store';
 import { registerAll } from './panels/catalogue';
+import { watchPlugins } from './panels/plugins';
 import { watchConnection } from './shell/banner';
 import { Dock } from './shell/dock';
 import { Layouts } from './shell/layout_menu';
@@ -27,6 +28,7 @@ function start(): void {
   restoreTheme();
   registerAll();
   const connection = new Connection(socketUrl());
+  watchPlugins(connection);
   const toasts = new Toasts(part('toasts'));
   const dock = new Dock(part('dock'), connection, new GraphStore(connection), toasts);
   const layouts = new Layouts(connection, dock, new LayoutStore(connection), toasts);

@@ -39,9 +39,11 @@ export interface PanelHost {
   touched(): void;
 }
 
-export type PanelGroup =
-  | 'Topics' | 'Services' | 'Actions' | 'Visualization' | 'Logging'
-  | 'Configuration' | 'Introspection' | 'Robot Tools' | 'Simulation' | 'Plugins';
+/** The groups of the menu, in its order. */
+export const PANEL_GROUPS = [
+  'Simulation', 'Visualization', 'Topics', 'Services', 'Actions', 'Introspection', 'Configuration', 'Logging', 'Robot Tools', 'Plugins',
+] as const;
+export type PanelGroup = (typeof PANEL_GROUPS)[number];
 
 /** One kind of panel: how it is named, found and made. */
 export interface PanelKind {
@@ -55,12 +57,17 @@ export interface PanelKind {
   readonly single?: boolean;
   /** A short line for the menu's tooltip. */
   readonly about?: string;
+  /** What the menu shows at the right; the kind's name otherwise. */
+  readonly note?: string;
+  /** Greyed in the menu: it opens and tells why it is no panel. */
+  readonly faded?: boolean;
   /** Makes one; its code may be loaded now. */
   make(connection: Connection, host: PanelHost): Promise<Panel>;
 }
 
 const kinds = new Map<string, PanelKind>();
 const names = new Map<string, string>();
+const families = new Map<string, (name: string) => PanelKind>();
 
 /** Makes a kind known. A later one of the same name replaces it. */
 export function registerPanel(kind: PanelKind): void {
@@ -68,9 +75,20 @@ export function registerPanel(kind: PanelKind): void {
   for (const name of [kind.kind, ...(kind.aliases ?? [])]) names.set(name, kind.kind);
 }
 
+/** Makes all kinds known whose names begin with a prefix, those that nobody listed yet too. */
+export function registerFamily(prefix: string, kindOf: (name: string) => PanelKind): void {
+  families.set(prefix, kindOf);
+}
+
+/** Takes a kind out of the menu. */
+export function forgetPanel(kind: string): void {
+  kinds.delete(kind);
+}
+
 /** The kind of a name or alias. */
 export function findPanel(name: string): PanelKind | undefined {
-  return kinds.get(names.get(name) ?? name);
+  const family = [...families].find(([prefix]) => name.startsWith(prefix));
+  return kinds.get(names.get(name) ?? name) ?? family?.[1](name);
 }
 
 /** All kinds in the order they were registered. */

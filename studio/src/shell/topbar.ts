@@ -1,17 +1,13 @@
 /** The bar at the top: the world's controls, the panels, the layouts, the theme. */
 
 import type { Connection } from '../connection';
-import { allPanels, type PanelGroup } from '../panel';
+import { allPanels, PANEL_GROUPS } from '../panel';
 import { button, h, spacer } from '../widgets/dom';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import type { Dock } from './dock';
 import type { Layouts } from './layout_menu';
 import { switchTheme } from './theme';
 import type { WorldControls } from './world_controls';
-
-const GROUPS: readonly PanelGroup[] = [
-  'Simulation', 'Visualization', 'Topics', 'Services', 'Actions', 'Introspection', 'Configuration', 'Logging', 'Robot Tools', 'Plugins',
-];
 
 /** Fills the bar; answers the button of the panels' menu. */
 export function buildTopbar(
@@ -36,11 +32,11 @@ export function buildTopbar(
 
 /** The panels by group, as in rqt's Plugins menu. */
 function panelItems(dock: Dock): MenuItem[] {
-  return GROUPS.flatMap((group) => {
+  return PANEL_GROUPS.flatMap((group) => {
     const kinds = allPanels().filter((kind) => kind.group === group);
     if (kinds.length === 0) return [];
     const items = kinds.map((kind): MenuItem => ({
-      text: kind.title, note: kind.kind, title: kind.about, run: () => dock.show(kind.kind),
+      text: kind.title, note: kind.note ?? kind.kind, title: kind.about, faded: kind.faded, run: () => dock.show(kind.kind),
     }));
     return [{ text: group, heading: true }, ...items];
   });

@@ -11,6 +11,8 @@ export interface MenuItem {
   note?: string;
   title?: string;
   checked?: boolean;
+  /** Greyed, and still to be chosen. */
+  faded?: boolean;
 }
 
 let shut: (() => void) | null = null;
@@ -45,7 +47,7 @@ function entry(item: MenuItem): HTMLElement {
   if (item.heading) return h('div', { class: 'menu-heading' }, item.text);
   const role = item.checked === undefined ? 'menuitem' : 'menuitemcheckbox';
   return h('button', {
-    type: 'button', class: 'menu-item', role, title: item.title, tabindex: -1,
+    type: 'button', class: item.faded ? 'menu-item faded' : 'menu-item', role, title: item.title, tabindex: -1,
     'aria-checked': item.checked === undefined ? undefined : String(item.checked),
     on: { click: () => { shut?.(); item.run?.(); } },
   }, h('span', {}, item.text), item.note ? h('span', { class: 'menu-note' }, item.note) : null);
