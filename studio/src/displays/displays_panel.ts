@@ -71,7 +71,7 @@ export class DisplaysPanel extends BasePanel {
     this.scene = scene;
     this.chosen = null;
     this.views?.dispose();
-    this.views = scene ? new ViewsBox(scene.view) : null;
+    this.views = scene ? new ViewsBox(scene.view, scene.displays.stage.frames) : null;
     this.viewsPlace.replaceChildren(h('summary', {}, 'Views'), this.views?.element ?? notice('No view is open.'));
     if (scene) {
       this.unwatch = scene.displays.watch((what, display) => {

@@ -16,7 +16,7 @@ const COMMON: PropertySpec[] = [
   num('Size (Pixels)', 3, 'Size of a point in the style Points.', { min: 1, max: 100 }),
   num('Alpha', 1, 'How opaque the points are, 0 to 1.', { min: 0, max: 1 }),
   num('Decay Time', 0, 'How long points stay, seconds; 0 until the next ones come.', { min: 0 }),
-  choice('Color Transformer', 'Intensity', ['Intensity', 'AxisColor', 'RGB8', 'FlatColor'], 'Where the colour comes from.', SERVER),
+  choice('Color Transformer', '', ['', 'Intensity', 'AxisColor', 'RGB8', 'FlatColor'], 'Where the colour comes from; empty: what the fields offer.', SERVER),
   text('Channel Name', 'intensity', 'The field that gives the colour.', SERVER),
   flag('Use rainbow', true, 'A rainbow in place of two colours.', SERVER),
   flag('Invert Rainbow', false, 'The rainbow the other way round.', SERVER),

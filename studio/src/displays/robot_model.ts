@@ -95,7 +95,7 @@ class RobotDrawer implements Drawer {
   /** Which method's parameters fetch the description: a topic where there is one. */
   private wanted(): [string, string] {
     const { props, graph } = this.site;
-    const topic = props.text('Description Topic') || props.text('Description Topic/Value');
+    const topic = props.text('Topic') || props.text('Description Topic') || props.text('Description Topic/Value');
     if (topic && graph.value.topics.some((each) => each.name === topic)) return ['topic', topic];
     return ['parameter', props.text('Robot Description')];
   }

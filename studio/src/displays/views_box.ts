@@ -1,7 +1,11 @@
 /** Views: the camera's type and numbers, as RViz's panel of this name. */
 import { h, select, setText } from '../widgets/dom';
 import { VIEW_KINDS, type ViewKind, type ViewState } from '../scene/cameras';
+import type { Frames } from '../scene/frames';
 import type { View } from '../scene/view';
+import { matrixOf } from '../model/assembly';
+import type { Pose } from '../model/scene_value';
+import { nameInput } from '../widgets/name_input';
 
 type Field = 'distance' | 'yaw' | 'pitch' | 'scale' | 'angle' | 'x' | 'y' | 'z';
 const FIELDS: Record<ViewKind, readonly Field[]> = {
@@ -14,14 +18,17 @@ const NAMES: Record<Field, string> = {
   distance: 'Distance', yaw: 'Yaw', pitch: 'Pitch', scale: 'Scale', angle: 'Angle', x: 'Focal Point X', y: 'Focal Point Y', z: 'Focal Point Z',
 };
 
+const FIXED = '<Fixed Frame>';
+
 /** The box with the numbers of one view's camera. */
 export class ViewsBox {
   readonly element = h('div', { class: 'views-box' });
   private readonly stop: () => void;
   private readonly inputs = new Map<Field, HTMLInputElement>();
   private kind: ViewKind | null = null;
+  private target = '';
 
-  constructor(private readonly view: View) {
+  constructor(private readonly view: View, private readonly frames: Frames) {
     this.stop = view.afterDraw(() => this.refresh());
     this.refresh();
   }
@@ -43,12 +50,25 @@ export class ViewsBox {
     this.kind = kind;
     this.inputs.clear();
     const type = select('Type', Object.entries(VIEW_KINDS), kind, (next) => this.view.rig.setKind(next as ViewKind));
-    this.element.replaceChildren(this.row('Type', type), ...FIELDS[kind].map((field) => {
+    const target = nameInput({
+      label: 'Target Frame', placeholder: FIXED, value: this.target, names: () => [FIXED, ...this.frames.infos.map((info) => info.name)],
+      chosen: (name) => this.follow(name),
+    });
+    this.element.replaceChildren(this.row('Type', type), this.row('Target Frame', target), ...FIELDS[kind].map((field) => {
       const input = h('input', { type: 'number', step: 'any', 'aria-label': NAMES[field] });
       input.addEventListener('change', () => this.write(field, Number(input.value)));
       this.inputs.set(field, input);
       return this.row(NAMES[field], input);
     }));
+  }
+
+  /** RViz's Target Frame: the view goes along with a frame. */
+  private follow(name: string): void {
+    this.target = name === FIXED ? '' : name;
+    this.view.rig.follow(this.target ? () => {
+      const at = this.frames.at(this.target);
+      return at < 0 ? null : matrixOf([...this.frames.poses.subarray(at, at + 7)] as Pose);
+    } : null);
   }
 
   private row(name: string, control: HTMLElement): HTMLElement {

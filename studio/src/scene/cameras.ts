@@ -53,7 +53,8 @@ export class CameraRig {
   /** Take new values of the state at once. */
   set(change: Partial<ViewState>): void {
     this.glide = null;
-    this.state = { ...this.state, ...change };
+    const kind = change.kind && change.kind in VIEW_KINDS ? change.kind : change.kind ? 'Orbit' : this.state.kind;
+    this.state = { ...this.state, ...change, kind };
     this.apply();
   }
 

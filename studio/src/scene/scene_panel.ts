@@ -10,7 +10,7 @@ import type { Panel, PanelHost } from '../panel';
 import { toolsFor } from '../tools/toolbox';
 import type { Bench, Tool } from '../tools/tool';
 import { h, setText } from '../widgets/dom';
-import { acceptFiles, entityMenu, worldKey } from '../world/actions';
+import { acceptFiles, entityMenu, openRviz, worldKey } from '../world/actions';
 import { worldStore, type WorldStore } from '../world/store';
 import { dropScene, useScene } from './active';
 import { Film } from './capture';
@@ -89,6 +89,11 @@ export class ScenePanel implements Panel, Bench {
     }
     if (isObject(params['displays'])) this.loadDisplays(params['displays'] as JsonObject);
     else if (!this.displays.displays.length) this.beginDisplays();
+    if (typeof params['file'] === 'string') void openRviz(this, { path: params['file'] });
+    if (typeof params['frame'] === 'string') {
+      this.displays.chosen = true;
+      this.displays.setFixedFrame(params['frame']);
+    }
     this.toolbar.refresh();
   }
 

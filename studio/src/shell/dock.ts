@@ -75,6 +75,9 @@ export class Dock {
   arrange(places: readonly Place[]): void {
     this.api.clear();
     for (const place of places) if (findPanel(place.kind)) this.show(place.kind, place.params ?? {}, place);
+    // Of panels that share tabs the first is in front, and the layout's first panel has the focus.
+    const shared = new Set(places.filter((place) => place.direction === 'within').map((place) => place.beside));
+    for (const place of places.toReversed()) if (shared.has(place.kind)) this.panelOf(place.kind)?.api.setActive();
     const first = places[0] && this.panelOf(places[0].kind);
     first?.api.setActive();
   }

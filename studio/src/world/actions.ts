@@ -112,7 +112,7 @@ async function dropped(panel: ScenePanel, event: DragEvent): Promise<void> {
 /** Insert a URDF or SDF file, or open a `.rviz` file. */
 export async function insertFile(panel: ScenePanel, file: File, at?: THREE.Vector3): Promise<void> {
   const text = await file.text();
-  if (file.name.endsWith('.rviz')) return openRviz(panel, text);
+  if (file.name.endsWith('.rviz')) return openRviz(panel, { text, name: file.name });
   if (!/<(robot|sdf|model|world)[\s>]/.test(text)) {
     panel.fail(new Error(`${file.name} is neither URDF nor SDF: it has no <robot>, <sdf> or <model>.`));
     return;
@@ -120,11 +120,12 @@ export async function insertFile(panel: ScenePanel, file: File, at?: THREE.Vecto
   await insert(panel, { text }, file.name.replace(/\.[^.]*$/, ''), at);
 }
 
-/** Show what a `.rviz` file lists. */
-export async function openRviz(panel: ScenePanel, text: string): Promise<void> {
+/** Show what a `.rviz` file lists: one by its `path` where the server is, or its `text`. */
+export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<void> {
   try {
-    const value = await panel.connection.call('rviz.open', { text });
-    if (isObject(value)) panel.open({ displays: value });
+    const value = await panel.connection.call('rviz.open', file);
+    if (!isObject(value)) return;
+    panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
   } catch (problem) {
     panel.fail(asCallError(problem));
   }

@@ -49,14 +49,16 @@ def model_folder(name: str) -> Path:
 
 
 def thumbnail(_studio: Studio, name: str) -> Answer | None:
-    """``/thumbnail/<model>``: the model's own picture, else one drawn now."""
+    """``/thumbnail/<model>``: the model's own picture, else one drawn now; blank for lights."""
+    from PIL import Image
+
     try:
         folder = model_folder(name)
     except StudioError:
         return None
     own = sorted((folder / "thumbnails").glob("*.png"))
     data = own[0].read_bytes() if own else _drawn(folder)
-    return Answer(data, "image/png") if data else None
+    return Answer(data or _png(Image.new("RGBA", (1, 1))), "image/png")
 
 
 def _described(name: str, folder: Path) -> dict[str, Any]:
@@ -102,6 +104,10 @@ def _drawn(folder: Path) -> bytes:
             )
     except (GazelleError, ValueError):
         return b""
+    return _png(Image.fromarray(picture.rgb))
+
+
+def _png(image: Any) -> bytes:
     data = io.BytesIO()
-    Image.fromarray(picture.rgb).save(data, "PNG")
+    image.save(data, "PNG")
     return data.getvalue()
