@@ -19,8 +19,9 @@ def test_every_node_has_a_function_and_help(node) -> None:
         ("robot_state_publisher", "state_publisher", "robot_state_publisher"),
         ("gazebo", "spawn_model", "spawn_model"),
         ("gazebo_ros", "gazebo", "gzserver"),
-        ("rviz", "rviz", "gzclient"),
-        ("joint_state_publisher_gui", "joint_state_publisher_gui", "joint_state_publisher"),
+        ("rqt_rviz", "rqt_rviz", "rviz"),
+        ("gazebo", "gzclient", "gzclient"),
+        ("dynamic_reconfigure", "reconfigure_gui", "rqt_reconfigure"),
     ],
 )
 def test_old_names_are_aliases(package: str, type_name: str, target: str) -> None:

@@ -83,9 +83,9 @@ _NODES = (
     BuiltinNode(
         "joint_state_publisher",
         "joint_state_publisher",
-        "gazelle.nodes.joint_state_publisher:run",
+        "gazelle.studio.views.companions:joint_state_publisher",
         light=True,
-        help="publishes joint states of a robot description, without sliders",
+        help="publishes joint states of a robot description, with sliders if use_gui is true",
     ),
     BuiltinNode(
         "robot_state_publisher",

@@ -45,14 +45,15 @@ _BY_FUNCTION = {
     "controller_spawner_ros2:run": Role.CONTROLLER_SPAWNER,
     "controller_manager_command:run": Role.CONTROLLER_SPAWNER,
     "robot_state_publisher:run": Role.STATE_PUBLISHER,
-    "joint_state_publisher:run": Role.JOINT_STATES,
+    "companions:joint_state_publisher": Role.JOINT_STATES,
+    "companions:joint_state_publisher_gui": Role.JOINT_STATES,
     "static_transform_publisher:run_tf": Role.STATIC_TRANSFORM,
     "static_transform_publisher:run_tf2": Role.STATIC_TRANSFORM,
     "topic_tools:run_relay": Role.RELAY,
     "topic_tools:run_throttle": Role.RELAY,
     "topic_tools:run_drop": Role.RELAY,
-    "view:run": Role.VIEW,
 }
+_WINDOWS = ("gazelle.studio.views.nodes:", "gazelle.studio.views.plain:")
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,8 +181,10 @@ def _role(executable: Executable | None) -> Role:
     if is_simulator(executable):
         return Role.SIMULATOR
     if executable.builtin is not None:
-        function = executable.builtin.target.rpartition(".")[2]
-        return _BY_FUNCTION.get(function, Role.BUILTIN)
+        target = executable.builtin.target
+        if target.startswith(_WINDOWS):
+            return Role.VIEW
+        return _BY_FUNCTION.get(target.rpartition(".")[2], Role.BUILTIN)
     if _script(executable) is not None:
         return Role.SCRIPT
     return Role.COMMAND if executable.folder is None else Role.NATIVE

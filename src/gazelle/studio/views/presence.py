@@ -14,7 +14,16 @@ from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
 
-__all__ = ["Request", "is_switched_off", "offer", "open_browser", "page_port", "present", "say"]
+__all__ = [
+    "SERVICE",
+    "Request",
+    "is_switched_off",
+    "offer",
+    "open_browser",
+    "page_port",
+    "present",
+    "say",
+]
 
 SERVICE = "/_gazelle/studio"
 _DO = "gazelle_msgs/Do"
