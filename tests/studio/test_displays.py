@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
-from tests.studio.conftest import Talk
+from tests.studio.conftest import Talk, eventually
 from tests.studio.page import PATIENCE_S, Binary, Page, RefusedError
 
 from gazelle.geometry import Pose
-from gazelle.graph import Node
+from gazelle.graph import Graph, Node
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformBroadcaster
 from gazelle.interfaces import message_type, service_type
 
@@ -469,6 +469,30 @@ def test_a_message_of_the_wrong_type_is_a_status(
     talk("/just_words", "std_msgs/String", data="x")
     status = stream.status.get(timeout=PATIENCE_S)
     assert (status["level"], status["text"]) == ("error", text)
+
+
+@pytest.mark.parametrize("display", ["PointCloud2", "Marker", "Path", "InteractiveMarkers"])
+def test_bytes_of_another_definition_are_a_status(page: Page, graph: Graph, display: str) -> None:
+    topic = f"/rubbish_{display}/update"
+    stream = page.display(display, topic)
+    echo = page.open("topic.echo", topic=topic)
+    with Graph.open(port=graph.port, role="client", environ={}) as other:
+        sender = other.create_node("sender", rosout=False)
+        publisher = sender.create_publisher(topic, "visualization_msgs/MarkerArray")
+        eventually(lambda: publisher.matched)
+        publisher.publish_raw(b"\x00\x01\x00\x00" + b"\xff" * 40)
+        for one in (stream, echo):
+            status = one.status.get(timeout=PATIENCE_S)
+            assert status["level"] == "error"
+            assert "44 bytes are not a visualization_msgs/msg/MarkerArray" in status["text"]
+
+
+@pytest.mark.parametrize("topic", ["", "/", "  "])
+def test_a_topic_needs_a_name(page: Page, topic: str) -> None:
+    with pytest.raises(RefusedError, match="a topic needs a name, such as /cmd_vel"):
+        page.display("Map", topic)
+    with pytest.raises(RefusedError, match="a topic needs a name, such as /cmd_vel"):
+        page.call("topic.publish", topic=topic, type="std_msgs/Empty")
 
 
 def _cloud(rows: list[Any], fourth: str, frame: str = "laser") -> dict[str, Any]:

@@ -13,11 +13,12 @@ from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, MessageInfo, Node, RawMessage
 from gazelle.interfaces import Message, from_cdr, message_type
 from gazelle.interfaces.definition import Array
+from gazelle.studio.errors import StudioError
 
 if TYPE_CHECKING:
     from gazelle.graph import Subscription
 
-__all__ = ["Arrival", "Listener", "Sample", "Taps"]
+__all__ = ["Arrival", "Listener", "Sample", "Taps", "topic_name"]
 
 
 class Sample(NamedTuple):
@@ -92,14 +93,16 @@ class Taps:
         Who comes later gets the last message at once, as a latched topic would give it.
 
         Raises:
-            IllegalNameError: the topic's name is not legal.
+            StudioError: the topic has no name.
+            IllegalNameError: its name is not legal.
         """
-        topic = self._node.resolve_name(topic)
+        topic = topic_name(self._node, topic)
         with self._lock:
             tap = self._taps.get(topic)
             if tap is None:
-                tap = self._taps[topic] = _Tap()
+                tap = _Tap()
                 tap.subscription = self._subscribe(topic, tap)
+                self._taps[topic] = tap
             tap.listeners += (listener,)
             last = tap.last
         if last is not None:
@@ -147,6 +150,19 @@ class Taps:
                 del self._taps[topic]
         if over and tap.subscription is not None:
             tap.subscription.unregister()
+
+
+def topic_name(node: Node, text: str) -> str:
+    """Return a topic's global name.
+
+    Raises:
+        StudioError: it has none.
+        IllegalNameError: it is not legal.
+    """
+    name = node.resolve_name(text.strip())
+    if not name.strip("/"):
+        raise StudioError("a topic needs a name, such as /cmd_vel")
+    return name
 
 
 def _starts_with_header(type_name: str) -> bool:

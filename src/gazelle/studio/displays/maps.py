@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ __all__ = ["KIND_MAP", "open_map"]
 
 KIND_MAP = 21
 _REFRESH_S = 0.5
+_MOST_UPDATES = 1000
 
 
 def open_map(site: Site) -> OpenStream:
@@ -42,24 +44,18 @@ class _Grid:
         self._cells: NDArray[np.int8] = np.zeros((0, 0), np.int8)
         self._told: Any = None
         self._version = 0
+        self._updates: deque[Sample] = deque(maxlen=_MOST_UPDATES)
 
     def update(self, sample: Sample) -> None:
-        """Put a part of the map over it; runs in the transport's thread."""
-        message = sample.message()
-        if self._message is None or not hasattr(message, "x"):
-            return
-        part = np.asarray(message.data, np.int8)
-        rows = slice(message.y, message.y + message.height)
-        columns = slice(message.x, message.x + message.width)
-        place = self._cells[rows, columns]
-        if place.size == part.size and part.size:
-            self._cells[rows, columns] = part.reshape(place.shape)
-            self._version += 1
+        """Keep a part of the map for the next frame; runs in the transport's thread."""
+        self._updates.append(sample)
 
     def frame(self, sample: Sample) -> Frame | None:
         """Return the map, None when it is as it was sent last."""
         if sample is not self._source:
             self._load(sample)
+        while self._updates:
+            self._apply(self._updates.popleft().message())
         message = self._message
         origin = message.info.origin
         at, turn = origin.position, origin.orientation
@@ -77,6 +73,18 @@ class _Grid:
         head[8:10] = np.array([width, height], np.uint32).view(np.float32)
         at_s = stamp_s(message, sample.time_s)
         return Frame(KIND_MAP, width * height, at_s, (head, self._cells.tobytes()))
+
+    def _apply(self, message: Any) -> None:
+        """Put a part over the map; one that does not fit is left out, as in RViz."""
+        if not hasattr(message, "x"):
+            return
+        part = np.asarray(message.data, np.int8)
+        rows = slice(message.y, message.y + message.height)
+        columns = slice(message.x, message.x + message.width)
+        place = self._cells[rows, columns]
+        if place.size == part.size and part.size:
+            self._cells[rows, columns] = part.reshape(place.shape)
+            self._version += 1
 
     def _newest_pose(self, header: Any) -> Pose:
         newest = type(header)(frame_id=header.frame_id)

@@ -45,29 +45,38 @@ class _Markers:
     def __init__(self, site: Site) -> None:
         self._site = site
         self._lock = threading.Lock()
-        self._waiting: list[tuple[Any, float]] = []
+        self._samples: list[Sample] = []
+        self._late: list[tuple[Any, float]] = []
         self._meshes = _Meshes(site)
 
     def take(self, sample: Sample) -> None:
         """Runs in the transport's thread."""
-        message: Any = sample.message()
-        is_array = hasattr(message, "markers")
-        found = [(one, sample.time_s) for one in (message.markers if is_array else [message])]
         with self._lock:
-            for one, at_s in found:
-                if getattr(one, "action", None) == _DELETE_ALL:
-                    self._waiting = []
-                self._waiting.append((one, at_s))
-            del self._waiting[:-_MOST_WAITING]
+            self._samples.append(sample)
+            del self._samples[:-_MOST_WAITING]
         self._site.channel.offer(self._frame)
 
     def again(self) -> None:
-        if self._waiting:
+        if self._samples or self._late:
             self._site.channel.offer(self._frame)
 
-    def _frame(self) -> Any:
+    def _waiting(self) -> list[tuple[Any, float]]:
+        """Return the markers that came, behind those that wait for their frame."""
         with self._lock:
-            waiting, self._waiting = self._waiting, []
+            samples, self._samples = self._samples, []
+        for sample in samples:
+            message: Any = sample.message()
+            if not hasattr(message, "markers") and not hasattr(message, "ns"):
+                raise StudioError(f"{message.TYPE_NAME} is no marker")
+            for one in getattr(message, "markers", [message]):
+                if one.action == _DELETE_ALL:
+                    self._late = []
+                self._late.append((one, sample.time_s))
+        found, self._late = self._late, []
+        return found[-_MOST_WAITING:]
+
+    def _frame(self) -> Any:
+        waiting = self._waiting()
         shown, poses, late = [], [], []
         problem = ""
         now_s = self._site.studio.graph.clock.now_ns() * 1e-9
@@ -81,8 +90,7 @@ class _Markers:
                     late.append((one, came_s))
                 continue
             shown.append(self._meshes.with_mesh(one))
-        with self._lock:
-            self._waiting = [*late, *self._waiting]
+        self._late = late
         if not shown:
             if problem:
                 raise StudioError(problem)
@@ -100,8 +108,6 @@ class _Markers:
 
 
 def _pose(site: Site, marker: Any) -> Any:
-    if not hasattr(marker, "ns"):
-        raise StudioError(f"{marker.TYPE_NAME} is no marker")
     # Deleting needs no place.
     return site.pose(marker.header) if marker.header.frame_id else IDENTITY_POSE
 
@@ -157,6 +163,7 @@ class _Interactive:
         self._site = site
         self._lock = threading.Lock()
         self._server = ""
+        self._samples: list[Sample] = []
         self._markers: dict[str, Any] = {}
         self._poses: dict[str, Any] = {}
         self._erased: set[str] = set()
@@ -174,13 +181,16 @@ class _Interactive:
         finally:
             client.unregister()
         self._merge(message_type(_INIT)(markers=answer.markers))
+        self._site.channel.offer(self._frame)
 
     def take(self, sample: Sample) -> None:
         """Runs in the transport's thread."""
-        self._merge(sample.message())
+        with self._lock:
+            self._samples.append(sample)
+        self._site.channel.offer(self._frame)
 
     def again(self) -> None:
-        if self._markers or self._poses or self._erased:
+        if self._samples or self._markers or self._poses or self._erased:
             self._site.channel.offer(self._frame)
 
     def _merge(self, message: Any) -> None:
@@ -196,9 +206,15 @@ class _Interactive:
                 self._markers.pop(name, None)
                 self._poses.pop(name, None)
                 self._erased.add(name)
-        self._site.channel.offer(self._frame)
 
     def _frame(self) -> Any:
+        with self._lock:
+            samples, self._samples = self._samples, []
+        for sample in samples:
+            message: Any = sample.message()
+            if not hasattr(message, "markers"):
+                raise StudioError(f"{message.TYPE_NAME} brings no interactive markers")
+            self._merge(message)
         with self._lock:
             markers, self._markers = self._markers, {}
             poses, self._poses = self._poses, {}

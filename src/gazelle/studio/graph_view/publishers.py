@@ -15,6 +15,7 @@ from gazelle.studio.graph_view.expressions import Expression, expression
 from gazelle.studio.graph_view.forms import filled
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
+from gazelle.studio.taps import topic_name
 
 __all__ = ["list_publishers", "remove_publisher", "set_publisher"]
 
@@ -123,6 +124,7 @@ class _Settings:
 
     def check(self, studio: Studio) -> None:
         """Make the first message, so that what is wrong is told at once."""
+        topic_name(studio.node, self.topic)
         self.message(studio, 0.0, 0)
 
     def message(self, studio: Studio, t_s: float, count: int) -> Message:

@@ -12,6 +12,7 @@ from gazelle.interfaces import message_type
 from gazelle.studio.graph_view.forms import filled
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
+from gazelle.studio.taps import topic_name
 
 __all__ = ["Outbox", "publish"]
 
@@ -40,7 +41,8 @@ class Outbox:
     def publisher(self, topic: str, message_class: Any) -> Publisher:
         """Return the publisher of a topic; a new one has met those who listen already."""
         node = self._studio.node
-        key = (node.resolve_name(topic), message_class.TYPE_NAME)
+        topic = topic_name(node, topic)
+        key = (topic, message_class.TYPE_NAME)
         with self._lock:
             found = self._kept.get(key)
             if found is None:

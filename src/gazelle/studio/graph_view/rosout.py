@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.errors import GazelleError
 from gazelle.graph.console import Level, level_of
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
@@ -58,7 +59,10 @@ class Console:
         return leave
 
     def _take(self, sample: Sample) -> None:
-        record = _record(sample.message())
+        try:
+            record = _record(sample.message())
+        except (GazelleError, AttributeError) as error:
+            record = _unreadable(sample, error)
         with self._lock:
             self._kept.append(record)
             for follower in self._followers:
@@ -69,6 +73,18 @@ def _add(follower: tuple[Channel, int], record: dict[str, Any]) -> None:
     channel, least = follower
     if _WORDS.index(record["level"]) >= least:
         channel.add(record)
+
+
+def _unreadable(sample: Sample, error: Exception) -> dict[str, Any]:
+    return {
+        "stamp_s": sample.time_s,
+        "level": "error",
+        "name": sample.info.publisher,
+        "message": f"this message on {_TOPIC} cannot be read: {error}",
+        "file": "",
+        "function": "",
+        "line": 0,
+    }
 
 
 def _record(message: Any) -> dict[str, Any]:
