@@ -116,9 +116,7 @@ def look(browser: Any, request: pytest.FixtureRequest, tmp_path: Path) -> Iterat
         name = re.sub(r"\W+", "_", request.node.name)
         found = Look(context, folder, name if not opened else f"{name}-{len(opened) + 1}")
         opened.append((context, found))
-        found.page.add_init_script(
-            f"localStorage.getItem('gazelle.theme') || localStorage.setItem('gazelle.theme', '{theme}')"
-        )
+        found.page.add_init_script(f"localStorage['gazelle.theme'] ??= '{theme}'")
         found.page.goto(f"{url}?panels={','.join(panels)}" if panels else url)
         found.page.locator(".light[data-state=open]").wait_for()
         return found
@@ -193,9 +191,7 @@ class Bench:
 
 
 @pytest.fixture
-def bench(
-    free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Bench]:
+def bench(free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     """A graph of the test's own with a Studio on it, all in this process."""
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     if not _PAGE.is_file():

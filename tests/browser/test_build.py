@@ -16,9 +16,7 @@ _MOST_BYTES = 500_000
 
 
 def test_the_page_transfers_in_less_than_500_kb() -> None:
-    sizes = {
-        path.name: len(gzip.compress(path.read_bytes(), 6)) for path in _files(_PAGE)
-    }
+    sizes = {path.name: len(gzip.compress(path.read_bytes(), 6)) for path in _files(_PAGE)}
     assert sum(sizes.values()) <= _MOST_BYTES, sizes
 
 
@@ -42,7 +40,9 @@ def test_the_committed_page_is_what_its_sources_give(tmp_path: Path) -> None:
     committed = {path.relative_to(_PAGE): path for path in _files(_PAGE)}
     assert sorted(built) == sorted(committed)
     differing = [
-        str(name) for name, path in built.items() if path.read_bytes() != committed[name].read_bytes()
+        str(name)
+        for name, path in built.items()
+        if path.read_bytes() != committed[name].read_bytes()
     ]
     assert not differing, "run npm run build in studio/ and commit the page"
 

@@ -23,7 +23,9 @@ def test_a_dynamic_parameter_is_moved_with_its_slider(bench: Any, look: Any) -> 
             DynamicParameter("verbose", "bool", False, "Say more"),
         ),
     )
-    ReconfigureServer(bench.node, "/driver", group, lambda values, _level: heard.append(dict(values)))
+    ReconfigureServer(
+        bench.node, "/driver", group, lambda values, _level: heard.append(dict(values))
+    )
     seen = look(bench.url, "rqt_reconfigure")
     panel = seen.panel("rqt_reconfigure")
     panel.get_by_role("option", name="/driver").click()
@@ -37,7 +39,9 @@ def test_a_dynamic_parameter_is_moved_with_its_slider(bench: Any, look: Any) -> 
 
 
 def test_a_value_that_another_client_sets_shows_at_once(bench: Any, look: Any) -> None:
-    group = DynamicGroup("Default", (DynamicParameter("gain", "double", 0.5, "Proportional gain", 0.0, 2.0),))
+    group = DynamicGroup(
+        "Default", (DynamicParameter("gain", "double", 0.5, "Proportional gain", 0.0, 2.0),)
+    )
     server = ReconfigureServer(bench.node, "/driver", group, lambda _values, _level: None)
     seen = look(bench.url, "rqt_reconfigure")
     panel = seen.panel("rqt_reconfigure")
@@ -134,9 +138,7 @@ def test_the_bar_pauses_steps_and_resets_a_world(gazelle: Any, studio_of: Any, l
     seen.shot("bar")
 
 
-def test_topics_are_recorded_and_the_bag_is_scrubbed(
-    bench: Any, look: Any, tmp_path: Path
-) -> None:
+def test_topics_are_recorded_and_the_bag_is_scrubbed(bench: Any, look: Any, tmp_path: Path) -> None:
     bench.keep_publishing("/count", "std_msgs/msg/Float64", lambda t: {"data": t})
     seen = look(bench.url, "rqt_bag")
     panel = seen.panel("rqt_bag")

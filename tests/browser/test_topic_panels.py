@@ -55,7 +55,8 @@ def test_a_whole_topic_is_plotted_paused_and_saved(bench: Any, look: Any) -> Non
     curves = seen.panel("rqt_plot").get_by_role("listitem")
     curves.nth(4).wait_for()
     assert [one.split("\n")[0] for one in curves.all_inner_texts()] == [
-        f"/turtle1/pose/{name}" for name in ("x", "y", "theta", "linear_velocity", "angular_velocity")
+        f"/turtle1/pose/{name}"
+        for name in ("x", "y", "theta", "linear_velocity", "angular_velocity")
     ]
     bench.eventually(lambda: _number(curves.nth(1).locator("output").inner_text()) == 5.5)
     seen.page.wait_for_timeout(1500)
@@ -65,7 +66,8 @@ def test_a_whole_topic_is_plotted_paused_and_saved(bench: Any, look: Any) -> Non
         seen.page.get_by_role("button", name="CSV").click()
     lines = Path(download.value.path()).read_text().splitlines()
     assert lines[0] == "time," + ",".join(
-        f"/turtle1/pose/{name}" for name in ("x", "y", "theta", "linear_velocity", "angular_velocity")
+        f"/turtle1/pose/{name}"
+        for name in ("x", "y", "theta", "linear_velocity", "angular_velocity")
     )
     assert len(lines) > 20
     assert all(abs(float(line.split(",")[2]) - 5.5) < 1e-6 for line in lines[1:])
@@ -116,6 +118,28 @@ def test_a_publisher_follows_an_expression_over_time(bench: Any, look: Any) -> N
     assert turns[-1] > turns[0]
     panel.get_by_text(re.compile(r"\d+ sent")).wait_for()
     panel.get_by_label("Publish /cmd_vel repeatedly").uncheck()
+    seen.page.wait_for_timeout(300)
+    count = len(heard)
+    seen.page.wait_for_timeout(300)
+    assert len(heard) == count
+
+
+def test_a_publisher_is_found_again_after_a_reload(bench: Any, look: Any) -> None:
+    heard = bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")
+    seen = look(bench.url)
+    seen.page.keyboard.press("p")
+    seen.page.get_by_role("menuitem", name="Message Publisher rqt_publisher", exact=True).click()
+    _add_publisher(seen, "rqt_publisher", "/cmd_vel", "geometry_msgs/Twist", 20)
+    panel = seen.panel("rqt_publisher")
+    panel.get_by_label("linear.x", exact=True).fill("0.3")
+    panel.get_by_label("Publish /cmd_vel repeatedly").check()
+    bench.eventually(lambda: heard)
+    bench.eventually(lambda: '"0.3"' in seen.page.evaluate("sessionStorage['gazelle.tab']"))
+    seen.page.reload()
+    again = panel.get_by_label("Publish /cmd_vel repeatedly")
+    bench.eventually(again.is_checked)
+    assert panel.get_by_label("linear.x", exact=True).input_value() == "0.3"
+    again.uncheck()
     seen.page.wait_for_timeout(300)
     count = len(heard)
     seen.page.wait_for_timeout(300)

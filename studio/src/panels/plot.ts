@@ -16,6 +16,8 @@ interface Entry { text: string; channel: Channel; curves: Curve[]; missing: bool
 
 const COLOURS = 8;
 const DRAW_EVERY_MS = 50;
+/** A drawing that takes long is drawn less often: at most a twentieth of the time goes into it. */
+const IDLE_PER_DRAW = 20;
 const WINDOW_S = 20;
 
 /** The Plot panel of rqt. */
@@ -28,7 +30,7 @@ export class Plot extends BasePanel {
   private window_s = WINDOW_S;
   private pausedAt = 0;
   private dirty = false;
-  private drawnAt = 0;
+  private nextDraw = 0;
   private coloursUsed = 0;
   private readonly area = h('div', { class: 'plot-area', role: 'img', 'aria-label': 'Plot' });
   private readonly legend = h('div', { class: 'plot-legend', role: 'list', 'aria-label': 'Curves' });
@@ -145,9 +147,8 @@ export class Plot extends BasePanel {
   }
 
   private drawIfDue(now: number): void {
-    if (!this.dirty || !this.visible || now - this.drawnAt < DRAW_EVERY_MS) return;
+    if (!this.dirty || !this.visible || now < this.nextDraw) return;
     this.dirty = false;
-    this.drawnAt = now;
     const curves = this.curves();
     this.empty.hidden = curves.length > 0;
     const newest = Math.max(...curves.map((curve) => curve.samples.end()));
@@ -159,6 +160,7 @@ export class Plot extends BasePanel {
     }
     this.fitButton.disabled = !this.chart.isZoomed;
     this.showValues();
+    this.nextDraw = now + Math.max(DRAW_EVERY_MS, (performance.now() - now) * IDLE_PER_DRAW);
   }
 
   private pause(on: boolean): void {

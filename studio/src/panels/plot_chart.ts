@@ -76,7 +76,7 @@ export class PlotChart {
       cursor: { drag: { x: true, y: false, setScale: false }, points: { size: 5 } },
       scales: { x: { time: false }, y: { range: (_chart, low, high) => padded(low, high) } },
       axes: [{ ...axis, size: 34, space: 90, values: (_chart, ticks) => ticks.map(timeText) },
-        { ...axis, size: 58, values: (_chart, ticks) => ticks.map((tick) => short(tick, 5)) }],
+        { ...axis, size: 58, values: (_chart, ticks) => ticks.map(valueText) }],
       series: [{}, ...curves.map((curve) => ({
         label: curve.name, stroke: curve.colour, width: 1.5, show: curve.shown, spanGaps: true, points: { show: false },
       }))],
@@ -115,6 +115,12 @@ function timeText(time_s: number): string {
   const two = (value: number) => String(value).padStart(2, '0');
   const rest = time.getMilliseconds() > 0 ? `.${String(time.getMilliseconds()).padStart(3, '0').replace(/0+$/, '')}` : '';
   return `${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}${rest}`;
+}
+
+/** A few characters, however large the values are. */
+function valueText(value: number): string {
+  const size = Math.abs(value);
+  return size >= 1e6 || (size > 0 && size < 1e-4) ? value.toExponential(2).replace(/\.?0+e/, 'e') : short(value, 5);
 }
 
 function padded(low: number | null, high: number | null): [number, number] {

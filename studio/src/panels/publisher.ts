@@ -74,7 +74,7 @@ export class Publisher extends BasePanel {
 
 function readState(value: JsonObject): PublisherState {
   return {
-    topic: textOf(value, 'topic'), type: textOf(value, 'type'), rate_hz: numberOf(value, 'rate_hz', 1),
+    id: textOf(value, 'id'), topic: textOf(value, 'topic'), type: textOf(value, 'type'), rate_hz: numberOf(value, 'rate_hz', 1),
     texts: value['texts'] ?? {}, ranges: value['ranges'] ?? {},
   };
 }

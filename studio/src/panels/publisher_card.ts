@@ -2,14 +2,14 @@
 
 import type { Connection } from '../connection';
 import { inOneLine } from '../errors';
-import { isObject, numberOf, type Json, type JsonObject } from '../json';
+import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
 import type { PanelHost } from '../panel';
-import { button, checkbox, h, setText } from '../widgets/dom';
+import { button, h, setText } from '../widgets/dom';
 import { MessageForm, type Field } from '../widgets/message_form';
 import { SliderForm } from '../widgets/slider_form';
 
 /** What a layout keeps of a publisher. */
-export interface PublisherState { topic: string; type: string; rate_hz: number; texts?: Json; ranges?: Json }
+export interface PublisherState { id?: string; topic: string; type: string; rate_hz: number; texts?: Json; ranges?: Json }
 
 const SEND_AFTER_MS = 60;
 let count = 0;
@@ -17,13 +17,15 @@ let count = 0;
 /** A publisher of the server with its form. */
 export class PublisherCard {
   readonly element: HTMLElement;
-  private readonly id = `page-${Date.now().toString(36)}-${++count}`;
+  /** Kept with the layout: after a reload the card finds its publisher again. */
+  private readonly id: string;
   private form: MessageForm | SliderForm | null = null;
   private enabled = false;
   private made = false;
   private pending = 0;
   private poll = 0;
   private readonly rate: HTMLInputElement;
+  private readonly tick = h('input', { type: 'checkbox', title: 'Publish repeatedly' });
   private readonly sent = h('output', { class: 'dim', 'aria-label': 'Published' });
   private readonly problem = h('div', { class: 'problem', role: 'alert' });
 
@@ -31,18 +33,20 @@ export class PublisherCard {
     private readonly connection: Connection, private readonly host: PanelHost, private readonly start: PublisherState,
     private readonly easy: boolean, removed: () => void,
   ) {
+    this.id = start.id || `page-${Date.now().toString(36)}-${++count}`;
     this.rate = h('input', { type: 'number', min: 0, step: 'any', value: start.rate_hz, class: 'small', 'aria-label': `Rate of ${start.topic} in Hz`, title: 'Rate in Hz' });
     this.rate.addEventListener('change', () => this.changed());
     const body = h('div', { class: 'card-body' }, 'Loading the definition …');
     this.element = h('section', { class: 'card', 'aria-label': `Publisher ${start.topic}` },
       h('div', { class: 'card-head' },
-        checkbox('', false, (on) => this.enable(on), `Publish ${start.topic}`),
+        this.tick,
         h('strong', {}, start.topic), h('span', { class: 'dim ellipsis' }, start.type), h('span', { class: 'spacer' }),
         this.sent, this.rate, h('span', { class: 'dim' }, 'Hz'),
         button('Publish once', () => void this.once(), { icon: 'send' }),
         button('', removed, { icon: 'close', title: `Remove ${start.topic}`, class: 'ghost' })),
       this.problem, body);
-    this.element.querySelector('input[type=checkbox]')?.setAttribute('aria-label', `Publish ${start.topic} repeatedly`);
+    this.tick.setAttribute('aria-label', `Publish ${start.topic} repeatedly`);
+    this.tick.addEventListener('change', () => { this.enabled = this.tick.checked; void this.send(); });
     void this.load(body);
   }
 
@@ -50,7 +54,7 @@ export class PublisherCard {
   state(): PublisherState {
     const sliders = this.form instanceof SliderForm ? { ranges: this.form.ranges() } : {};
     return {
-      topic: this.start.topic, type: this.start.type, rate_hz: Number(this.rate.value),
+      id: this.id, topic: this.start.topic, type: this.start.type, rate_hz: Number(this.rate.value),
       texts: this.form ? this.form.texts() : this.start.texts ?? {}, ...sliders,
     };
   }
@@ -71,15 +75,11 @@ export class PublisherCard {
       this.form = this.easy ? new SliderForm(fields, this.start.ranges ?? {}, changed) : new MessageForm(fields, { expressions: true, changed });
       this.form.fill(this.start.texts);
       body.replaceChildren(this.form.element);
+      if (this.start.id) await this.findAgain();
     } catch (problem) {
       body.replaceChildren();
       setText(this.problem, inOneLine(problem));
     }
-  }
-
-  private enable(on: boolean): void {
-    this.enabled = on;
-    void this.send();
   }
 
   private changed(): void {
@@ -106,14 +106,34 @@ export class PublisherCard {
       message: this.form.message(), expressions: this.form.expressions(), enabled: this.enabled,
     };
     await this.attempt('publisher.set', params);
+    this.watch();
+  }
+
+  private async findAgain(): Promise<void> {
+    const mine = await this.row();
+    if (!mine) return;
+    this.made = true;
+    this.enabled = mine['enabled'] === true;
+    this.tick.checked = this.enabled;
+    if (this.enabled) this.watch();
+  }
+
+  private watch(): void {
     clearInterval(this.poll);
     if (this.enabled) this.poll = window.setInterval(() => void this.showCount(), 1000);
   }
 
-  private async showCount(): Promise<void> {
+  private async row(): Promise<JsonObject | null> {
     const list = await this.connection.call('publisher.list').catch(() => null);
     const mine = Array.isArray(list) ? list.find((each) => isObject(each) && each['id'] === this.id) : null;
-    if (isObject(mine)) setText(this.sent, `${numberOf(mine, 'count')} sent`);
+    return isObject(mine) ? mine : null;
+  }
+
+  private async showCount(): Promise<void> {
+    const mine = await this.row();
+    if (!mine) return;
+    setText(this.sent, `${numberOf(mine, 'count')} sent`);
+    if (textOf(mine, 'error')) setText(this.problem, textOf(mine, 'error'));
   }
 
   private async attempt(method: string, params: JsonObject): Promise<void> {

@@ -13,6 +13,8 @@ import { BasePanel } from './base';
 interface Stats { hz: number | null; bytes_per_s: number | null; delay_s?: number | null; count: number }
 interface Row { topic: TopicValue | null; field: MessageRow | null; path: string }
 
+const LIVE_MS = 100;
+
 /** The Topic Monitor of rqt. */
 export class TopicMonitor extends BasePanel {
   readonly title = 'Topic Monitor';
@@ -23,6 +25,7 @@ export class TopicMonitor extends BasePanel {
   private filter = '';
   private statsChannel: Channel | null = null;
   private readonly list: VirtualList<Row>;
+  private readonly rebuildSoon = perFrame(() => this.rebuild(), LIVE_MS);
   private readonly rebuild = perFrame(() => { if (this.visible) this.list.set(this.rows()); });
   private readonly search = h('input', { type: 'search', placeholder: 'Filter topics', 'aria-label': 'Filter topics' });
 
@@ -80,29 +83,38 @@ export class TopicMonitor extends BasePanel {
   }
 
   private fillRow(element: HTMLElement, row: Row): void {
-    const [name, type, bytes, hz, value] = element.children as unknown as HTMLElement[];
-    const [twist, tick, label] = name.children as unknown as [HTMLElement, HTMLInputElement, HTMLElement];
+    const [, , bytes, hz, value] = element.children as unknown as HTMLElement[];
     const on = row.topic !== null && this.ticked.has(row.path);
+    const stats = row.topic ? this.stats.get(row.path) : undefined;
+    this.fillName(element, row, on);
+    setText(bytes, on ? bandwidth(stats?.bytes_per_s) || '–' : '');
+    setText(hz, on ? rate(stats?.hz) || '–' : '');
+    setText(value, row.field ? row.field.value : on && !this.messages.has(row.path) ? 'no message yet' : '');
+  }
+
+  /** What seldom changes; a row that shows the same field as before is left alone. */
+  private fillName(element: HTMLElement, row: Row, on: boolean): void {
     const branch = row.field ? row.field.branch : on;
     const open = row.field ? row.field.expanded : on && this.expanded.has(row.path);
-    const stats = row.topic ? this.stats.get(row.path) : undefined;
     const depth = row.field?.depth ?? 0;
+    const key = [row.path, on, branch, open, row.topic?.type].join(' ');
+    if (element.dataset['key'] === key) return;
+    element.dataset['key'] = key;
+    element.dataset['path'] = row.path;
+    const [name, type] = element.children as unknown as HTMLElement[];
+    const [twist, tick, label] = name.children as unknown as [HTMLElement, HTMLInputElement, HTMLElement];
     name.style.paddingLeft = `${4 + depth * 16}px`;
     twist.style.visibility = branch ? 'visible' : 'hidden';
     twist.setAttribute('aria-expanded', String(open));
     tick.hidden = row.topic === null;
     tick.checked = on;
-    setText(label, row.field?.name ?? row.path);
-    setText(type, shortType(row.topic?.type ?? ''));
-    label.title = row.path;
-    type.title = row.topic?.type ?? '';
-    setText(bytes, on ? bandwidth(stats?.bytes_per_s) || '–' : '');
-    setText(hz, on ? rate(stats?.hz) || '–' : '');
-    setText(value, row.field ? row.field.value : on && !this.messages.has(row.path) ? 'no message yet' : '');
-    element.setAttribute('aria-level', String(depth + 1));
-    element.draggable = row.topic !== null || (row.field?.numeric ?? false) || branch;
-    element.dataset['path'] = row.path;
     tick.setAttribute('aria-label', `Subscribe ${row.path}`);
+    setText(label, row.field?.name ?? row.path);
+    label.title = row.path;
+    setText(type, shortType(row.topic?.type ?? ''));
+    type.title = row.topic?.type ?? '';
+    element.setAttribute('aria-level', String(depth + 1));
+    element.draggable = row.topic !== null || branch || (row.field?.numeric ?? false);
     element.classList.toggle('live', on);
   }
 
@@ -110,6 +122,7 @@ export class TopicMonitor extends BasePanel {
     const row = this.list.rowAt(event.target);
     if (!row || !(event.target instanceof Element)) return;
     if (event.target instanceof HTMLInputElement) {
+      delete event.target.closest<HTMLElement>('[data-key]')?.dataset['key'];
       if (event.target.checked) this.expanded.add(row.path);
       this.tick(row.path, event.target.checked);
     } else if (event.target.closest('.twist, .label')) {
@@ -150,13 +163,13 @@ export class TopicMonitor extends BasePanel {
 
   private takeMessage(topic: string, value: Json): void {
     if (isObject(value)) this.messages.set(topic, value['message'] ?? null);
-    this.rebuild();
+    this.rebuildSoon();
   }
 
   private takeStats(value: Json): void {
     if (!Array.isArray(value)) return;
     for (const each of value) if (isObject(each)) this.stats.set(String(each['topic']), each as unknown as Stats);
-    this.rebuild();
+    this.rebuildSoon();
   }
 
   private drag(event: DragEvent): void {

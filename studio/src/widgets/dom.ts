@@ -138,12 +138,25 @@ export function notice(text: string): HTMLDivElement {
   return h('div', { class: 'notice' }, text);
 }
 
-/** Runs work at most once per animation frame, however often it is asked for. */
-export function perFrame(work: () => void): () => void {
+/**
+ * Runs work at most once per animation frame, however often it is asked for, and not within
+ * `least_ms` of the last time.
+ */
+export function perFrame(work: () => void, least_ms = 0): () => void {
   let asked = false;
+  let last = -Infinity;
+  const turn = (now: number) => {
+    if (now - last < least_ms) {
+      setTimeout(() => requestAnimationFrame(turn), least_ms - (now - last));
+      return;
+    }
+    asked = false;
+    last = now;
+    work();
+  };
   return () => {
     if (asked) return;
     asked = true;
-    requestAnimationFrame(() => { asked = false; work(); });
+    requestAnimationFrame(turn);
   };
 }

@@ -1,6 +1,6 @@
 /** The widgets of a user's panel that a person acts on, and labels. */
 
-import { isObject, numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
+import { numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, h, setText } from './dom';
 import { short } from './format';
 
@@ -134,7 +134,7 @@ function press(spec: JsonObject, act: Act): WidgetView {
 
 function label(spec: JsonObject): WidgetView {
   const output = h('output', { class: 'own-value', 'aria-label': labelOf(spec) });
-  const text = (value: Json) => typeof value === 'number' ? short(value) : isObject(value) ? '' : String(value ?? '');
+  const text = (value: Json) => typeof value === 'number' ? short(value) : String(value ?? '') || '–';
   return {
     element: labelled(spec, h('span', { class: 'own-inline' }, output, unit(spec))),
     show: (value) => setText(output, text(value)),

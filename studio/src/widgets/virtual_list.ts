@@ -69,7 +69,8 @@ export class VirtualList<T> {
 
   private draw(): void {
     const { height } = this.maker;
-    this.canvas.style.height = `${this.rows.length * height}px`;
+    const whole = `${this.rows.length * height}px`;
+    if (this.canvas.style.height !== whole) this.canvas.style.height = whole;
     if (this.stick) this.element.scrollTop = this.element.scrollHeight;
     const first = Math.max(0, Math.floor(this.element.scrollTop / height) - BEYOND);
     const inSight = Math.ceil(this.element.clientHeight / height) + 2 * BEYOND;
@@ -82,9 +83,11 @@ export class VirtualList<T> {
   private place(at: number, index: number): void {
     const element = this.pool[at] ?? this.grow();
     if (!element.isConnected) this.canvas.append(element);
-    element.dataset['row'] = String(index);
-    element.setAttribute('aria-rowindex', String(index + 1));
-    element.style.transform = `translateY(${index * this.maker.height}px)`;
+    if (element.dataset['row'] !== String(index)) {
+      element.dataset['row'] = String(index);
+      element.setAttribute('aria-rowindex', String(index + 1));
+      element.style.transform = `translateY(${index * this.maker.height}px)`;
+    }
     this.shown.set(element, this.rows[index]);
     this.maker.fill(element, this.rows[index], index);
   }
