@@ -90,7 +90,6 @@ class Cloud {
       attribute.needsUpdate = true;
     }
     geometry.setDrawRange(0, count);
-    geometry.boundingSphere = null;
     this.points.visible = true;
   }
 
@@ -106,6 +105,8 @@ class Cloud {
     const tint = new THREE.BufferAttribute(new Uint8Array(this.capacity * 4), 4, true);
     geometry.setAttribute('position', position.setUsage(THREE.DynamicDrawUsage));
     geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
+    // Known to be everywhere: three would look at every point of every message to sort the clouds.
+    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
     this.points.geometry = geometry;
   }
 }

@@ -37,7 +37,6 @@ export class InstancePool {
     this.mesh.visible = this.used > 0;
     this.mesh.instanceMatrix.needsUpdate = true;
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
-    this.mesh.boundingSphere = null;
   }
 
   /** Take another geometry (its properties changed). */
@@ -60,6 +59,8 @@ export class InstancePool {
     if (this.mesh && this.used < capacity) return this.mesh;
     const next = new THREE.InstancedMesh(this.geometry, this.paint, Math.max(8, capacity * 2));
     next.frustumCulled = false;
+    // Known to be everywhere: three would look at all instances whenever one moved.
+    next.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
     this.tell(next);
     if (this.mesh) {
       next.instanceMatrix.array.set(this.mesh.instanceMatrix.array);
