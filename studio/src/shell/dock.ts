@@ -18,8 +18,12 @@ export interface Place {
   direction?: 'left' | 'right' | 'above' | 'below' | 'within';
   width?: number;
   height?: number;
+  /** The group of tabs it goes into. */
+  group?: string;
 }
 
+/** What part of the page those panels get that commands ask for while others are looked at. */
+const BESIDE = 0.4;
 const SAVE_AFTER_MS = 400;
 
 /** The dock of the page. */
@@ -28,6 +32,8 @@ export class Dock {
   private readonly frames = new Map<string, PanelFrame>();
   private readonly changeListeners = new Set<() => void>();
   private pending = 0;
+  /** The group that `showBeside` fills. */
+  private besides = '';
 
   constructor(
     root: HTMLElement,
@@ -59,6 +65,16 @@ export class Dock {
       id: this.freshId(kind.kind), component: kind.kind, title: kind.title, params: { state: params },
       ...(place ? this.position(place) : {}),
     });
+  }
+
+  /** Opens a panel at the right of what is looked at; further ones go into tabs there. */
+  showBeside(name: string, params: JsonObject = {}): void {
+    const tabs = this.api.getGroup(this.besides);
+    const empty = this.api.panels.length === 0;
+    this.show(name, params, empty ? undefined : {
+      kind: name, direction: tabs ? 'within' : 'right', ...(tabs ? { group: tabs.id } : { width: Math.round(this.api.width * BESIDE) }),
+    });
+    if (!empty) this.besides = this.api.activeGroup?.id ?? '';
   }
 
   /** Hands parameters to an open panel of a kind and brings it to the front; answers whether there is one. */
@@ -171,8 +187,9 @@ export class Dock {
 
   private position(place: Place): object {
     const beside = place.beside ? this.panelOf(place.beside) : undefined;
+    const reference = beside ? { referencePanel: beside.id } : place.group ? { referenceGroup: place.group } : {};
     return {
-      ...(beside ? { position: { referencePanel: beside.id, direction: place.direction ?? 'within' } } : {}),
+      ...(beside ?? place.direction ? { position: { ...reference, direction: place.direction ?? 'within' } } : {}),
       ...(place.width ? { initialWidth: place.width } : {}),
       ...(place.height ? { initialHeight: place.height } : {}),
     };

@@ -57,8 +57,9 @@ export class Layouts {
     const name = textOf(params, 'layout');
     const kind = findPanel(panel)?.kind;
     if (panel === 'layout' && name) void this.load(name);
+    else if (panel === 'rqt_gui') void this.showPerspective({ path: textOf(params, 'perspective') });
     else if (!kind) this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
-    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.dock.show(kind, params);
+    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.dock.showBeside(kind, params);
   }
 
   private reset(): void {
@@ -73,17 +74,22 @@ export class Layouts {
     this.toasts.tell(where === 'server' ? `Layout ${name} is saved.` : `Layout ${name} is saved in this browser only.`);
   }
 
-  /** Panels of an rqt perspective, in place of those that are open. */
   private async openPerspective(): Promise<void> {
     const file = await askFile('.perspective');
-    if (!file) return;
+    if (file) await this.showPerspective({ name: file.name, text: await file.text() });
+  }
+
+  /** Panels of an rqt perspective, in place of those that are open; without one the page stays as it is. */
+  private async showPerspective(file: { path: string } | { name: string; text: string }): Promise<void> {
+    const name = 'path' in file ? file.path : file.name;
+    if (!name) return;
     try {
-      const value = await this.connection.call('perspective.open', { name: file.name, text: await file.text() });
+      const value = await this.connection.call('perspective.open', file);
       const panels = isObject(value) && Array.isArray(value['panels']) ? value['panels'].filter(isObject) : [];
       this.dock.arrange([]);
-      for (const panel of panels) this.dock.show(textOf(panel, 'kind'), isObject(panel['params']) ? panel['params'] : {});
+      for (const panel of panels) this.dock.showBeside(textOf(panel, 'kind'), isObject(panel['params']) ? panel['params'] : {});
     } catch (problem) {
-      this.toasts.fail(problem, file.name);
+      this.toasts.fail(problem, name);
     }
   }
 

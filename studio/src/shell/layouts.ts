@@ -31,7 +31,7 @@ const WITHOUT_WORLD: readonly Place[] = [
 ];
 
 const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
-  gzclient: GAZEBO, gazebo: GAZEBO, scene: GAZEBO, rviz: RVIZ, rviz2: RVIZ, studio: STUDIO, graph: WITHOUT_WORLD,
+  gzclient: GAZEBO, gazebo: GAZEBO, scene: GAZEBO, rviz: RVIZ, rviz2: RVIZ, studio: STUDIO, graph: WITHOUT_WORLD, rqt_gui: WITHOUT_WORLD,
 };
 
 /** Names a person can choose from the layout menu. */
