@@ -10,6 +10,7 @@ import webbrowser
 from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
+from gazelle.studio.plugins.shows import Desk
 from gazelle.studio.views.presence import offer
 
 __all__ = ["main"]
@@ -25,6 +26,7 @@ def main(argv: list[str]) -> int:
     with Graph.open() as graph:
         studio = Studio(graph)
         studio.node.on_shutdown(lambda _reason: stop.set())
+        _show_panels(studio, options.panel)
         with Server(studio, host=options.host, port=options.port) as server:
             offer(server)
             print(f"Studio: {server.url}", flush=True)
@@ -32,6 +34,13 @@ def main(argv: list[str]) -> int:
                 _open_browser(server.url)
             _wait(stop)
     return 0
+
+
+def _show_panels(studio: Studio, files: list[str]) -> None:
+    """Have the first page open the panels of files; they are in its menu too."""
+    for words in files:
+        for source in studio.shared(Desk).name_file(words):
+            studio.show(f"plugin:{source.name}")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -49,6 +58,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--no-browser", dest="browser", action="store_false", help="only print the URL"
+    )
+    parser.add_argument(
+        "--panel",
+        action="append",
+        default=[],
+        metavar="FILE.py[:CLASS]",
+        help="show a panel of your own (docs: Write a panel); may be given more than once",
     )
     return parser
 

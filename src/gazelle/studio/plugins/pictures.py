@@ -22,7 +22,7 @@ def checked_picture(value: Any) -> Any:
     Raises:
         TypeError: it is none.
     """
-    if hasattr(value, "encoding") or hasattr(value, "format"):
+    if hasattr(value, "data") and (hasattr(value, "encoding") or hasattr(value, "format")):
         return value
     if isinstance(value, bytes) and _type_of(value):
         return value

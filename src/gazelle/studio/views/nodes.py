@@ -6,7 +6,7 @@
 | rqt_plot | ``TOPIC/FIELD[:FIELD] …``; a topic or sub-message stands for all its numbers |
 | rqt_image_view, image_view | ``TOPIC``; ``image:=TOPIC`` |
 | rqt_bag | ``FILE …`` |
-| rqt_gui, rqt | ``-s PLUGIN``, ``--perspective-file FILE`` |
+| rqt_gui, rqt | ``-s PLUGIN``, of rqt's own or a user's package, ``--perspective-file FILE`` |
 | rqt_robot_steering | ``~default_topic`` |
 
 Other words are those of windows (``--force-discover``, geometries) and mean nothing to a page.
@@ -23,6 +23,7 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
+from gazelle.studio.plugins.names import own_panel
 from gazelle.studio.views.presence import Request, is_switched_off, present, say
 
 __all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
@@ -94,7 +95,8 @@ def rqt(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     plugin = options.get("-s") or options.get("--standalone") or ""
     if plugin:
         found = _PLUGIN.match(plugin)
-        return run_view(found["package"] if found else plugin, {}, arguments, graph, stop)
+        panel = own_panel(plugin) or (found["package"] if found else plugin)
+        return run_view(panel, {}, arguments, graph, stop)
     file = options.get("--perspective-file", "")
     params = {"perspective": _path(file)} if file else {}
     return run_view("rqt_gui", params, arguments, graph, stop)

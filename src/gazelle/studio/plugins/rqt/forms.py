@@ -151,6 +151,11 @@ def _shown(value: float) -> str:
     return str(int(value)) if value.is_integer() else repr(value)
 
 
+def _tuple(items: list[str]) -> str:
+    inside = ", ".join(_quoted(item) for item in items)
+    return f"({inside},)" if len(items) == 1 else f"({inside})"
+
+
 _Made = tuple[str, str]
 
 
@@ -188,9 +193,9 @@ def _spin(name: str, tag: Tag) -> _Made:
 
 def _choice(name: str, tag: Tag) -> _Made:
     items = [_text(item, "text") for item in tag.find_all("item")]
-    options = ", ".join(_quoted(item) for item in items if item)
+    options = _tuple([item for item in items if item])
     note = f"on_{name}(self, option); fill it later with self.change({_quoted(name)}, options=…)"
-    return _call("Choice", name, f"options=({options}{',' if options else ''})"), note
+    return _call("Choice", name, f"options={options}"), note
 
 
 def _line(name: str, tag: Tag) -> _Made:
@@ -211,8 +216,8 @@ def _readout(name: str, tag: Tag) -> _Made:
 
 def _table(name: str, tag: Tag) -> _Made:
     columns = [_text(column, "text") for column in tag.find_all("column")]
-    words = ", ".join(_quoted(column or "…") for column in columns) or _quoted("…")
-    return _call("Table", name, f"columns=({words},)"), f"self[{_quoted(name)}] = rows"
+    words = _tuple([column or "…" for column in columns] or ["…"])
+    return _call("Table", name, f"columns={words}"), f"self[{_quoted(name)}] = rows"
 
 
 _MAKERS: dict[str, Callable[[str, Tag], _Made]] = {

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from gazelle.studio.errors import unknown
+from gazelle.studio.errors import StudioError
 from gazelle.studio.plugins.rqt.forms import FormWidget, form_layout, form_widgets
 from gazelle.studio.plugins.rqt.manifests import RqtPlugin, rqt_plugins
 from gazelle.workspace import Workspace
@@ -30,7 +30,8 @@ def how_to_port(name: str, workspace: Workspace) -> dict[str, Any]:
     plugins = rqt_plugins(workspace)
     wanted = [one for one in plugins if name in (one.name, one.type, one.package)]
     if not wanted:
-        raise unknown("plug-in of rqt", name, [one.name for one in plugins])
+        known = [one.name for one in plugins]
+        raise StudioError(f"there is no plug-in of rqt '{name}'", known=known)
     plugin = wanted[0]
     forms = _forms(plugin)
     return {
