@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { LightValue, SceneValue } from '../model/scene_value';
 
 const SHADOW_PIXELS = 2048;
-const SHADOW_REACH_M = 14;
+const SHADOW_REACH_M = 56;
 /** three divides by pi what an old Phong model does not. */
 const FULL = Math.PI;
 
@@ -77,7 +77,7 @@ export class Lighting {
 
   /** Keep the shadow's square and the sky around what is looked at. */
   aim(focal: THREE.Vector3, distance: number): void {
-    const reach = Math.min(60, Math.max(3, Math.min(distance * 1.4, SHADOW_REACH_M * 4)));
+    const reach = Math.min(SHADOW_REACH_M, Math.max(1.2, distance * 1.2));
     for (const sun of this.suns) {
       const direction = sun.userData.direction as THREE.Vector3;
       const step = (2 * reach) / SHADOW_PIXELS;

@@ -67,6 +67,8 @@ export class ScenePanel implements Panel, Bench {
     this.contacts = new Contacts(this.view, connection);
     this.highlight = new Highlight(this.view, this.assembly, this.world);
     this.grid = gridLines({ cells: 20, size_m: 1, colour: [0.45, 0.46, 0.48], alpha: 0.55, plane: 'XY', axes: true });
+    // Above the ground, which lies at zero too.
+    this.grid.position.z = 0.003;
     this.view.scene.add(this.grid);
     this.tools = toolsFor(kind, this);
     this.tool = this.previous = this.tools[0];
