@@ -1,7 +1,7 @@
 /** Console: what nodes log, filtered and searched. */
 
 import { isObject, numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
-import { button, h, setText, spacer, toggle, toolbar } from '../widgets/dom';
+import { button, h, perFrame, setText, spacer, toggle, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';
 import { csvField } from '../widgets/format';
 import { cellRow, headings, VirtualList } from '../widgets/virtual_list';
@@ -12,6 +12,7 @@ interface Line { number: number; stamp_s: number; level: string; name: string; m
 const LEVELS = ['debug', 'info', 'warn', 'error', 'fatal'] as const;
 const TITLES: Record<string, string> = { debug: 'Debug', info: 'Info', warn: 'Warn', error: 'Error', fatal: 'Fatal' };
 const MOST = 20_000;
+const LIVE_MS = 100;
 
 /** rqt_console. */
 export class Console extends BasePanel {
@@ -30,6 +31,7 @@ export class Console extends BasePanel {
   private readonly summary = h('span', { class: 'dim' });
   private readonly details = h('pre', { class: 'details mono', hidden: true, tabindex: 0, 'aria-label': 'Message' });
   private readonly controls = h('div', {});
+  private readonly refreshSoon = perFrame(() => this.refresh(), LIVE_MS);
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
@@ -93,7 +95,7 @@ export class Console extends BasePanel {
       this.lines = this.lines.slice(-MOST / 2);
       this.stale = true;
     }
-    this.refresh();
+    this.refreshSoon();
   }
 
   private add(item: JsonObject): void {

@@ -26,7 +26,7 @@ export class TopicMonitor extends BasePanel {
   private statsChannel: Channel | null = null;
   private readonly list: VirtualList<Row>;
   private readonly rebuildSoon = perFrame(() => this.rebuild(), LIVE_MS);
-  private readonly rebuild = perFrame(() => { if (this.visible) this.list.set(this.rows()); });
+  private readonly rebuild = perFrame(() => { if (this.visible) this.list.set(this.rows(), true); });
   private readonly search = h('input', { type: 'search', placeholder: 'Filter topics', 'aria-label': 'Filter topics' });
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {

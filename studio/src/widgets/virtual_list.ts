@@ -35,10 +35,11 @@ export class VirtualList<T> {
     new ResizeObserver(this.refresh).observe(this.element);
   }
 
-  /** Shows other rows. */
-  set(rows: readonly T[]): void {
+  /** Shows other rows: with the next frame, or now where the caller is in a frame already. */
+  set(rows: readonly T[], now = false): void {
     this.rows = rows;
-    this.refresh();
+    if (now) this.draw();
+    else this.refresh();
   }
 
   /** Whether the last row is in sight. */
