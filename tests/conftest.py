@@ -19,10 +19,38 @@ from typing import Any
 import pytest
 
 _SHARED = Path(__file__).parents[2] / "shared"
-_PATIENCE_S = 20.0
+_PATIENCE_S = 60.0
+_OWN_FOLDERS = ("ROS_HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Logs, caches and settings of the person who runs the tests are neither read nor written."""
+    with pytest.MonkeyPatch.context() as patch:
+        for variable in _OWN_FOLDERS:
+            patch.setenv(variable, str(tmp_path_factory.mktemp(variable.lower())))
+        yield
+
+
+@pytest.fixture(autouse=True)
+def own_definitions() -> Iterator[None]:
+    """What a test's peers, bags and workspaces say of types is forgotten after it."""
+    yield
+    # What was never imported has learned nothing.
+    loaded: Callable[[str], Any] = sys.modules.get
+    if (library := loaded("gazelle.interfaces.library")) and library._user_packages:
+        library._user_packages.clear()
+        library._revision += 1
+    if full_text := loaded("gazelle.interfaces.full_text"):
+        full_text._kept.clear()
+    if types := loaded("gazelle.nodes.workspace_types"):
+        types.learn_workspace_types.cache_clear()
+    for name in ("gazelle.bag.types", "gazelle.bag.migration"):
+        if (module := loaded(name)) and module._folders:
+            module._folders.pop().cleanup()
 
 
 @pytest.fixture(scope="session")
@@ -225,20 +253,37 @@ class Launched:
             self._changed.notify_all()
 
 
-@pytest.fixture
-def free_port() -> int:
-    """A port nobody listens on, and that no other test gets.
+@contextlib.contextmanager
+def _reserved_port() -> Iterator[int]:
+    """A port nobody listens on, and that no other test of this machine gets meanwhile.
 
     It lies below the range that the system hands out by itself: a port asked for with number 0
-    may go to some peer's own listener before the test's hub takes it.
+    may go to some peer's own listener before the test's hub takes it. The UDP port of the same
+    number, which nothing here uses, keeps other runs of the tests off it.
     """
     worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
     for number in _PORT_NUMBERS:
         port = 12_000 + worker % 8 * 2_000 + number % 2_000
-        with socket.socket() as probe, contextlib.suppress(OSError):
-            probe.bind(("127.0.0.1", port))
-            return port
+        with socket.socket(type=socket.SOCK_DGRAM) as mark, contextlib.suppress(OSError):
+            mark.bind(("127.0.0.1", port))
+            with socket.socket() as probe:
+                probe.bind(("127.0.0.1", port))
+            yield port
+            return
     raise AssertionError("itertools.count ends")
+
+
+@pytest.fixture
+def next_port() -> Iterator[Callable[[], int]]:
+    """Gives ports that nobody else gets before the test has ended."""
+    with contextlib.ExitStack() as reserved:
+        yield lambda: reserved.enter_context(_reserved_port())
+
+
+@pytest.fixture
+def free_port(next_port: Callable[[], int]) -> int:
+    """The port of the test's graph."""
+    return next_port()
 
 
 Run = Callable[..., Launched]
@@ -261,7 +306,8 @@ def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
         **environ: str,
     ) -> Launched:
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
-        own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(tmp_path / "ros_home"), **environ}
+        own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(tmp_path / "ros_home")}
+        own |= {"GAZELLE_STUDIO": "0", **environ}
         command = [sys.executable, "-m", module, *words]
         running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
         return running[-1]

@@ -33,7 +33,7 @@ def test_threads_and_exit_functions_finish_first() -> None:
     text = """
 go = threading.Event()
 def work():
-    go.wait(10)
+    go.wait(30)
     print("worked", flush=True)
 def main():
     threading.Thread(target=work).start()

@@ -16,7 +16,7 @@ from gazelle.workspace import Workspace
 
 COUNT = 60
 # The machine may be busy and the first file of a kind imports what it needs.
-PATIENCE_S = 5.0
+PATIENCE_S = 30.0
 CORPUS = Path(__file__).parent / "fuzz_corpus"
 
 

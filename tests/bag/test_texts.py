@@ -15,7 +15,7 @@ from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.graph import Graph
 from gazelle.interfaces import full_text, md5sum
 
-_WAIT_S = 20.0
+_WAIT_S = 30.0
 
 
 @pytest.fixture(autouse=True)

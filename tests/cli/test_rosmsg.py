@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.cli import ros_types
-from gazelle.interfaces import library
-
 
 def test_show_is_that_of_ros(run, recorded) -> None:
     assert run("rosmsg", "show", "sensor_msgs/JointState") == recorded("ros_live/msg_show")
@@ -66,14 +63,9 @@ def test_types_of_the_workspace_are_known(run, tmp_path, monkeypatch) -> None:
     )
     (package / "msg" / "Wheel.msg").write_text("# a wheel\nint32 LEFT=1\nfloat64 speed\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
-    monkeypatch.setattr(library, "_user_packages", {})
-    ros_types.learn_workspace_types.cache_clear()
-    try:
-        out = run("rosmsg", "show", "my_bot_msgs/Wheel").out
-        assert out == "int32 LEFT=1\nfloat64 speed\n\n"
-        assert "my_bot_msgs/Wheel" in run("rosmsg", "list").out.splitlines()
-    finally:
-        ros_types.learn_workspace_types.cache_clear()
+    out = run("rosmsg", "show", "my_bot_msgs/Wheel").out
+    assert out == "int32 LEFT=1\nfloat64 speed\n\n"
+    assert "my_bot_msgs/Wheel" in run("rosmsg", "list").out.splitlines()
 
 
 @pytest.mark.parametrize(("words", "code"), [([], 0), (["nonsense"], 64), (["--help"], 0)])

@@ -15,7 +15,7 @@ class TestTalk(unittest.TestCase):
         rospy.init_node('test_talk')
         pub = rospy.Publisher('chatter', String, queue_size=1, latch=True)
         pub.publish('hello')
-        self.assertEqual(rospy.wait_for_message('chatter', String, timeout=5).data, WANTED)
+        self.assertEqual(rospy.wait_for_message('chatter', String, timeout=30).data, WANTED)
 rostest.rosrun('my_pkg', 'test_talk', TestTalk, sys.argv)
 """
 

@@ -11,7 +11,7 @@ import pytest
 
 from gazelle.graph import Graph
 
-PATIENCE_S = 10.0
+PATIENCE_S = 30.0
 
 
 class Inbox:

@@ -163,5 +163,5 @@ def test_graphs_larger_than_a_channel_of_the_transport_are_listed(graph: Graph, 
             target=lambda one=one: found.append(len(one.entities())), daemon=True
         )
         asking.start()
-        asking.join(10)
+        asking.join(30)
     assert [count > 400 for count in found] == [True, True, True]

@@ -25,7 +25,7 @@ def test_no_thread_is_left_in_a_call_when_the_graph_is_closed(free_port: int) ->
 
     def never(request: object) -> object:
         asked.set()
-        done.wait(10.0)
+        done.wait(30.0)
         return empty.Response()
 
     def call() -> None:
@@ -40,9 +40,9 @@ def test_no_thread_is_left_in_a_call_when_the_graph_is_closed(free_port: int) ->
             node = graph.create_node("caller", rosout=False)
             thread = threading.Thread(target=call, daemon=True)
             thread.start()
-            assert asked.wait(10.0)
+            assert asked.wait(30.0)
         assert graph.calls.wait_until_none(0.0)
-        thread.join(10.0)
+        thread.join(30.0)
         done.set()
     assert not thread.is_alive()
     assert len(ended) == 1

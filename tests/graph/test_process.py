@@ -49,7 +49,7 @@ def start(port: int) -> Iterator[Start]:
     yield run
     for process in started:
         process.kill()
-        process.communicate(timeout=10)
+        process.communicate(timeout=30)
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
@@ -71,7 +71,7 @@ def test_dead_process_is_noticed_within_a_second(
 )
 def test_process_with_nodes_ends_at_once_and_honestly(start: Start, end: str) -> None:
     process = start("n", end)
-    _, errors = process.communicate(timeout=10)
+    _, errors = process.communicate(timeout=30)
     assert (process.returncode, errors) == (3, "")
 
 

@@ -17,7 +17,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.E
 
     def lives(_self: Relinker, _zid: str) -> bool:
         begun.set()
-        assert answered.wait(10.0)
+        assert answered.wait(30.0)
         return False
 
     monkeypatch.setattr(Relinker, "_lives", lives)
@@ -31,13 +31,13 @@ def test_close_waits_for_a_question_that_is_under_way(
     begun, answered = asked
     relinker = Relinker(port=1)
     relinker.lost("abc")
-    assert begun.wait(10.0)
+    assert begun.wait(30.0)
     closing = threading.Thread(target=relinker.close)
     closing.start()
     closing.join(0.05)
     assert closing.is_alive()
     answered.set()
-    closing.join(10.0)
+    closing.join(30.0)
     assert not closing.is_alive()
 
 

@@ -114,7 +114,7 @@ def test_slow_service_times_out(server: Node, caller: Node) -> None:
     release = threading.Event()
 
     def slow(request: Any) -> Any:
-        release.wait(10)
+        release.wait(30)
         return _echo(request)
 
     server.create_service("slow", SetBool, slow)
@@ -126,7 +126,7 @@ def test_slow_service_times_out(server: Node, caller: Node) -> None:
 
 
 def test_requests_are_handled_side_by_side(server: Node, caller: Node) -> None:
-    both = threading.Barrier(2, timeout=10)
+    both = threading.Barrier(2, timeout=30)
 
     def meet(request: Any) -> Any:
         both.wait()
@@ -137,8 +137,8 @@ def test_requests_are_handled_side_by_side(server: Node, caller: Node) -> None:
     assert client.wait_for_service(10)
     first = threading.Thread(target=client.call, args=(SetBool.Request(),))
     first.start()
-    assert client.call(SetBool.Request(data=True), timeout_s=10).success
-    first.join(10)
+    assert client.call(SetBool.Request(data=True), timeout_s=30).success
+    first.join(30)
 
 
 def test_wait_for_service_wakes_when_it_comes(server: Node, caller: Node) -> None:
@@ -147,7 +147,7 @@ def test_wait_for_service_wakes_when_it_comes(server: Node, caller: Node) -> Non
     waiter = threading.Thread(target=lambda: found.append(client.wait_for_service(10)))
     waiter.start()
     server.create_service("later", SetBool, _echo)
-    waiter.join(10)
+    waiter.join(30)
     assert found == [True]
 
 

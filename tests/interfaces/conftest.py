@@ -1,15 +1,15 @@
-"""Random messages of every type, and a clean list of users' packages for each test."""
+"""Random messages of every type."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from gazelle.interfaces import Duration, Time, known_types, library, message_type
+from gazelle.interfaces import Duration, Time, known_types, message_type
 from gazelle.interfaces.definition import (
     FORMATS,
     NUMPY_NAMES,
@@ -21,16 +21,6 @@ from gazelle.interfaces.definition import (
 from gazelle.interfaces.ros1_message import ros1_class
 
 Maker = Callable[[str, Generation, int], Any]
-
-
-@pytest.fixture(autouse=True)
-def own_packages(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Packages that a test adds are gone after it."""
-    monkeypatch.setattr(library, "_user_packages", {})
-    monkeypatch.setattr(library, "_revision", library.revision() + 1)
-    yield
-    monkeypatch.undo()
-    library._revision += 2
 
 
 @pytest.fixture(scope="session")

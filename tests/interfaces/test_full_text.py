@@ -23,10 +23,9 @@ HEADER = "# Of the test.\nuint32 seq\n# When.\ntime stamp # since 1970\nstring f
 
 @pytest.fixture(autouse=True)
 def bare_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """No ROS is installed, and no text came in before."""
+    """No ROS is installed."""
     monkeypatch.setattr(installed, "_SYSTEM", tmp_path / "usr")
     monkeypatch.setattr(installed, "_DISTRIBUTIONS", tmp_path / "opt")
-    monkeypatch.setattr(full_text, "_kept", {})
     for name in installed._VARIABLES:
         monkeypatch.delenv(name, raising=False)
     full_text._cached_text.cache_clear()

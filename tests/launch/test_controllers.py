@@ -55,13 +55,13 @@ def test_spawners_of_a_paused_launch_finish_before_the_first_step(in_workspace):
 
 
 @pytest.mark.tutorial
-def test_lockstep_launches_with_controllers_have_one_state(in_workspace, tmp_path, free_port):
+def test_lockstep_launches_with_controllers_have_one_state(in_workspace, tmp_path, next_port):
     file = tmp_path / "mira.launch"
     file.write_text(LAUNCH)
     hashes = set()
-    for run in range(3):
+    for _ in range(3):
         words = ("roslaunch", "--lockstep", "--iters", "400", str(file))
-        launched = in_workspace(*words, port=free_port + run * 500)
+        launched = in_workspace(*words, port=next_port())
         started = launched.wait_for_line("Started controllers: ")
         assert ", 0.000000]" in started
         hashes.add(_hash(launched))

@@ -30,7 +30,7 @@ def test_killing_a_process_of_the_launch_leaves_nothing(
     os.kill(pid, signal.SIGKILL)
     run.eventually(lambda: _is_gone(pid))
     assert run.stop() == 0
-    run.eventually(lambda: run.processes() == {}, timeout_s=5.0)
+    run.eventually(lambda: run.processes() == {})
     # A zombie is whom nobody has asked how it ended.
     run.eventually(lambda: not [one for one in everything if psutil.pid_exists(one)])
 

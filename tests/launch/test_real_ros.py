@@ -18,17 +18,15 @@ _WORLD = '<sdf version="1.6"><world name="w"/></sdf>'
 
 
 @pytest.fixture
-def other_port(free_port: int) -> int:
+def other_port(next_port: Callable[[], int]) -> int:
     """A port for another graph."""
-    return free_port + 9_000
+    return next_port()
 
 
 @pytest.fixture
-def master(gazelle: Run, other_port: int) -> Any:
+def master(gazelle: Run, other_port: int, next_port: Callable[[], int]) -> Any:
     """A master of ROS 1 with a graph of its own behind it."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        number = str(probe.getsockname()[1])
+    number = str(next_port())
     run = gazelle("bridge", "ros1", "--port", number, port=other_port)
     run.wait_for_line("the bridge is the master at")
     run.uri = f"http://127.0.0.1:{number}"

@@ -123,7 +123,7 @@ def test_killed_launcher_leaves_nothing_behind(launch: Launch, node: Launch) -> 
     run.eventually(lambda: {"/ros", "/tf"} <= set(run.graph.node_names()))
     assert len(run.processes()) >= 6  # launcher, guard, host, parent, child, ros
     run.popen.kill()
-    run.eventually(lambda: run.processes() == {}, timeout_s=3.0)
+    run.eventually(lambda: run.processes() == {})
 
 
 def test_killed_user_node_is_reported_and_leaves_the_graph(launch: Launch, node: Launch) -> None:
@@ -131,8 +131,8 @@ def test_killed_user_node_is_reported_and_leaves_the_graph(launch: Launch, node:
     run.eventually(lambda: "/ros" in run.graph.node_names())
     pid = int(re.search(r"process\[ros-2\]: started with pid \[(\d+)\]", run.text)[1])
     os.kill(pid, signal.SIGKILL)
-    run.wait_for_line(r"\[ros-2\] process has died .* signal SIGKILL, exit code -9", 3.0)
-    run.eventually(lambda: "/ros" not in run.graph.node_names(), timeout_s=3.0)
+    run.wait_for_line(r"\[ros-2\] process has died .* signal SIGKILL, exit code -9")
+    run.eventually(lambda: "/ros" not in run.graph.node_names())
     assert run.popen.poll() is None
     assert run.stop() == 0
 
@@ -144,8 +144,8 @@ def test_killed_process_of_light_nodes_is_replaced(launch: Launch) -> None:
     pid = int(re.search(r"\[(\d+)\]", run.wait_for_line(r"process\[tf-2\]: started"))[1])
     run.eventually(lambda: "/tf" in run.graph.node_names())
     os.kill(pid, signal.SIGKILL)
-    run.wait_for_line(rf"the process of the built-in nodes \[pid {pid}\] has died", 3.0)
-    (message,) = run.messages({"/tf_static": 1}, timeout_s=3.0)["/tf_static"]
+    run.wait_for_line(rf"the process of the built-in nodes \[pid {pid}\] has died")
+    (message,) = run.messages({"/tf_static": 1})["/tf_static"]
     assert message.transforms[0].transform.translation.z == 1.0
     assert run.stop() == 0
     assert run.processes() == {}
@@ -158,8 +158,8 @@ def test_killed_simulator_is_reported_and_comes_back_when_the_file_says_so(
     pid = int(re.search(r"\[(\d+)\]", run.wait_for_line(r"process\[gazebo-2\]: started"))[1])
     run.messages({"/clock": 1})
     os.kill(pid, signal.SIGKILL)
-    run.wait_for_line(r"\[gazebo-2\] process has died .*signal SIGKILL", 3.0)
-    run.wait_for_line(r"\[gazebo-2\] restarting process", 3.0)
-    run.messages({"/clock": 1}, timeout_s=3.0)
+    run.wait_for_line(r"\[gazebo-2\] process has died .*signal SIGKILL")
+    run.wait_for_line(r"\[gazebo-2\] restarting process")
+    run.messages({"/clock": 1})
     assert run.stop() == 0
     assert run.processes() == {}

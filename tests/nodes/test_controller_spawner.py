@@ -70,7 +70,7 @@ def _states(manager: Any) -> dict[str, str]:
 def test_ros1_spawner_starts_stays_and_unloads_at_the_end(graph, monkeypatch, lines):
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["left", "right"])
-        assert spawner.is_ready.wait(10), lines
+        assert spawner.is_ready.wait(30), lines
         assert _states(manager) == {"left": "running", "right": "running"}
         assert spawner.thread.is_alive()
         assert spawner.end() == 0
@@ -98,7 +98,7 @@ def test_ros1_spawner_in_the_root_names_the_namespace(graph, monkeypatch):
     with manager_world(graph, monkeypatch) as manager:
         words = ["--namespace=/mira", "--stopped", "left"]
         spawner = Spawner(graph, controller_spawner.run, words, namespace="/")
-        assert spawner.is_ready.wait(10)
+        assert spawner.is_ready.wait(30)
         assert _states(manager) == {"left": "initialized"}
         spawner.end()
 
@@ -106,7 +106,7 @@ def test_ros1_spawner_in_the_root_names_the_namespace(graph, monkeypatch):
 def test_ros1_spawner_goes_on_with_what_can_be_loaded(graph, monkeypatch, lines):
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["lefd", "right"])
-        assert spawner.is_ready.wait(10)
+        assert spawner.is_ready.wait(30)
         assert _states(manager) == {"right": "running"}
         spawner.end()
     assert "ERROR: Failed to load lefd" in lines
@@ -119,7 +119,7 @@ def test_ros1_spawner_loads_the_parameters_of_a_file(graph, monkeypatch, tmp_pat
     file.write_text("third: {type: test_controllers/Recorder, joint: left, gain: 2.0}\n")
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, [str(file)])
-        assert spawner.is_ready.wait(10)
+        assert spawner.is_ready.wait(30)
         assert _states(manager) == {"third": "running"}
         assert manager.controllers["third"].controller.gain == 2.0
         spawner.end()
@@ -135,7 +135,7 @@ def test_ros1_spawner_waits_for_true_on_a_topic(graph, monkeypatch):
         assert not manager.controllers
         spawner.is_ready.clear()
         publisher.publish(kind(data=True))
-        assert spawner.is_ready.wait(10)
+        assert spawner.is_ready.wait(30)
         assert _states(manager) == {"left": "running"}
         spawner.end()
 
@@ -156,7 +156,7 @@ def test_a_paused_simulation_never_times_out(graph, monkeypatch, lines):
     monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
     spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
     # Time is asked for: whoever holds it back lets it go on.
-    assert spawner.is_ready.wait(10)
+    assert spawner.is_ready.wait(30)
     assert spawner.thread.is_alive()
     assert spawner.end() == 0
     assert "INFO: Waiting for /clock to be available..." in lines
@@ -230,7 +230,7 @@ def test_ros2_spawner_fails_with_the_managers_reason(graph, monkeypatch, lines):
 def test_ros2_spawner_unloads_when_killed_if_asked(graph, monkeypatch):
     with manager_world(graph, monkeypatch, 2) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["left", "-u"])
-        assert spawner.is_ready.wait(10)
+        assert spawner.is_ready.wait(30)
         assert manager.controllers["left"].state == "active"
         assert spawner.end() == 0
         assert not manager.controllers

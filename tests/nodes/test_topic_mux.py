@@ -14,7 +14,7 @@ from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.topic_mux import run_demux, run_mux
 
 _INT = message_type("std_msgs/msg/Int32")
-_PATIENCE_S = 10.0
+_PATIENCE_S = 30.0
 
 
 def _call(node: Node, name: str, kind: str, **fields: Any) -> Any:

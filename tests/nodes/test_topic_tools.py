@@ -45,7 +45,7 @@ def _sent_through(
     assert graph.discovery.wait_for(lambda _known: publisher.matched, 5.0)
     for number in range(1, 10):
         publisher.publish(_INT(data=number))
-    assert arrived.wait(5), got
+    assert arrived.wait(30), got
     stop.set()
     thread.join()
     return got

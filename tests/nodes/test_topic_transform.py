@@ -15,7 +15,7 @@ from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.topic_transform import run_relay_field, run_transform
 
 _QUATERNION = "geometry_msgs/msg/QuaternionStamped"
-_WAIT_S = 5.0
+_WAIT_S = 30.0
 
 
 @pytest.fixture

@@ -20,10 +20,10 @@ def test_commands_of_other_threads_wait_for_the_loop() -> None:
     queue.own()
     thread = threading.Thread(target=lambda: done.append(queue.call(lambda: "result")))
     thread.start()
-    assert queue.wait(5.0)
+    assert queue.wait(30.0)
     assert done == []
     queue.apply()
-    thread.join(5.0)
+    thread.join(30.0)
     queue.disown()
     assert done == ["result"]
 
@@ -41,9 +41,9 @@ def test_an_error_reaches_the_caller() -> None:
 
     thread = threading.Thread(target=call)
     thread.start()
-    queue.wait(5.0)
+    queue.wait(30.0)
     queue.apply()
-    thread.join(5.0)
+    thread.join(30.0)
     queue.disown()
     assert len(caught) == 1
 
@@ -61,7 +61,7 @@ def test_a_call_that_nobody_takes_says_so() -> None:
 
     thread = threading.Thread(target=call)
     thread.start()
-    thread.join(5.0)
+    thread.join(30.0)
     queue.disown()
     assert errors == ["the simulation did not take a command within 0.01 s"]
 
@@ -71,7 +71,7 @@ def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
     queue.own()
     thread = threading.Thread(target=lambda: queue.post(lambda: done.append(1)))
     thread.start()
-    thread.join(5.0)
+    thread.join(30.0)
     queue.disown()
     assert done == [1]
 
@@ -92,7 +92,7 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
 
     def spawn() -> None:
         acting.set()
-        go_on.wait(5.0)
+        go_on.wait(30.0)
 
     def loop() -> None:
         queue.own()
@@ -106,7 +106,7 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
 
     threads = [threading.Thread(target=lambda: queue.call(spawn)), threading.Thread(target=loop)]
     threads[0].start()
-    assert acting.wait(5.0)
+    assert acting.wait(30.0)
     threads[1].start()
     late = threading.Thread(target=late_call)
     late.start()
@@ -116,5 +116,5 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
     answered = list(done)
     end.set()
     for thread in threads:
-        thread.join(5.0)
+        thread.join(30.0)
     assert answered == ["taken"]

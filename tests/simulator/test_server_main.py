@@ -13,7 +13,7 @@ from gazelle.simulator.messages import message_class, service_class, twist_messa
 from gazelle.simulator.server_main import serve
 from gazelle.simulator.spawn_model import spawn_model
 
-PATIENCE_S = 20.0
+PATIENCE_S = 30.0
 
 
 @dataclass(frozen=True)

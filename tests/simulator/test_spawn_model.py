@@ -128,7 +128,7 @@ def test_a_bond_deletes_the_model_at_the_end(sim: Simulation, console: Console, 
         waiting.wait(0.01)
     assert sim.model("crate").links == ("link",)
     stop.set()
-    thread.join(10.0)
+    thread.join(30.0)
     assert done == [0]
     assert "crate" not in [model.name for model in sim.world.models]
 

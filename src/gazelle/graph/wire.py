@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph.keys import NO_HASH
-from gazelle.interfaces import from_cdr, message_type, to_cdr, wire_type
+from gazelle.interfaces import from_cdr, library, message_type, to_cdr, wire_type
 from gazelle.interfaces.rihs01 import type_hash
 
 __all__ = [
@@ -62,9 +62,13 @@ def resolve_type(type_or_name: Any) -> Any:
     return type_or_name
 
 
-@lru_cache(maxsize=512)
 def hash_of(type_name: str) -> str:
     """Return the RIHS01 hash of a type, a fixed word where the type is not known here."""
+    return _hash_of(type_name, library.revision())
+
+
+@lru_cache(maxsize=512)
+def _hash_of(type_name: str, _revision: int) -> str:
     try:
         return type_hash(type_name)
     except GazelleError:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import struct
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
@@ -19,7 +18,7 @@ from gazelle.bridge.foxglove.viewers import Connections, Requests, ServiceOffer,
 from gazelle.graph import Graph
 from gazelle.workspace import Workspace
 
-_PATIENCE_S = 10.0
+_PATIENCE_S = 30.0
 _LOOPBACK = "127.0.0.1"
 
 
@@ -199,28 +198,6 @@ class Viewer:
         elif frame[0] == 4:
             call, failed, length = struct.unpack_from("<IBI", frame, 1)
             self.assets[call] = None if failed else frame[10 + length :]
-
-
-@pytest.fixture
-def eventually() -> Callable[[Callable[[], Any]], Any]:
-    """Waits until a condition gives something true, and returns it."""
-
-    def wait(condition: Callable[[], Any]) -> Any:
-        end = time.monotonic() + _PATIENCE_S
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < end, "did not happen in time"
-            pause.wait(0.005)
-        return found
-
-    return wait
-
-
-@pytest.fixture
-def graph(free_port: int) -> Iterator[Graph]:
-    """What the robot's side has joined; carries the hub."""
-    with Graph.open(port=free_port, environ={}) as opened:
-        yield opened
 
 
 @pytest.fixture

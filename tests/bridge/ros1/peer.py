@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 Header = dict[str, str]
-_PATIENCE_S = 10.0
+_PATIENCE_S = 30.0
 _LENGTH = struct.Struct("<I")
 
 

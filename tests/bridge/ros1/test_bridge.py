@@ -23,9 +23,9 @@ STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 
 
 @pytest.fixture
-def master(free_port: int) -> Iterator[EmbeddedMaster]:
+def master(next_port: Callable[[], int]) -> Iterator[EmbeddedMaster]:
     """A master that is not the bridge's, with parameters of its own."""
-    with Graph.open(port=free_port + 20_000, environ={}) as elsewhere:
+    with Graph.open(port=next_port(), environ={}) as elsewhere:
         found = EmbeddedMaster(
             elsewhere.parameters, MasterAddress(HERE, 0), ADDRESS, lambda: None, print
         )
@@ -245,4 +245,4 @@ def test_ending_the_bridges_node_ends_the_bridge(graph: Graph, bridge: Bridge) -
     ended = threading.Event()
     bridge.on_end(ended.set)
     assert graph.kill_node("/ros1_bridge")
-    assert ended.wait(10.0)
+    assert ended.wait(30.0)

@@ -130,10 +130,10 @@ def test_image_arrives_whole(graph: Graph, ros: Ros1, eventually: Eventually) ->
 
 @pytest.mark.slow
 def test_real_master_is_joined_and_left_in_order(
-    real_ros: None, graph: Graph, make_bridge: Callable[..., Bridge], free_port: int,
-    tmp_path: Path, eventually: Eventually,
+    real_ros: None, graph: Graph, make_bridge: Callable[..., Bridge],
+    next_port: Callable[[], int], tmp_path: Path, eventually: Eventually,
 ) -> None:  # fmt: skip
-    port = free_port + 20_000
+    port = next_port()
     ros = Ros1(f"http://127.0.0.1:{port}", tmp_path)
     graph.create_node("rosout")
     with ros.running("roscore", "-p", str(port)) as core:

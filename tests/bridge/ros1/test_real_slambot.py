@@ -33,9 +33,9 @@ print("moved", now.pose.pose.position.x - start.pose.pose.position.x, "in", pass
 
 @pytest.mark.usefixtures("real_ros")
 def test_rospy_drives_slambot_and_rostopic_hears_its_laser(
-    in_workspace: Callable[..., Any], free_port: int, tmp_path: Path
+    in_workspace: Callable[..., Any], next_port: Callable[[], int], tmp_path: Path
 ) -> None:
-    uri = f"http://127.0.0.1:{free_port + 20_000}"
+    uri = f"http://127.0.0.1:{next_port()}"
     robot = in_workspace("roslaunch", "slam_robot", "slam_robot_gazebo.launch")
     robot.wait_for_line("Successfully spawned entity", 60.0)
     bridge = in_workspace("bridge", "ros1", ROS_MASTER_URI=uri)

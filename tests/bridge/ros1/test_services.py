@@ -89,10 +89,10 @@ def test_service_of_ros1_answers_the_graph(
     kind = service_type("std_srvs/srv/SetBool")
     client = graph.create_node("client", rosout=False).create_client("/theirs", kind)
     assert client.wait_for_service(10.0)
-    response = client.call(kind.Request(data=True), timeout_s=10.0)
+    response = client.call(kind.Request(data=True), timeout_s=30.0)
     assert (response.success, response.message) == (True, "hello")
     with pytest.raises(ServiceCallError, match="responded with an error: not that"):
-        client.call(kind.Request(data=False), timeout_s=10.0)
+        client.call(kind.Request(data=False), timeout_s=30.0)
     assert [one.servers for one in graph.services() if one.name == "/theirs"] == [("/peer",)]
     peer.call("unregisterService", "/theirs", f"rosrpc://127.0.0.1:{peer.port}")
     eventually(lambda: not [one for one in graph.services() if one.name == "/theirs"])

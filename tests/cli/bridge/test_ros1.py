@@ -11,6 +11,7 @@ import pytest
 from gazelle.cli.bridge import main
 
 Run = Callable[..., Any]
+Port = Callable[[], int]
 
 
 def test_bridge_without_a_name_shows_what_there_is(capsys: pytest.CaptureFixture[str]) -> None:
@@ -21,8 +22,8 @@ def test_bridge_without_a_name_shows_what_there_is(capsys: pytest.CaptureFixture
     assert "'ros3' is not a bridge; did you mean 'ros2' or 'ros1'?" in capsys.readouterr().err
 
 
-def test_bridge_says_where_it_is_and_leaves_in_peace(gazelle: Run, free_port: int) -> None:
-    uri = f"http://127.0.0.1:{free_port + 20_000}"
+def test_bridge_says_where_it_is_and_leaves_in_peace(gazelle: Run, next_port: Port) -> None:
+    uri = f"http://127.0.0.1:{next_port()}"
     run = gazelle("bridge", "ros1", ROS_MASTER_URI=uri)
     run.wait_for_line(rf"^the bridge is the master at {uri}/$")
     run.wait_for_line(rf"export ROS_MASTER_URI={uri}$")
@@ -44,7 +45,7 @@ def test_bad_address_is_told(gazelle: Run) -> None:
     assert "ROS_IP is '203.0.113.7', which is not an address of this machine" in run.text
 
 
-def test_open_address_is_told(gazelle: Run, free_port: int) -> None:
-    run = gazelle("bridge", "ros1", "--port", str(free_port + 20_000), ROS_IP="0.0.0.0")
+def test_open_address_is_told(gazelle: Run, next_port: Port) -> None:
+    run = gazelle("bridge", "ros1", "--port", str(next_port()), ROS_IP="0.0.0.0")
     run.wait_for_line("other machines can reach it as 0.0.0.0")
     assert run.stop() == 0

@@ -263,10 +263,10 @@ def test_a_manager_that_is_named_is_waited_for_and_said_once(ros1, capsys, monke
         target=lambda: client.find(may_be_another=False, late=told.set), daemon=True
     )
     asking.start()
-    assert told.wait(5)
+    assert told.wait(30)
     stop.wait(0.3)
     stop.set()
-    asking.join(5)
+    asking.join(30)
     line = "waiting for /leg/controller_manager; controller managers are: /mira/controller_manager"
     assert capsys.readouterr().err.splitlines() == [line]
 

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.interfaces import library
 
 _MANIFEST = (
     "<package format='3'><name>{}</name><version>0.0.1</version><description/>"
@@ -20,7 +16,7 @@ _MANIFEST = (
 
 
 @pytest.fixture
-def own_types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def own_types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A package of the user's with comments in its definitions."""
     folder = tmp_path / "src" / "shop"
     (folder / "msg").mkdir(parents=True)
@@ -33,11 +29,6 @@ def own_types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
         encoding="utf-8",
     )
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(library, "_user_packages", dict(library._user_packages))
-    monkeypatch.setattr(library, "_revision", library._revision + 1)
-    learn_workspace_types.cache_clear()
-    yield
-    learn_workspace_types.cache_clear()
 
 
 def test_show_indents_the_fields_of_fields(run: Any) -> None:

@@ -14,7 +14,6 @@ import pytest
 
 from gazelle.bag import Connection, Encoding, create_bag, storage_of
 from gazelle.cli import rosbag, rostopic
-from gazelle.interfaces import library
 
 Shown = Callable[[str], tuple[int, str, str]]
 _START_NS = 1_700_000_000_000_000_000
@@ -22,12 +21,6 @@ _TYPE = "nowhere_msgs/Reading"
 _DEFINITION = "float64 value\nstring unit\n"
 _DATA = b"\0\0\0\0\0\0\xf8\x3f" + b"\x03\0\0\0m/s"
 _ECHO = 'value: 1.5\nunit: "m/s"\n---\n'
-
-
-@pytest.fixture(autouse=True)
-def forgotten_types(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Types that a bag defined are known to the rest of a process: not to the next test."""
-    monkeypatch.setattr(library, "_user_packages", dict(library._user_packages))
 
 
 def _make(path: Path) -> Path:

@@ -153,12 +153,12 @@ rospy.spin()
     first = client.send_goal({"order": 1}, on_feedback=feedback.append)
     eventually(lambda: feedback)
     second = client.send_goal({"order": 2})
-    assert first.wait(10)
+    assert first.wait(30)
     assert first.status is ActionlibStatus.PREEMPTED
     assert "another goal was received by the simple action server" in first.text
     eventually(lambda: second.status is ActionlibStatus.ACTIVE)
     second.cancel()
-    assert second.wait(10)
+    assert second.wait(30)
     assert (second.status.name, second.text) == ("PREEMPTED", "as you like")
     assert list(second.result.sequence) == [7]
     wanted = ["preempt True True", "preempt True False"]
@@ -180,9 +180,9 @@ rospy.spin()
     client = ActionClient(node, "count", FIBONACCI)
     assert client.wait_for_server(20), running.text
     failed, forgot = client.send_goal({"order": 1}), None
-    assert failed.wait(10)
+    assert failed.wait(30)
     forgot = client.send_goal({"order": 0})
-    assert forgot.wait(10)
+    assert forgot.wait(30)
     assert (failed.status.name, failed.text) == (
         "ABORTED",
         "Exception in execute callback: no such order",
@@ -215,12 +215,12 @@ rospy.spin()
     client = ActionClient(node, "many", FIBONACCI)
     assert client.wait_for_server(20), running.text
     rejected = client.send_goal({"order": -1})
-    assert rejected.wait(10)
+    assert rejected.wait(30)
     assert (rejected.status.name, rejected.text) == ("REJECTED", "too low")
     goal = client.send_goal({"order": 1})
     eventually(lambda: goal.text == "go")
     goal.cancel()
-    assert goal.wait(10)
+    assert goal.wait(30)
     assert goal.status is ActionlibStatus.PREEMPTED
     running.wait_for_line(f"PREEMPTING {goal.goal_id}")
     running.wait_for_line("it is currently in state: 2")

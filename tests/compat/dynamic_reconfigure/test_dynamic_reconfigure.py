@@ -102,7 +102,7 @@ def test_server_of_a_cfg_file_is_seen_and_changed_by_others(
     assert (inner.name, inner.type) == ("Sizes_and_more", "tab")
     eventually(lambda: "ready" in running.lines)
     found = client.set(
-        {"size": "ExtraLarge", "double_param": 3, "str_param": "bye"}, timeout_s=10.0
+        {"size": "ExtraLarge", "double_param": 3, "str_param": "bye"}, timeout_s=30.0
     )
     assert found == {
         "bool_param": True,
@@ -123,8 +123,8 @@ from dynamic_reconfigure.msg import Config as ConfigMsg
 rospy.init_node("tuner")
 assert dynamic_reconfigure.find_reconfigure_services() == ["/camera"]
 got = []
-client = dynamic_reconfigure.client.Client("camera", timeout=10, config_callback=got.append)
-config = client.get_configuration(timeout=10)
+client = dynamic_reconfigure.client.Client("camera", timeout=30, config_callback=got.append)
+config = client.get_configuration(timeout=30)
 assert (config.p, config["groups"]["groups"]["More"]["on"]) == (1.0, False), config
 names = [row["name"] for row in client.get_parameter_descriptions()]
 rows = extract_params(client.get_group_descriptions())

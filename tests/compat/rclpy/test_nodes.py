@@ -208,7 +208,7 @@ rclpy.spin(node)
     def set_speed(value: float) -> Any:
         parameter = make(name="speed")
         parameter.value.type, parameter.value.double_value = 3, value
-        return client.call(kind.Request(parameters=[parameter]), timeout_s=10).results[0]
+        return client.call(kind.Request(parameters=[parameter]), timeout_s=30).results[0]
 
     assert set_speed(3.0).successful
     running.wait_for_line("now 3.0")
@@ -243,6 +243,6 @@ rclpy.spin(node)
     goals = [client.send_goal({"order": 1})]
     running.eventually(lambda: goals[0].is_accepted)
     goals.append(client.send_goal({"order": 2}))
-    assert all(goal.wait(10) for goal in goals), running.text
+    assert all(goal.wait(30) for goal in goals), running.text
     assert [list(goal.result.sequence) for goal in goals] == [[1], [2]]
     assert [line for line in running.lines if "exec" in line] == ["executing 2", "executing 1"]

@@ -366,14 +366,14 @@ def test_minimal_parameters_are_seen_and_set_by_others(
     running.wait_for_line("Hello world!")
     kind = service_type("rcl_interfaces/DescribeParameters")
     client = node.create_client("/minimal_param_node/describe_parameters", kind)
-    answer = client.call(kind.Request(names=["my_parameter"]), timeout_s=10)
+    answer = client.call(kind.Request(names=["my_parameter"]), timeout_s=30)
     assert answer.descriptors[0].description == "This parameter is mine!"
     kind = service_type("rcl_interfaces/SetParameters")
     request = kind.Request()
     fill(request, {"parameters": [{"name": "my_parameter", "value": {
         "type": 4, "string_value": "earth"}}]})  # fmt: skip
     client = node.create_client("/minimal_param_node/set_parameters", kind)
-    assert client.call(request, timeout_s=10).results[0].successful
+    assert client.call(request, timeout_s=30).results[0].successful
     running.wait_for_line("Hello earth!")
     running.stop()
 
@@ -388,7 +388,7 @@ def test_fibonacci_action_server_and_client(run: Callable[..., Any], node: Node)
     ours = ActionClient(node, "fibonacci", "action_tutorials_interfaces/Fibonacci")
     assert ours.wait_for_server(10)
     goal = ours.send_goal({"order": 2})
-    assert goal.wait(10)
+    assert goal.wait(30)
     assert goal.status is Ros2Status.SUCCEEDED
     assert list(goal.result.sequence) == [0, 1, 1]
     server.stop()

@@ -21,7 +21,7 @@ def failure(function, *args, **kwds):
 
 def offer(name, kind, handler, **more):
     rospy.Service(name, kind, handler, **more)
-    rospy.wait_for_service(name, timeout=5)
+    rospy.wait_for_service(name, timeout=30)
     return rospy.ServiceProxy(name, kind)
 
 # A response, a list, a tuple, a dict.

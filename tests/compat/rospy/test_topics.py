@@ -64,7 +64,7 @@ from std_msgs.msg import String
 from sensor_msgs.msg import LaserScan
 from nav_msgs.msg import Odometry
 rospy.init_node("listener")
-assert rospy.wait_for_message("/map_name", String, timeout=5).data == "office"
+assert rospy.wait_for_message("/map_name", String, timeout=30).data == "office"
 odom = rospy.wait_for_message("/odom", Odometry, timeout=rospy.Duration(5))
 assert (odom.header.frame_id, odom.header.stamp.secs, odom.header.stamp.nsecs) == ("odom", 3, 500)
 assert odom.header.seq >= 0 and odom.header.stamp == rospy.Time(3, 500)
@@ -72,14 +72,14 @@ odom.pose.pose.position.x = 7.0
 
 from rospy.numpy_msg import numpy_msg
 import numpy
-scan = rospy.wait_for_message("/scan", numpy_msg(LaserScan), timeout=5)
+scan = rospy.wait_for_message("/scan", numpy_msg(LaserScan), timeout=30)
 assert isinstance(scan.ranges, numpy.ndarray) and scan.ranges.dtype == numpy.float32
 assert numpy.allclose(scan.ranges, [0.5, 1.5])
 
-raw = rospy.wait_for_message("/map_name", rospy.AnyMsg, timeout=5)
+raw = rospy.wait_for_message("/map_name", rospy.AnyMsg, timeout=30)
 assert raw._connection_header["type"] == "std_msgs/String"
 assert String().deserialize(raw._buff).data == "office"
-plain = rospy.wait_for_message("/scan", LaserScan, timeout=5)
+plain = rospy.wait_for_message("/scan", LaserScan, timeout=30)
 assert list(plain.ranges) == [0.5, 1.5]
 assert ["/scan", "sensor_msgs/LaserScan"] in rospy.get_published_topics()
 """
@@ -142,7 +142,7 @@ sub = rospy.Subscriber("numbers", Int32, callback)
 pub = rospy.Publisher("numbers", Int32, queue_size=2)
 pub.publish(1)
 pub.publish(2)
-assert done.wait(5)
+assert done.wait(30)
 sub.unregister()
 assert pub.get_num_connections() == 0
 """
@@ -165,7 +165,7 @@ pub = rospy.Publisher("floats", numpy_msg(Float32MultiArray), queue_size=1)
 message = numpy_msg(Float32MultiArray)()
 message.data = numpy.array([1.0, 2.5], dtype=numpy.float32)
 pub.publish(message)
-assert done.wait(5)
+assert done.wait(30)
 assert isinstance(got[0].data, numpy.ndarray) and got[0].data.tolist() == [1.0, 2.5]
 """
 

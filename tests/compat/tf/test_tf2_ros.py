@@ -117,7 +117,7 @@ for time in (1, 2, 3.05):
     images.publish(Image(header=Header(stamp=rospy.Time(time))))
 for time in (1, 2, 3):
     infos.publish(CameraInfo(header=Header(stamp=rospy.Time(time))))
-assert done.wait(5), near
+assert done.wait(30), near
 assert sorted(pairs) == [(1, 1), (2, 2)]
 assert sorted(near) == [(1.0, 1.0), (2.0, 2.0), (3.05, 3.0)]
 assert cache.getElemBeforeTime(rospy.Time(2.5)).header.stamp == rospy.Time(2)

@@ -151,14 +151,14 @@ def test_client_sees_description_and_values(pair: Any) -> None:
     assert client.wait_for_server(10.0)
     assert client.wait_for_values(10.0) == {"p": 1.0, "size": 0, "on": False}
     assert [group.name for group in client.description.groups] == ["More"]
-    assert client.set({"p": "2.5", "on": "yes", "size": "large"}, timeout_s=10.0) == {
+    assert client.set({"p": "2.5", "on": "yes", "size": "large"}, timeout_s=30.0) == {
         "p": 2.5,
         "size": 2,
         "on": True,
     }
     assert server.values == {"p": 2.5, "size": 2, "on": True}
     assert client.values == server.values
-    client.set({}, states={"More": False}, timeout_s=10.0)
+    client.set({}, states={"More": False}, timeout_s=30.0)
     assert not server.states["More"]
     client.close()
 
@@ -166,9 +166,9 @@ def test_client_sees_description_and_values(pair: Any) -> None:
 def test_client_says_what_cannot_be_set(pair: Any) -> None:
     _, client = pair
     with pytest.raises(ReconfigureError, match="don't know parameter: sise; did you mean 'size'"):
-        client.set({"sise": 1}, timeout_s=10.0)
+        client.set({"sise": 1}, timeout_s=30.0)
     with pytest.raises(ReconfigureError, match=r"can't set parameter 'p' of <class 'float'>: coul"):
-        client.set({"p": "much"}, timeout_s=10.0)
+        client.set({"p": "much"}, timeout_s=30.0)
 
 
 def test_client_of_nobody_gives_up_in_time(join: Callable[..., Graph]) -> None:

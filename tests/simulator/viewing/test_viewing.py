@@ -23,7 +23,7 @@ _ARM = f"""<robot name="arm">
   <joint name="turn" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
     <limit lower="-2" upper="2" effort="10" velocity="5"/></joint>
 </robot>"""
-_WAIT_S = 10.0
+_WAIT_S = 30.0
 
 
 class _Viewer:

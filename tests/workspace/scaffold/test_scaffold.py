@@ -147,8 +147,8 @@ def test_launch_files_are_read_without_findings(tmp_path: Path, kind: str) -> No
 def test_new_robot_starts_and_drives(gazelle, tmp_path: Path) -> None:
     create_package("robot", "my_bot", tmp_path / "src")
     run = gazelle("roslaunch", "my_bot", "my_bot.launch")
-    run.wait_for_line("Successfully spawned entity", 60.0)
-    odometry = run.messages({"/odom": 60, "/scan": 5, "/joint_states": 5}, 60.0)
+    run.wait_for_line("Successfully spawned entity", 180.0)
+    odometry = run.messages({"/odom": 60, "/scan": 5, "/joint_states": 5}, 180.0)
     # Ahead at its speed, or turning at its rate when a slow machine let it reach a wall.
     twist = odometry["/odom"][-1].twist.twist
     assert max(twist.linear.x / 0.3, twist.angular.z / 0.8) == pytest.approx(1.0, abs=0.15)

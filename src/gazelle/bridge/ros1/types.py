@@ -13,6 +13,7 @@ from gazelle.interfaces import (
     definition,
     from_cdr,
     from_ros1,
+    library,
     md5sum,
     message_type,
     ros1_message_type,
@@ -101,13 +102,17 @@ class ServiceKind(NamedTuple):
     service_class: Any
 
 
-@lru_cache(maxsize=1024)
 def message_kind(name: str) -> MessageKind:
     """Return a message type by its name in either world.
 
     Raises:
         GazelleError: nothing defines it.
     """
+    return _message_kind(name, library.revision())
+
+
+@lru_cache(maxsize=1024)
+def _message_kind(name: str, _revision: int) -> MessageKind:
     wire = wire_type(name)
     ros1 = name if name.count("/") == 1 else ros1_type_of(name)
     full = "/".join((ros1.split("/")[0], "msg", ros1.split("/")[1]))
@@ -121,13 +126,17 @@ def message_kind(name: str) -> MessageKind:
     return MessageKind(ros1, wire, md5sum(full), message_class, has_header)
 
 
-@lru_cache(maxsize=1024)
 def service_kind(name: str) -> ServiceKind:
     """Return a service type by its name in either world.
 
     Raises:
         GazelleError: nothing defines it.
     """
+    return _service_kind(name, library.revision())
+
+
+@lru_cache(maxsize=1024)
+def _service_kind(name: str, _revision: int) -> ServiceKind:
     from gazelle.interfaces import ros1_service_type
 
     wire = wire_type(name, "srv")

@@ -33,7 +33,7 @@ class Inbox:
         self._came.set()
 
     def first(self) -> Any:
-        assert self._came.wait(10), "no message came"
+        assert self._came.wait(30), "no message came"
         return self.messages[0]
 
 
