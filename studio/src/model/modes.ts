@@ -13,6 +13,14 @@ export const MODES = {
 } as const;
 
 export type Mode = keyof typeof MODES;
+
+/** What old documents call a mode, or what it draws. */
+export const ABOUT: Partial<Record<Mode, string>> = {
+  collisions: 'The shapes that collide (once: Show Physics)',
+  inertias: 'Boxes of the same mass and inertia',
+  joints: 'Where joints are, and their axes',
+  boxes: 'A box around each link',
+};
 export type ModeFlags = Partial<Record<Mode, boolean>>;
 
 /** Which modes are on, and what single models say otherwise. */

@@ -1,5 +1,5 @@
 /** The toolbar of a scene panel: tools, View menu, camera, screenshot and video. */
-import { MODES, type Mode } from '../model/modes';
+import { ABOUT, MODES, type Mode } from '../model/modes';
 import { button, h, select, spacer, toggle, toolbar } from '../widgets/dom';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import { insertPrimitive } from '../world/actions';
@@ -82,7 +82,7 @@ export class SceneToolbar {
   private viewMenu(): MenuItem[] {
     const { panel } = this;
     const modes: MenuItem[] = panel.kind === 'gazebo' ? (Object.keys(MODES) as Mode[]).map((mode) => ({
-      text: MODES[mode], checked: panel.assembly.modes.isOn(mode),
+      text: MODES[mode], title: ABOUT[mode], checked: panel.assembly.modes.isOn(mode),
       run: () => panel.setMode(mode, !panel.assembly.modes.isOn(mode)),
     })) : [];
     const contacts: MenuItem[] = panel.kind === 'gazebo'

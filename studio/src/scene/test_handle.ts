@@ -35,6 +35,8 @@ export function publishHandle(): void {
     scenes: () => scenePanels().map(report),
     scene: (kind?: 'gazebo' | 'rviz') => report(panelOf(kind)),
     pose: (body: string, kind?: 'gazebo' | 'rviz') => pose(panelOf(kind), body),
+    frame: (name: string, kind?: 'gazebo' | 'rviz') => frame(panelOf(kind), name),
+    points: (display: string, every: number, kind?: 'gazebo' | 'rviz') => points(panelOf(kind), display, every),
     screen: (body: string, kind?: 'gazebo' | 'rviz') => screen(panelOf(kind), body),
     project: (point: [number, number, number], kind?: 'gazebo' | 'rviz') => panelOf(kind).view.toPage(new THREE.Vector3(...point)),
     overlays: (mode: Mode) => panelOf('gazebo').assembly.count(mode),
@@ -70,6 +72,27 @@ function report(panel: ScenePanel): SceneReport {
 function pose(panel: ScenePanel, body: string): number[] | null {
   const node = panel.assembly.bodies.find((each) => each.value.name === body);
   return node ? [...node.root.position.toArray(), ...node.root.quaternion.toArray()] : null;
+}
+
+/** Where a frame of tf is in the fixed frame. */
+function frame(panel: ScenePanel, name: string): number[] | null {
+  const { frames } = panel.displays.stage;
+  const at = frames.at(name);
+  return at < 0 ? null : [...frames.poses.slice(at, at + 7)];
+}
+
+/** Every n-th point of a display in the fixed frame: x, y, z, x, … */
+function points(panel: ScenePanel, name: string, every: number): number[] {
+  const found: number[] = [];
+  panel.displays.displays.find((each) => each.name === name)?.root.traverse((object) => {
+    if (!(object instanceof THREE.Points)) return;
+    const position = object.geometry.getAttribute('position');
+    object.updateWorldMatrix(true, false);
+    for (let index = 0; index < object.geometry.drawRange.count; index += every) {
+      found.push(...new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld).toArray());
+    }
+  });
+  return found;
 }
 
 /** The middle of a body's box on the page. */

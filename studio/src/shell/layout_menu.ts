@@ -7,7 +7,7 @@ import { openMenu, type MenuItem } from '../widgets/menu';
 import { askFile, askText } from './dialog';
 import type { Dock } from './dock';
 import type { LayoutStore } from './layout_store';
-import { NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
+import { companionsOf, NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
 import type { Toasts } from './toasts';
 
 /** The layouts of the page. */
@@ -59,7 +59,12 @@ export class Layouts {
     if (panel === 'layout' && name) void this.load(name);
     else if (panel === 'rqt_gui') void this.showPerspective({ path: textOf(params, 'perspective') });
     else if (!kind) this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
-    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.dock.showBeside(kind, params);
+    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.showBeside(kind, params);
+  }
+
+  private showBeside(kind: string, params: JsonObject): void {
+    this.dock.showBeside(kind, params);
+    for (const place of companionsOf(kind)) if (!this.dock.openIn(place.kind, {})) this.dock.show(place.kind, {}, place);
   }
 
   private reset(): void {

@@ -42,6 +42,11 @@ export function placesFor(command: string): readonly Place[] {
   return BY_COMMAND[command] ?? [{ kind: command }];
 }
 
+/** The panels that belong to a command's own: RViz's list of displays. */
+export function companionsOf(command: string): readonly Place[] {
+  return (BY_COMMAND[command] ?? []).slice(1);
+}
+
 /**
  * The places for all commands that asked for a panel. The first command that has a layout of its
  * own gives the frame; the panels of the others go into tabs at its right.

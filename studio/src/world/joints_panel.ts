@@ -79,7 +79,9 @@ export class JointsPanel extends BasePanel {
     this.channel = null;
     this.names = '';
     this.body.replaceChildren(notice(model ? 'Waiting for the joints…' : 'No model with joints is in the world.'));
-    if (model) this.channel = this.stream('world.joints', { model }, { onData: (value) => this.take(value) });
+    if (!model) return;
+    const gone = () => this.body.replaceChildren(notice(`${model} is no longer in the world.`));
+    this.channel = this.stream('world.joints', { model }, { onData: (value) => this.take(value), onFailed: gone, onEnded: gone });
   }
 
   private setMode(mode: Mode, tabs: HTMLElement[]): void {
