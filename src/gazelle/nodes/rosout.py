@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
 from logging import Formatter, Handler, LogRecord, NullHandler
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from typing import Any
 
-from gazelle.graph import Graph, Level
+from gazelle.graph import Entity, Graph, Kind, Level, Node
+from gazelle.graph.names import resolve
 from gazelle.interfaces import ros1_message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
@@ -17,14 +19,40 @@ __all__ = ["line_of", "run"]
 
 _FILE_BYTES = 100_000_000
 _FILES = 10
+_LOOK_S = 0.5
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Pass log messages on until told to stop."""
+    """Pass log messages on until told to stop.
+
+    Only one node of a graph does. Launches that start at the same moment each bring one: all but
+    one stand by, and the next takes over when that one ends, as it comes back itself when it is
+    killed (``respawn`` in ROS 1's roscore.xml).
+    """
+    name = resolve(arguments.name, resolve(arguments.namespace or "/"))
+    file = _file(arguments.log_file)
+    node: Node | None = None
+    known = graph.entities()
+    while True:
+        others = _namesakes(name, graph, known)
+        if node is not None and not node.closed and any(zid < graph.zid for zid in others):
+            # Two that began together saw nothing of each other then.
+            node.shutdown("another node gathers the log")
+        if not others and (node is None or node.closed):
+            node = _begin(arguments, graph, file)
+        if stop.wait(_LOOK_S):
+            break
+        known = graph.discovery.known()
+    if node is not None:
+        node.shutdown()
+    file.close()
+    return 0
+
+
+def _begin(arguments: NodeArguments, graph: Graph, file: Handler) -> Node:
     node = start_node(arguments, graph)
     log_type = ros1_message_type("rosgraph_msgs/Log")
     out = node.create_publisher("/rosout_agg", log_type, queue_size=100)
-    file = _file(arguments.log_file)
 
     def on_log(message: Any) -> None:
         out.publish(message)
@@ -32,10 +60,16 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
     _write(file, f"{node.clock.now_ns() / 1e9:.9f} Node Startup")
     node.create_subscription("/rosout", log_type, on_log, queue_size=0)
-    stop.wait()
-    node.shutdown()
-    file.close()
-    return 0
+    return node
+
+
+def _namesakes(name: str, graph: Graph, known: Iterable[Entity]) -> list[str]:
+    """Return the sessions of other processes' nodes of that name."""
+    return [
+        one.zid
+        for one in known
+        if one.kind is Kind.NODE and one.node == name and one.zid != graph.zid
+    ]
 
 
 def line_of(message: Any) -> str:
