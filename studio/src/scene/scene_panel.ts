@@ -16,6 +16,7 @@ import { dropScene, useScene } from './active';
 import { Film } from './capture';
 import type { ViewState } from './cameras';
 import { Frames } from './frames';
+import { freeYaw } from './framing';
 import { gridLines } from './grid';
 import { Highlight } from './highlight';
 import { surroundings } from './lighting';
@@ -204,13 +205,17 @@ export class ScenePanel implements Panel, Bench {
 
   /** Look at what can move, the first time there is something. */
   private frameModels(): void {
-    const moving = (this.world.scene?.models ?? []).filter((model) => !model.static);
-    const nodes = moving.slice(0, 12).flatMap((model) => this.assembly.nodes(model.name));
+    const models = this.world.scene?.models ?? [];
+    const nodesOf = (are: typeof models) => are.flatMap((model) => this.assembly.nodes(model.name));
+    const nodes = nodesOf(models.filter((model) => !model.static).slice(0, 12));
     const box = this.assembly.worldBox(nodes);
     if (box.isEmpty()) return;
     const radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 0.25);
     const centre = box.getCenter(new THREE.Vector3());
-    this.view.rig.set({ focal: [centre.x, centre.y, Math.max(centre.z, 0)], distance: Math.min(60, radius * 4.2) });
+    const distance = Math.min(60, radius * 4.2);
+    const walls = nodesOf(models.filter((model) => model.static)).map((node) => node.root);
+    const yaw = freeYaw(centre, { ...this.view.rig.state, distance }, this.view.camera, walls);
+    this.view.rig.set({ focal: [centre.x, centre.y, Math.max(centre.z, 0)], distance, yaw });
   }
 
   private beginDisplays(): void {
