@@ -21,7 +21,7 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import fill, message_type
 from gazelle.studio import Server, Studio
 
-_PATIENCE_S = 20.0
+_PATIENCE_S = 60.0
 _CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
 _FLAGS = (
     "--no-sandbox",
@@ -91,7 +91,7 @@ class Look:
 
     def _on_console(self, message: Any) -> None:
         if message.type == "error":
-            self.problems.append(f"console: {message.text}")
+            self.problems.append(f"console: {message.text} {message.location.get('url', '')}")
 
     def _on_request(self, request: Any) -> None:
         if not re.match(r"(http|ws)://127\.0\.0\.1[:/]|data:|blob:", request.url):
