@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +15,7 @@ from gazelle.bridge.foxglove.services import Services
 from gazelle.bridge.foxglove.speech import Speech
 from gazelle.bridge.foxglove.topics import Topics
 from gazelle.bridge.foxglove.viewers import Allow, Connections, Requests, Viewers
+from gazelle.bridge.settling import Settling
 from gazelle.errors import GazelleError
 from gazelle.graph.delivery import Mailbox
 
@@ -27,7 +27,6 @@ __all__ = ["FoxgloveBridge"]
 
 _NAME = "foxglove_bridge"
 _IDLE_S = 5.0
-_SETTLE_S = 0.02
 _ENDING_S = 5.0
 
 
@@ -54,9 +53,7 @@ class FoxgloveBridge:
         """
         self._graph = graph
         self._workspace = workspace
-        self._dirty = threading.Event()
-        self._ended = threading.Event()
-        self._trouble = ""
+        self._settling = Settling("foxglove bridge", self._settle, self._notice)
         self._connections: Connections | None = None
         # A clock of a thousand ticks a second is of no use while nobody looks.
         graph.clock.use(False)
@@ -78,10 +75,8 @@ class FoxgloveBridge:
         self._services = services if Allow.SERVICES in allow else None
         if Allow.PARAMETERS in allow:
             self._parameters.follow(self._viewers.show_parameters)
-        graph.discovery.listen(lambda entity, is_there: self._dirty.set())
-        self._dirty.set()
-        self._thread = threading.Thread(target=self._run, name="foxglove bridge", daemon=True)
-        self._thread.start()
+        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
+        self._settling.start(_IDLE_S)
 
     @property
     def port(self) -> int:
@@ -94,11 +89,8 @@ class FoxgloveBridge:
 
     def close(self) -> None:
         """Say good-bye to all viewers; calling it twice does nothing."""
-        if self._ended.is_set():
+        if not self._settling.close():
             return
-        self._ended.set()
-        self._dirty.set()
-        self._thread.join(_ENDING_S)
         self._pulse.close()
         self._parameters.close()
         self._viewers.close()
@@ -147,22 +139,6 @@ class FoxgloveBridge:
             self._pulse.beat(fast=self._topics.is_watched)
         except GazelleError as error:
             self._notice(str(error))
-
-    def _run(self) -> None:
-        while not self._ended.is_set():
-            self._dirty.wait(_IDLE_S)
-            # Changes come in swarms: a node announces all it has at once.
-            self._ended.wait(_SETTLE_S)
-            self._dirty.clear()
-            if self._ended.is_set():
-                return
-            try:
-                self._settle()
-            except GazelleError as error:
-                # One thing that cannot be shown must not end the bridge.
-                if str(error) != self._trouble:
-                    self._trouble = str(error)
-                    self._notice(self._trouble)
 
     def _settle(self) -> None:
         entities = self._graph.discovery.known()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,8 @@ from gazelle.bridge.ros1.services import call_service
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind
 from gazelle.bridge.ros1.views import BRIDGE_NAME, TypeBook, traits_of, wishes_of
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
-from gazelle.errors import GazelleError, GraphError
+from gazelle.bridge.settling import Settling
+from gazelle.errors import GraphError
 from gazelle.graph import Publisher
 from gazelle.graph.errors import ServiceUnavailableError, coded
 
@@ -31,8 +31,6 @@ __all__ = ["Bridge"]
 
 _POLL_S = 0.5
 _IDLE_S = 5.0
-_SETTLE_S = 0.01
-_ENDING_S = 5.0
 _NOTHING: frozenset[str] = frozenset()
 _OF_REAL_ROSOUT = frozenset({"/rosout_agg"})
 
@@ -57,10 +55,8 @@ class Bridge:
         """
         _refuse_second(graph)
         self._graph = graph
-        self._dirty = threading.Event()
-        self._ended = threading.Event()
         self._lost = False
-        self._trouble = ""
+        self._settling = Settling("ros1 bridge", self._look, self._notice)
         self._presences: dict[str, Presence] = {}
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
         # A clock of a thousand ticks a second is of no use to a bridge.
@@ -68,14 +64,16 @@ class Bridge:
         self._workers = ThreadPoolExecutor(2, thread_name_prefix="ros1 bridge")
         try:
             self.master: MasterPeer = find_master(
-                graph.parameters, place, address, self._dirty.set, self._notice
+                graph.parameters, place, address, self._settling.touch, self._notice
             )
         except GraphError:
             self._node.shutdown()
             raise
         self._skipped = _NOTHING if self.master.is_embedded else _OF_REAL_ROSOUT
         self._book = TypeBook(self._notice, self._explain)
-        self._services = ServiceTypes(self.master.ask, self._dirty.set, self._book, self._notice)
+        self._services = ServiceTypes(
+            self.master.ask, self._settling.touch, self._book, self._notice
+        )
         uri = self.master.uri
         self._mirrors: Mirrors[MessageKind, ServiceKind] = Mirrors(
             graph, self._node, self._call, self._end_in_ros1
@@ -85,10 +83,8 @@ class Bridge:
         self._crossing.own_uris.add(self._own.uri)
         self._sync = self._joined_parameters()
         self._texts = TextShare(graph)
-        graph.discovery.listen(lambda entity, is_there: self._dirty.set())
-        self._dirty.set()
-        self._thread = threading.Thread(target=self._run, name="ros1 bridge", daemon=True)
-        self._thread.start()
+        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
+        self._settling.start(_IDLE_S if self.master.is_embedded else _POLL_S)
 
     @property
     def nodes(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -101,11 +97,8 @@ class Bridge:
 
     def close(self) -> None:
         """Take everything that is of the other side off both; calling it twice does nothing."""
-        if self._ended.is_set():
+        if not self._settling.close():
             return
-        self._ended.set()
-        self._dirty.set()
-        self._thread.join(_ENDING_S)
         self._services.close()
         self._texts.close()
         self._end_parameters()
@@ -116,28 +109,12 @@ class Bridge:
         self._workers.shutdown(wait=False, cancel_futures=True)
         self._node.shutdown()
 
-    def _run(self) -> None:
-        pause_s = _IDLE_S if self.master.is_embedded else _POLL_S
-        while not self._ended.is_set():
-            self._dirty.wait(pause_s)
-            # Changes come in swarms: a node announces all it has at once.
-            self._ended.wait(_SETTLE_S)
-            self._dirty.clear()
-            if self._ended.is_set():
-                return
-            self._try_to_settle()
-
-    def _try_to_settle(self) -> None:
+    def _look(self) -> None:
         try:
             self._settle()
             self._find_again()
         except RemoteError as error:
             self._lose(error)
-        except GazelleError as error:
-            # One thing that cannot be brought over must not end the bridge.
-            if str(error) != self._trouble:
-                self._trouble = str(error)
-                self._notice(self._trouble)
 
     def _settle(self) -> None:
         state = self.master.state()
@@ -184,7 +161,7 @@ class Bridge:
         self, node: str, topic: str, kind: MessageKind, latched: bool
     ) -> Publisher | None:
         ours = node in self._presences or node == BRIDGE_NAME
-        if ours or self._ended.is_set() or not node.startswith("/"):
+        if ours or self._settling.ended or not node.startswith("/"):
             return None
         return self._mirrors.voice(node, topic, kind, latched)
 
@@ -196,7 +173,7 @@ class Bridge:
         return call_service(uri, service, kind, BRIDGE_NAME, request)
 
     def _end_in_ros1(self, name: str, reason: str) -> None:
-        if not self._ended.is_set():
+        if not self._settling.ended:
             self._workers.submit(self._shut_down, name, reason)
 
     def _shut_down(self, name: str, reason: str) -> None:

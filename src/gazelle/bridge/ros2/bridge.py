@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,8 @@ from gazelle.bridge.ros2.interpreters import Interpreter
 from gazelle.bridge.ros2.session import Session
 from gazelle.bridge.ros2.side import About, open_side
 from gazelle.bridge.ros2.views import BRIDGE_NAME
-from gazelle.errors import GazelleError, GraphError
+from gazelle.bridge.settling import Settling
+from gazelle.errors import GraphError
 from gazelle.graph.errors import coded
 
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 __all__ = ["Bridge"]
 
 _POLL_S = 5.0
-_SETTLE_S = 0.01
-_ENDING_S = 5.0
 _FIRST_PAUSE_S = 0.5
 _LONGEST_PAUSE_S = 10.0
 
@@ -44,19 +42,15 @@ class Bridge:
         _refuse_second(graph)
         self._graph = graph
         self._environ = environ
-        self._dirty = threading.Event()
-        self._ended = threading.Event()
-        self._trouble = ""
+        self._settling = Settling("ros2 bridge", self._settle, self._notice)
         side = open_side(interpreters, environ)
         self._interpreter = Interpreter(side.about.python, "as before")
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
         # A clock of a thousand ticks a second is of no use to a bridge.
         graph.clock.use(False)
-        self._session = Session(graph, self._node, side, self._notice, self._dirty.set)
-        graph.discovery.listen(lambda entity, is_there: self._dirty.set())
-        self._dirty.set()
-        self._thread = threading.Thread(target=self._run, name="ros2 bridge", daemon=True)
-        self._thread.start()
+        self._session = Session(graph, self._node, side, self._notice, self._settling.touch)
+        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
+        self._settling.start(_POLL_S)
 
     @property
     def about(self) -> About:
@@ -74,36 +68,16 @@ class Bridge:
 
     def close(self) -> None:
         """Take everything that is of the other side off both; calling it twice does nothing."""
-        if self._ended.is_set():
+        if not self._settling.close():
             return
-        self._ended.set()
-        self._dirty.set()
-        self._thread.join(_ENDING_S)
         self._session.close()
         self._node.shutdown()
 
-    def _run(self) -> None:
-        while not self._ended.is_set():
-            self._dirty.wait(_POLL_S)
-            # Changes come in swarms: a node announces all it has at once.
-            self._ended.wait(_SETTLE_S)
-            self._dirty.clear()
-            if self._ended.is_set():
-                return
-            if self._session.is_over:
-                self._start_again()
-            if self._ended.is_set():
-                return
-            self._try_to_settle()
-
-    def _try_to_settle(self) -> None:
-        try:
+    def _settle(self) -> None:
+        if self._session.is_over:
+            self._start_again()
+        if not self._settling.ended:
             self._session.settle()
-        except GazelleError as error:
-            # One thing that cannot be brought over must not end the bridge.
-            if str(error) != self._trouble:
-                self._trouble = str(error)
-                self._notice(self._trouble)
 
     def _start_again(self) -> None:
         self._session.close()
@@ -112,7 +86,7 @@ class Bridge:
         )
         ghosts = frozenset({*self._session.nodes[0], BRIDGE_NAME})
         pause_s = _FIRST_PAUSE_S
-        while not self._ended.wait(pause_s):
+        while not self._settling.wait(pause_s):
             try:
                 side = open_side([self._interpreter], self._environ)
             except GraphError as error:
@@ -120,7 +94,7 @@ class Bridge:
                 pause_s = min(2 * pause_s, _LONGEST_PAUSE_S)
                 continue
             self._session = Session(
-                self._graph, self._node, side, self._notice, self._dirty.set, ghosts
+                self._graph, self._node, side, self._notice, self._settling.touch, ghosts
             )
             return
 
