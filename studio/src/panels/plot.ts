@@ -16,8 +16,9 @@ interface Entry { text: string; channel: Channel; curves: Curve[]; missing: bool
 
 const COLOURS = 8;
 const DRAW_EVERY_MS = 50;
-/** A drawing that takes long is drawn less often: at most a twentieth of the time goes into it. */
+/** A drawing that takes long is drawn less often: a twentieth of the time shall go into it. */
 const IDLE_PER_DRAW = 20;
+const LONGEST_REST_MS = 500;
 const WINDOW_S = 20;
 
 /** The Plot panel of rqt. */
@@ -160,7 +161,8 @@ export class Plot extends BasePanel {
     }
     this.fitButton.disabled = !this.chart.isZoomed;
     this.showValues();
-    this.nextDraw = now + Math.max(DRAW_EVERY_MS, (performance.now() - now) * IDLE_PER_DRAW);
+    const rest_ms = (performance.now() - now) * IDLE_PER_DRAW;
+    this.nextDraw = now + Math.min(LONGEST_REST_MS, Math.max(DRAW_EVERY_MS, rest_ms));
   }
 
   private pause(on: boolean): void {
