@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -82,6 +83,7 @@ export function mount(element, api) {
   return () => words.remove();
 }
 """
+_SCOUT = Path(__file__).parents[2] / "examples" / "scout_ws"
 _KIND = "plugin:speed.Speed"
 
 
@@ -216,3 +218,28 @@ def test_a_plug_in_of_rqt_is_answered_with_its_port(
     assert 'Slider("speed_slider", min=0, max=50, step=1)' in panel.inner_text()
     assert "class ArmTester(Panel):" in panel.get_by_label("Python code").inner_text()
     seen.shot("port")
+
+
+def test_the_scouts_panel_drives_the_running_robot(gazelle: Any, look: Any) -> None:
+    """Named on the command line; the robot goes ahead, and the panel stops it before a wall."""
+    launched = gazelle("roslaunch", "scout_robot", "scout.launch", cwd=_SCOUT)
+    launched.wait_for_line("spawn_scout")
+    panel_file = str(_SCOUT / "src" / "scout_robot" / "panels" / "cruise.py")
+    words = ("studio", "--port", "0", "--no-browser", "--panel", panel_file)
+    line = gazelle(*words, port=launched.port).wait_for_line("Studio: ")
+    seen = look(line.split("Studio: ")[1].strip())
+    panel = seen.panel("plugin:cruise.Cruise")
+    go, stop = (panel.get_by_role("button", name=name, exact=True) for name in ("Go", "Stop"))
+    panel.get_by_label("Speed value").fill("0.5")
+    panel.get_by_label("Speed value").press("Enter")
+    expect = pytest.importorskip("playwright.sync_api").expect
+    expect(panel.get_by_label("Free way ahead", exact=True)).not_to_have_text("–", timeout=60_000)
+    go.click()
+    expect(stop).to_be_enabled()
+    driven = panel.get_by_label("driven", exact=True)
+    expect(driven).to_have_text(re.compile(r"0\.[345]\d*"), timeout=60_000)
+    seen.shot("driving")
+    panel.get_by_label("Stop before value").fill("2")
+    panel.get_by_label("Stop before value").press("Enter")
+    expect(go).to_be_enabled(timeout=60_000)
+    expect(driven).to_have_text(re.compile(r"-?(0\.0\d*|0|.*e-\d+)"), timeout=60_000)

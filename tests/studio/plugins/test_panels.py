@@ -202,6 +202,18 @@ class Mine(Panel):
             'widgets = (Label("x"),)\n\n    def __init__(self):\n        self["x"] = 1',
             "RuntimeError: Mine: widgets have values from start() on, not in __init__()",
         ),
+        (
+            'widgets = (Label("x", text=object()),)',
+            ":4: TypeError: widgets of Mine: Label 'x': only texts, numbers, booleans",
+        ),
+        (
+            'widgets = (Number("n", value=7, max=5),)',
+            "Number 'n': 'n' goes from -inf to 5; 7 is outside",
+        ),
+        (
+            'widgets = (Label("x"),)\n\n    def start(self, node):\n        self.send(object())',
+            ":8 in start(): TypeError: only texts, numbers, booleans",
+        ),
         ("import nothing_like_this", ":5 in Mine(): ModuleNotFoundError: No module named"),
     ],
 )
@@ -237,12 +249,12 @@ def test_a_file_is_reloaded_and_says_that_it_changed(
 def test_a_panel_ends_some_time_after_its_last_page(
     show: Open, graph: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(shows, "GRACE_S", 0.2)
+    monkeypatch.setattr(shows, "_GRACE_S", 0.2)
     text = 'class Mine(Panel):\n    widgets = (Label("x"),)\n'
     text += "\n    def start(self, node):\n        self['x'] = node.name\n"
     one, other = show(text), show()
     name = one.event("state")["values"]["x"]
-    assert name.startswith("/mine_mine_panel")
+    assert name.startswith("/panel_mine_mine")
     one.page.close()
     assert other.event("state")["values"]["x"] == name
     assert name in {entity.node for entity in graph.entities()}
@@ -356,6 +368,8 @@ class Mine(Panel):
     assert shown.event("set", "speed") == 5.0
     assert shown.event("set", "gear") == "park"
     assert shown.event("widget", "limit")["enabled"] is False
+    with pytest.raises(RefusedError, match="'limit' is not enabled now"):
+        shown.act("limit")
     shown.act("wrong")
     assert "a Slider has no property 'maximum'" in shown.problem()
 

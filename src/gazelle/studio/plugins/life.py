@@ -20,7 +20,7 @@ from gazelle.studio.plugins.node import PanelNode
 from gazelle.studio.plugins.panel import Panel
 from gazelle.studio.plugins.sources import Source
 from gazelle.studio.plugins.state import State, checked_layout, handler_of
-from gazelle.studio.plugins.values import chosen
+from gazelle.studio.plugins.values import check_sendable, chosen
 from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["Life"]
@@ -54,6 +54,7 @@ class Life:
         self._turn = threading.RLock()
         self._over = threading.Event()
         self._running = ("", 0.0)
+        self._logged = ""
 
     def begin(self, *, again: bool) -> None:
         """Import the file, make the object and call ``start``.
@@ -90,6 +91,8 @@ class Life:
         try:
             widget = state.widget(name)
             fitting = chosen(widget, value)
+            if not widget.enabled:
+                raise ValueError(f"'{name}' is not enabled now")
         except (LookupError, TypeError, ValueError) as error:
             raise StudioError(str(error)) from None
         has_value = state.values[name] is not None
@@ -119,6 +122,7 @@ class Life:
 
     def send(self, value: Any) -> None:
         """Hand a value to the ES module."""
+        check_sendable(value)
         self._tell("message", "", value)
 
     def every(self, period_s: float, callback: Callable[[], Any]) -> None:
@@ -138,7 +142,7 @@ class Life:
         self.state = State(layout, self._tell)
         panel = made()
         panel._link = self
-        name = re.sub(r"\W+", "_", f"{self._source.name}_panel").lower().strip("_")
+        name = re.sub(r"\W+", "_", f"panel_{self._source.name}").lower()
         node = self._graph.create_node(name, anonymous=True, is_ros2=True)
         self._node = PanelNode(node, lambda action: self._guarded("a callback", action))
         self._panel = panel
@@ -183,17 +187,21 @@ class Life:
             self._running = (what, time.monotonic())
             action()
         except Exception as error:  # noqa: BLE001 - a user's code raises what it likes
-            self._tell("error", "", self._words(error))
+            self._report(error)
             return False
         finally:
             self._turn.release()
         return True
 
-    def _words(self, error: Exception) -> dict[str, str]:
+    def _report(self, error: Exception) -> None:
+        """Tell the pages, and the log what it was not told just before."""
         text = located(error, self._source.file.parent)
         if str(self._source.file.parent) not in text:
             text = f"{self._source.file}:{self._source.line}: {text}"
-        return {"text": text, "trace": _trace(error)}
+        if self._node is not None and text != self._logged:
+            self._node.log_error(text)
+        self._logged = text
+        self._tell("error", "", {"text": text, "trace": _trace(error)})
 
 
 def _trace(error: Exception) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from gazelle.errors import GazelleError
@@ -20,8 +20,9 @@ from gazelle.workspace import Workspace
 
 __all__ = ["Desk", "Show"]
 
-GRACE_S = 10.0
-"""A page that is loaded again finds its panels as they were."""
+# A page that is loaded again finds its panels as they were.
+_GRACE_S = 10.0
+_PATIENCE_S = 10.0
 _WATCH_S = 1.0
 
 
@@ -41,24 +42,34 @@ class Show:
         self._problem: dict[str, Any] | None = None
         self._stamp_ns = 0
         self._turn = threading.Lock()
+        self._counting = threading.Lock()
         self._ending: threading.Timer | None = None
         self._over = threading.Event()
 
     def follow(self, channel: Channel) -> Callable[[], None]:
-        """Show the panel on a page; returns what ends that."""
+        """Show the panel on a page; returns what ends that.
+
+        Raises:
+            StudioError: the panel does not return from ``start``.
+        """
         follower = Follower(channel, self._studio.workers)
-        with self._turn:
-            if self._ending is not None:
-                self._ending.cancel()
+        with self._taking_turns():
             if self.life is None:
                 self._begin(again=False)
-            self._followers += (follower,)
+            with self._counting:
+                self._followers += (follower,)
+                if self._ending is not None:
+                    self._ending.cancel()
             self._greet(follower)
         return lambda: self._leave(follower)
 
     def reload(self, source: Source) -> None:
-        """Read the file again and begin anew."""
-        with self._turn:
+        """Read the file again and begin anew.
+
+        Raises:
+            StudioError: the panel does not return from ``start``.
+        """
+        with self._taking_turns():
             self.source = source
             self._end()
             self._begin(again=True)
@@ -66,9 +77,20 @@ class Show:
                 self._greet(follower)
 
     def close(self) -> None:
-        """End the panel."""
-        with self._turn:
+        """End the panel, also one that hangs."""
+        self._over.set()
+        with contextlib.suppress(StudioError), self._taking_turns():
             self._end()
+
+    @contextlib.contextmanager
+    def _taking_turns(self) -> Iterator[None]:
+        if not self._turn.acquire(timeout=_PATIENCE_S):
+            hint = "long work belongs into a thread of its own, or into small steps with every()"
+            raise StudioError("the panel is busy: it has not returned from start()", hint=hint)
+        try:
+            yield
+        finally:
+            self._turn.release()
 
     def _begin(self, *, again: bool) -> None:
         self._problem = None
@@ -103,15 +125,15 @@ class Show:
             follower.tell(what, name, value)
 
     def _leave(self, follower: Follower) -> None:
-        with self._turn:
+        with self._counting:
             self._followers = tuple(one for one in self._followers if one is not follower)
             if not self._followers:
-                self._ending = threading.Timer(GRACE_S, self._end_unseen)
+                self._ending = threading.Timer(_GRACE_S, self._end_unseen)
                 self._ending.daemon = True
                 self._ending.start()
 
     def _end_unseen(self) -> None:
-        with self._turn:
+        with contextlib.suppress(StudioError), self._taking_turns():
             if not self._followers:
                 self._end()
 

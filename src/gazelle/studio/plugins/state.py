@@ -12,7 +12,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.studio.plugins.containers import Column, Part, Row, all_widgets
 from gazelle.studio.plugins.panel import Panel
-from gazelle.studio.plugins.values import accepted, first_value, refitted
+from gazelle.studio.plugins.values import accepted, check_sendable, first_value, refitted
 from gazelle.studio.plugins.widgets import Button, Choice, Handler, Image, Plot, Widget
 
 __all__ = ["State", "checked_layout", "handler_of"]
@@ -38,7 +38,7 @@ def checked_layout(panel: type[Panel]) -> tuple[Part, ...]:
         if not part.name or part.name in seen:
             problems.append(f"{type(part).__name__} '{part.name}': the name is empty or used twice")
         seen.add(part.name)
-        problems += _handler_problems(panel, part)
+        problems += _handler_problems(panel, part) + _value_problems(part)
     if problems:
         raise TypeError(f"widgets of {panel.__name__}: " + "; ".join(problems))
     return layout
@@ -122,6 +122,7 @@ class State:
         if isinstance(old, Choice) and "options" in properties:
             old = replace(old, value="")
         new = replace(old, **properties)
+        check_sendable(_widget_value(new))
         with self._lock:
             self.widgets[name] = new
             self._tell("widget", name, _widget_value(new))
@@ -164,6 +165,14 @@ def _finite(value: Any) -> Any:
 
 def _kind(part: object) -> str:
     return type(part).__name__.lower()
+
+
+def _value_problems(widget: Widget) -> list[str]:
+    try:
+        check_sendable([_widget_value(widget), first_value(widget)])
+    except (TypeError, ValueError) as error:
+        return [f"{type(widget).__name__} '{widget.name}': {error}"]
+    return []
 
 
 def _with_nearest(text: str, name: str, known: Iterable[str]) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.studio.json_text import json_text
 from gazelle.studio.plugins.pictures import checked_picture
 from gazelle.studio.plugins.widgets import (
     Button,
@@ -23,7 +24,7 @@ from gazelle.studio.plugins.widgets import (
     Widget,
 )
 
-__all__ = ["accepted", "chosen", "first_value", "refitted"]
+__all__ = ["accepted", "check_sendable", "chosen", "first_value", "refitted"]
 
 _MOST_ROWS = 1000
 _EVENTS = (Slider, Number, Checkbox, Choice, TextInput, Button)
@@ -87,6 +88,19 @@ def chosen(widget: Widget, value: Any) -> Any:
     if isinstance(widget, Slider | Number):
         return _number(widget, min(max(_number(widget, value), widget.min), widget.max))
     return accepted(widget, value)
+
+
+def check_sendable(value: Any) -> None:
+    """Check that a value can go to the page.
+
+    Raises:
+        TypeError: it cannot.
+    """
+    try:
+        json_text(value)
+    except (TypeError, ValueError) as error:
+        text = "only texts, numbers, booleans, None, lists, dicts of them, arrays and messages can "
+        raise TypeError(f"{text}go to the page, not {value!r} ({error})") from None
 
 
 def refitted(widget: Widget, value: Any) -> Any:
