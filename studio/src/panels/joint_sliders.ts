@@ -48,6 +48,8 @@ export class JointSliders extends BasePanel {
     this.source = textOf(params, 'source', this.source);
     this.topic = textOf(params, 'topic', this.topic);
     this.topicInput.value = this.topic;
+    // joint_state_publisher_gui's own way from the sliders to it, which means nothing to a person.
+    this.topicInput.hidden = this.topic.startsWith('/_gazelle/');
     if (typeof params['publish'] === 'boolean') this.publishing = params['publish'];
     if (isObject(params['positions'])) this.kept = params['positions'];
     void this.load();
