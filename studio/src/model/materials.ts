@@ -10,6 +10,8 @@ const TRANSPARENT_ALPHA = 0.4;
 export interface Look {
   wireframe: boolean;
   transparent: boolean;
+  /** Behind everything at the same depth: the ground under a grid. */
+  ground?: boolean;
 }
 
 const made = new Map<string, THREE.MeshPhongMaterial>();
@@ -47,6 +49,9 @@ function build(
     depthWrite: opacity > 0.6,
     wireframe: look.wireframe,
     side: THREE.DoubleSide,
+    polygonOffset: look.ground ?? false,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 16,
   });
   giveAmbient(result, value);
   const [sr, sg, sb] = value.specular ?? [0.1, 0.1, 0.1];

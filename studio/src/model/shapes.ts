@@ -93,7 +93,8 @@ export class ShapeNode {
 
   private materialOf(value: MaterialValue | null): THREE.Material {
     if (this.paint) return this.paint;
-    return material(value, this.value.transparency || 0, this.look, this.changed);
+    const ground = this.value.geometry.type === 'plane';
+    return material(value, this.value.transparency || 0, { ...this.look, ground }, this.changed);
   }
 }
 

@@ -12,14 +12,21 @@ export interface GridLook {
   axes: boolean;
 }
 
+/** Software renderers drop a line that begins behind the eye: lines are cut at the cells. */
+const MOST_PIECES = 40;
+
 /** Draw a grid; its middle is at the origin. */
 export function gridLines(look: GridLook): THREE.LineSegments {
   const half = (look.cells * look.size_m) / 2;
   const points: number[] = [];
   const colours: number[] = [];
+  const pieces = Math.min(look.cells, MOST_PIECES);
   const put = (a: number[], b: number[], colour: number[]): void => {
-    points.push(...turned(a, look.plane), ...turned(b, look.plane));
-    colours.push(...colour, ...colour);
+    for (let piece = 0; piece < pieces; piece++) {
+      const ends = [piece, piece + 1].map((n) => a.map((value, axis) => value + ((b[axis] - value) * n) / pieces));
+      points.push(...turned(ends[0], look.plane), ...turned(ends[1], look.plane));
+      colours.push(...colour, ...colour);
+    }
   };
   for (let i = 0; i <= look.cells; i++) {
     const at = i * look.size_m - half;
