@@ -29,6 +29,8 @@ _PORTS_TRIED = 20
 _LONGEST_MESSAGE_BYTES = 32 << 20
 _WRITE_LIMIT_BYTES = 1 << 20
 _STARTING_S = 10.0
+# A busy machine may take long to read a mesh; a browser's spare connections wait as long.
+_ANSWER_S = 120.0
 
 
 class Server:
@@ -121,6 +123,7 @@ class Server:
                     max_size=_LONGEST_MESSAGE_BYTES,
                     write_limit=_WRITE_LIMIT_BYTES,
                     server_header=None,
+                    open_timeout=_ANSWER_S,
                     close_timeout=1,
                     logger=_quiet_logger(),
                 )
