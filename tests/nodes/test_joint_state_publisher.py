@@ -2,10 +2,41 @@
 
 from __future__ import annotations
 
+import threading
+from typing import Any
+
 import pytest
 
 from gazelle.description.model import Joint, JointAxis, JointType
-from gazelle.nodes.joint_state_publisher import default_position
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.joint_state_publisher import default_position, run
+
+_WAIT_S = 20.0
+_STATE: Any = message_type("sensor_msgs/JointState")
+_LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+_ROBOT = f"""<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+  <joint name="left" type="revolute"><parent link="a"/><child link="b"/>{_LIMIT}</joint>
+  <joint name="right" type="revolute"><parent link="a"/><child link="c"/>{_LIMIT}</joint>
+</robot>"""
+
+
+class _Heard:
+    """The names of the joints in the last message."""
+
+    def __init__(self) -> None:
+        self._names: list[str] = []
+        self._changed = threading.Condition()
+
+    def __call__(self, message: Any) -> None:
+        with self._changed:
+            self._names = sorted(message.name)
+            self._changed.notify_all()
+
+    def until(self, names: list[str]) -> None:
+        with self._changed:
+            assert self._changed.wait_for(lambda: self._names == names, _WAIT_S), self._names
 
 
 def _joint(lower: float, upper: float) -> Joint:
@@ -23,3 +54,25 @@ def test_joint_stands_at_zero_or_in_the_middle_when_zero_is_out_of_range(
 
 def test_zeros_parameter_wins() -> None:
     assert default_position(_joint(-1.0, 1.0), {"j": 0.3}) == 0.3
+
+
+def test_joints_are_ours_again_when_their_publisher_ends(free_port: int) -> None:
+    with Graph.open(port=free_port, role="hub", environ={}) as graph:
+        graph.parameters.set("/robot_description", _ROBOT)
+        stop, heard = threading.Event(), _Heard()
+        arguments = read_arguments(["_rate:=50"], "joint_state_publisher")
+        running = threading.Thread(target=run, args=(arguments, graph, stop))
+        ear = Graph.open(port=free_port, environ={})
+        ear.create_node("ear", rosout=False).create_subscription("/joint_states", _STATE, heard)
+        running.start()
+        heard.until(["left", "right"])
+        with Graph.open(port=free_port, environ={}) as other:
+            publisher = other.create_node("other", rosout=False).create_publisher(
+                "/joint_states", _STATE, latch=True
+            )
+            publisher.publish(_STATE(name=["left"], position=[1.0]))
+            heard.until(["right"])
+        heard.until(["left", "right"])
+        stop.set()
+        running.join(_WAIT_S)
+        ear.close()

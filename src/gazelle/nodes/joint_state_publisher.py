@@ -96,6 +96,7 @@ class _Publisher:
             node.create_subscription(topic, self._type, self._on_source)
 
     def publish(self) -> None:
+        self._take_back()
         names = [name for name in self._names if name not in self._foreign]
         if not names:
             return
@@ -131,6 +132,11 @@ class _Publisher:
             self._foreign |= new
             joints = ", ".join(sorted(new))
             self._node.log("info", f"joints that another node publishes are left to it: {joints}")
+
+    def _take_back(self) -> None:
+        """Joints are ours again when nobody else is left who could publish them."""
+        if self._foreign and self._node.graph.publisher_count(self._out.topic) <= 1:
+            self._foreign.clear()
 
     def _on_source(self, message: Any) -> None:
         for name, position in zip(message.name, message.position, strict=False):
