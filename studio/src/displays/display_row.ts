@@ -63,7 +63,7 @@ export class DisplayRow {
     this.element.dataset['level'] = display.level;
     if (this.body.hidden) return;
     this.status.replaceChildren(...[...display.status].map(([what, line]) =>
-      h('div', { class: `status-line status-${line.level}` }, h('span', { class: 'status-what' }, what), h('span', {}, line.text))));
+      h('div', { class: `display-status status-${line.level}` }, h('span', { class: 'status-what' }, what), h('span', {}, line.text))));
   }
 
   /** Properties came or changed from outside. */

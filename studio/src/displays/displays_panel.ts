@@ -116,7 +116,7 @@ export class DisplaysPanel extends BasePanel {
       h('div', { class: 'display-head' }, h('span', { class: 'display-light', 'data-level': infos.length && !isThere ? 'error' : 'ok' }), h('span', { class: 'display-name' }, 'Global Options')),
       ...rows.map(([name, control]) => h('div', { class: 'property-row' }, h('span', { class: 'property-name' }, name), h('span', { class: 'property-value' }, control))));
     if (infos.length && !isThere) {
-      this.globals.append(h('div', { class: 'status-line status-error' }, h('span', { class: 'status-what' }, 'Fixed Frame'), h('span', {}, `Unknown frame ${scene.displays.fixedFrame}`)));
+      this.globals.append(h('div', { class: 'display-status status-error' }, h('span', { class: 'status-what' }, 'Fixed Frame'), h('span', {}, `Unknown frame ${scene.displays.fixedFrame}`)));
     }
   }
 

@@ -60,7 +60,7 @@ function colourField(label: string, value: string, changed: (value: Json) => voi
 
 function choiceField(spec: PropertySpec, label: string, value: string, changed: (value: Json) => void): HTMLElement {
   const input = h('select', { 'aria-label': label, on: { change: () => changed(input.value) } },
-    ...(spec.options ?? []).map((option) => h('option', { value: option }, option)));
+    ...(spec.options ?? []).map((option) => h('option', { value: option }, option || 'automatic')));
   input.value = value;
   return input;
 }
