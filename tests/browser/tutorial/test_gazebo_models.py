@@ -1,0 +1,133 @@
+"""T16: ``gazebo``, a model inserted by name and moved from the Joints panel; the other ways in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.browser.scene.gazebo_page import GazeboPage
+from tests.browser.tutorial.terminal import Session
+
+from gazelle.graph import Graph
+from gazelle.interfaces import fill, service_type
+
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
+
+_LOOK_NORTH = """gazelle.look(
+  {kind: 'Orbit', focal: [0, 0, 0.3], distance: 6, yaw: -1.5708, pitch: 0.4}, 'gazebo')"""
+
+
+class World:
+    """What the simulation says through ``/gazebo``'s services."""
+
+    def __init__(self, graph: Any) -> None:
+        self._node = graph.create_node("test", anonymous=True, rosout=False)
+
+    def models(self) -> list[str]:
+        """The names of all models."""
+        return list(self._call("get_world_properties", "GetWorldProperties").model_names)
+
+    def state(self, model: str) -> Any:
+        """Pose and twist of a model."""
+        return self._call("get_model_state", "GetModelState", model_name=model)
+
+    def _call(self, name: str, type_name: str, **fields: Any) -> Any:
+        kind = service_type(f"gazebo_msgs/srv/{type_name}")
+        client = self._node.create_client(f"/gazebo/{name}", kind)
+        assert client.wait_for_service(60.0)
+        request = kind.Request()
+        fill(request, fields)
+        try:
+            return client.call(request, timeout_s=60.0)
+        finally:
+            client.unregister()
+
+
+@pytest.fixture
+def gazebo(
+    session: Callable[..., Session], workspaces_dir: Path, look: Any
+) -> Iterator[GazeboPage]:
+    """``gazebo``, as the document starts it, and its page."""
+    models = workspaces_dir / "gazebo_models"
+    begun = session("gazebo", GAZEBO_MODEL_PATH=str(models))
+    begun.shows(begun.first, "gazebo")
+    seen = look(begun.url, size=(1440, 900))
+    with Graph.open(port=begun.first.port, role="client", environ={}) as graph:
+        page = GazeboPage(seen, World(graph), begun.eventually)
+        page.eventually(lambda: "ground_plane" in page.report()["models"])
+        yield page
+
+
+def test_my_robot_is_inserted_by_name_and_moved_by_a_tenth_of_a_newton_metre(
+    gazebo: GazeboPage,
+) -> None:
+    world = gazebo.simulation
+    card = gazebo.panel("insert").get_by_role("button", name="Insert my_robot")
+    assert "My Robot" in card.inner_text()
+    card.click()
+    gazebo.eventually(lambda: "my_robot" in gazebo.report()["models"])
+    assert "my_robot" in world.models()
+    panel = gazebo.panel("joints-force")
+    panel.get_by_label("Model").select_option("my_robot")
+    for wheel in ("left_wheel_hinge", "right_wheel_hinge"):
+        force = panel.get_by_label(f"{wheel} force (N·m)")
+        force.fill("0.1")
+        force.press("Enter")
+    # Two wheels of 0.1 m push 3 kg and their own 2 · 1 kg·m²/(0.1 m)²: 0.00985 m/s².
+    gazebo.eventually(lambda: world.state("my_robot").twist.linear.x > 0.02)
+    gazebo.seen.shot("pushed")
+    assert abs(world.state("my_robot").twist.linear.y) < 0.01
+    effort = panel.locator("[data-joint=left_wheel_hinge] output").nth(2)
+    assert float(effort.inner_text()) == pytest.approx(0.1, abs=1e-3)
+
+
+def test_stages_without_a_link_are_told_and_shapes_and_files_come_in(
+    gazebo: GazeboPage, workspaces_dir: Path
+) -> None:
+    world, seen = gazebo.simulation, gazebo.seen
+    for stage in (1, 2):
+        file = workspaces_dir / f"gazebo_models/stages/my_robot_{stage}.sdf"
+        with seen.page.expect_file_chooser() as waiting:
+            gazebo.panel("insert").get_by_role("button", name="File…").click()
+        waiting.value.set_files(file)
+        assert "model 'my_robot' has no link" in seen.toast()
+        seen.shot(f"stage {stage}")
+        seen.page.locator(".toast").get_by_role("button").last.click()
+    gazebo.panel("insert").get_by_role("button", name="box", exact=True).click()
+    gazebo.eventually(lambda: gazebo.report()["selected"] == {"model": "box"})
+    _drag_along_x(gazebo, "box")
+    gazebo.seen.page.keyboard.press("Delete")
+    gazebo.eventually(lambda: "box" not in world.models())
+    _drop(gazebo, workspaces_dir / "catkin_ws/src/urdf_tutorial/urdf/mobile_robot.urdf")
+    gazebo.eventually(lambda: "mobile_robot" in gazebo.report()["models"])
+    gazebo.eventually(lambda: world.state("mobile_robot").pose.position.z > 0.2)
+    seen.shot("dropped")
+
+
+def _drag_along_x(gazebo: GazeboPage, model: str) -> None:
+    """Drag the red arrow of the chosen model to the right, as one looks north."""
+    world = gazebo.simulation
+    gazebo.seen.page.evaluate(_LOOK_NORTH)
+    gazebo.tool("Translate")
+    before = world.state(model).pose.position
+    handle = f"gazelle.project([{before.x + 0.5}, {before.y}, {before.z}], 'gazebo')"
+    at = gazebo.seen.page.evaluate(handle)
+    gazebo.drag((at["x"], at["y"]), (at["x"] + 150, at["y"]))
+    gazebo.eventually(lambda: world.state(model).pose.position.x > before.x + 0.3)
+    assert world.state(model).pose.position.y == pytest.approx(before.y, abs=0.01)
+
+
+def _drop(gazebo: GazeboPage, file: Path) -> None:
+    gazebo.seen.page.evaluate(
+        """([text, name]) => {
+          const files = new DataTransfer();
+          files.items.add(new File([text], name));
+          const panel = document.querySelector('[data-panel=gazebo] .scene-panel');
+          const box = panel.getBoundingClientRect();
+          const at = {clientX: box.left + box.width / 2, clientY: box.top + box.height * 0.8};
+          panel.dispatchEvent(new DragEvent('drop', {dataTransfer: files, bubbles: true, ...at}));
+        }""",
+        [file.read_text(encoding="utf-8"), file.name],
+    )
