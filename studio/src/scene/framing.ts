@@ -18,6 +18,8 @@ export function freeYaw(middle: THREE.Vector3, eye: Eye, camera: THREE.Camera, w
   const caster = new THREE.Raycaster();
   caster.far = eye.distance;
   caster.camera = camera;
+  // Nothing may have been drawn yet.
+  for (const wall of walls) wall.updateWorldMatrix(true, true);
   for (let side = 0; side < SIDES; side++) {
     const turn = Math.ceil(side / 2) * ((2 * Math.PI) / SIDES) * (side % 2 ? 1 : -1);
     const yaw = eye.yaw + turn;
