@@ -36,6 +36,7 @@ class PlayOptions:
         duration_s: how much to play, None for all.
         skip_empty_s: gaps longer than this are skipped, None for none.
         immediate: do not wait between messages.
+        last_only: at once, and of every topic the last message only.
         clock_hz: how often ``/clock`` is published, 0 for not at all.
         topics: only these, all when empty.
         pause_topics: pause when one of these comes.
@@ -47,6 +48,7 @@ class PlayOptions:
     duration_s: float | None = None
     skip_empty_s: float | None = None
     immediate: bool = False
+    last_only: bool = False
     clock_hz: float = 0.0
     topics: frozenset[str] = frozenset()
     pause_topics: frozenset[str] = frozenset()
@@ -119,6 +121,9 @@ class Player:
         end_ns = None
         if options.duration_s is not None:
             end_ns = start_ns + int(options.duration_s * 1e9)
+        if options.last_only:
+            self._publish_last(start_ns, end_ns)
+            return
         self.timeline = Timeline(start_ns, options.rate)
         self._clock_ns = 0
         if self._controls.paused:
@@ -134,6 +139,15 @@ class Player:
                 return
             self._publish(one)
             last_ns = one.stamp_ns
+
+    def _publish_last(self, start_ns: int, end_ns: int | None) -> None:
+        last: dict[str, Outgoing] = {}
+        for one in outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread):
+            if self._controls.stopped:
+                return
+            last[one.connection.topic] = one
+        for one in last.values():
+            self._publish(one)
 
     def tick(self) -> None:
         """Publish ``/clock`` when it is due again."""

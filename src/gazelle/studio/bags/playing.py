@@ -144,7 +144,7 @@ class Playing:
             rate=self._rate,
             start_s=start_s,
             duration_s=None if until_s is None else until_s - start_s,
-            immediate=until_s is not None,
+            last_only=until_s is not None,
             clock_hz=_CLOCK_HZ if self._clock and until_s is None else 0.0,
         )
         controls = Controls()
