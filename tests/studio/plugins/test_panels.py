@@ -214,6 +214,12 @@ class Mine(Panel):
             'widgets = (Label("x"),)\n\n    def start(self, node):\n        self.send(object())',
             ":8 in start(): TypeError: only texts, numbers, booleans",
         ),
+        ('widgets = (Row([Label("x")]),)', "is no widget; write Row(a, b)"),
+        ("import rospy", "; a panel is given its node in start(self, node) and imports none"),
+        (
+            'widgets = (Label("x"),)\n\n    def start(self, node):\n        raise SystemExit(3)',
+            ":8 in start(): SystemExit: 3",
+        ),
         ("import nothing_like_this", ":5 in Mine(): ModuleNotFoundError: No module named"),
     ],
 )

@@ -27,6 +27,7 @@ __all__ = ["Life"]
 
 _BUSY_S = 5.0
 _SHORTEST_S = 0.005
+_CLIENTS = ("rospy", "rclpy")
 _Tell = Callable[[str, str, Any], None]
 
 
@@ -186,25 +187,27 @@ class Life:
                 return False
             self._running = (what, time.monotonic())
             action()
-        except Exception as error:  # noqa: BLE001 - a user's code raises what it likes
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - a user's code raises what it likes
             self._report(error)
             return False
         finally:
             self._turn.release()
         return True
 
-    def _report(self, error: Exception) -> None:
+    def _report(self, error: BaseException) -> None:
         """Tell the pages, and the log what it was not told just before."""
         text = located(error, self._source.file.parent)
         if str(self._source.file.parent) not in text:
             text = f"{self._source.file}:{self._source.line}: {text}"
+        if isinstance(error, ImportError) and error.name in _CLIENTS:
+            text += "; a panel is given its node in start(self, node) and imports none"
         if self._node is not None and text != self._logged:
             self._node.log_error(text)
         self._logged = text
         self._tell("error", "", {"text": text, "trace": _trace(error)})
 
 
-def _trace(error: Exception) -> str:
+def _trace(error: BaseException) -> str:
     import traceback
 
     return "".join(traceback.format_exception(error)).rstrip()

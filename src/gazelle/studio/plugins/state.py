@@ -33,7 +33,8 @@ def checked_layout(panel: type[Panel]) -> tuple[Part, ...]:
     seen: set[str] = set()
     for part in all_widgets(layout):
         if not isinstance(part, Widget):
-            problems.append(f"{part!r} is no widget")
+            hint = "; write Row(a, b)" if isinstance(part, list | tuple) else ""
+            problems.append(f"{part!r} is no widget{hint}")
             continue
         if not part.name or part.name in seen:
             problems.append(f"{type(part).__name__} '{part.name}': the name is empty or used twice")
