@@ -38,7 +38,7 @@ def _refusal(path: Path, data: bytes | str) -> str:
     start = time.thread_time()
     with pytest.raises(MeshError) as caught:
         load_mesh(path)
-    assert time.thread_time() - start < 5.0
+    assert time.thread_time() - start < 10.0
     return caught.value.reason
 
 

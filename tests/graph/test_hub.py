@@ -25,12 +25,24 @@ def test_hub_is_taken_over_and_messages_flow_on(
     graph.close()
     publisher.publish(String(data="still here"))
     assert inbox.wait_for(1)[0].data == "still here"
-    eventually(lambda: other.is_hub != third.is_hub and other.connected and third.connected, 3.0)
+    eventually(lambda: other.is_hub != third.is_hub and other.connected and third.connected)
     late = join()
     late.create_node("late").create_subscription("chatter", String, inbox)
     eventually(lambda: publisher.subscription_count == 2)
     client = join(role="client")
     eventually(lambda: client.node_names() == ("/late", "/listener", "/talker"))
+
+
+def test_a_session_that_ends_takes_no_hub_over(
+    graph: Graph, other: Graph, eventually: Callable[..., Any]
+) -> None:
+    keeper: Any = other._keeper
+    keeper.settle()
+    graph.close()
+    eventually(lambda: not other.connected)
+    assert not keeper.carry()
+    eventually(lambda: not keeper.watches)
+    assert not other.is_hub
 
 
 def test_last_member_leaves_the_port_free(graph: Graph, join: Callable[..., Graph]) -> None:

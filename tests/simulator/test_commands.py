@@ -76,6 +76,25 @@ def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
     assert done == [1]
 
 
+def test_posting_does_not_wait_for_the_command_of_another_thread() -> None:
+    """Threads of the transport post: what that command asks of the graph comes through them."""
+    queue, done = CommandQueue(), []
+    acting, posted = threading.Event(), threading.Event()
+
+    def command() -> None:
+        acting.set()
+        done.append("waited" if posted.wait(30.0) else "waited in vain")
+        queue.post(lambda: done.append("within"))
+
+    thread = threading.Thread(target=lambda: queue.call(command))
+    thread.start()
+    assert acting.wait(30.0)
+    queue.post(lambda: done.append("after"))
+    posted.set()
+    thread.join(30.0)
+    assert done == ["waited", "within", "after"]
+
+
 @pytest.mark.parametrize("through", ["post", "call"])
 def test_the_loops_own_thread_acts_at_once(through: str) -> None:
     queue, done = CommandQueue(), []

@@ -48,7 +48,7 @@ def test_launch_starts_controllers_before_time_does_and_mira_stays_up(
     robot.wait_for_line(r"Started controllers: .*joint_state_controller")
     kind = ros1_service_type("controller_manager_msgs/ListControllers")
     client = robot.node.create_client("/mira/controller_manager/list_controllers", kind)
-    listed = client.call(kind._request_class(), timeout_s=5.0)
+    listed = client.call(kind._request_class(), timeout_s=30.0)
     assert [(row.name, row.state) for row in listed.controller] == [
         (name, "running") for name in _CONTROLLERS
     ]

@@ -62,7 +62,7 @@ def test_five_launches_in_lockstep_are_one(in_workspace: Callable, free_port: in
             )  # fmt: skip
             hashes.append(robot.wait_for_line("state hash").partition("state hash ")[2])
             assert robot.wait() == 0, robot.text
-            robot.eventually(lambda record=record: record.counts() == _EXPECTED, 5.0)
+            robot.eventually(lambda record=record: record.counts() == _EXPECTED)
             records.append(record.messages)
     assert hashes[0].endswith("at 0.600000000 s")
     assert len(set(hashes)) == 1

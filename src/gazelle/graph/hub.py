@@ -46,6 +46,7 @@ class HubKeeper:
         self._ended = threading.Event()
         self._lock = threading.Lock()
         self._listener: Any = None
+        self._watcher = threading.Thread(target=self._watch, name="gazelle-hub", daemon=True)
         self._relinker = Relinker(port)
 
     @property
@@ -57,6 +58,11 @@ class HubKeeper:
     def connected(self) -> bool:
         """True while there is a hub."""
         return self._connected.is_set()
+
+    @property
+    def watches(self) -> bool:
+        """True while this process would take a lost hub over."""
+        return self._watcher.is_alive()
 
     def carry(self) -> bool:
         """Carry the hub if nobody does; return whether this process does now."""
@@ -97,20 +103,24 @@ class HubKeeper:
                 return False
             if not self.is_hub:
                 self.carry()
-        threading.Thread(target=self._watch, name="gazelle-hub", daemon=True).start()
+        self._watcher.start()
         return True
 
     def settle(self) -> None:
-        """Ask for nobody any more: the process' own session is about to end."""
+        """Ask for nobody and take no hub over any more: the process' own session is to end.
+
+        Its end loses the hub too, which would be taken for the hub's own end.
+        """
+        with self._lock:
+            self._ended.set()
+        self._lost.set()
         self._relinker.close()
 
     def close(self) -> None:
         """Give the hub up; another process takes it over."""
         self.settle()
         with self._lock:
-            self._ended.set()
             hub, self._hub = self._hub, None
-        self._lost.set()
         if self._listener is not None:
             self._listener.undeclare()
         if hub is not None:

@@ -38,24 +38,24 @@ class CommandQueue:
     """Hands work from transport threads to the one thread that owns the world.
 
     While a loop runs, `post` and `call` only queue; otherwise, and in the loop's own thread,
-    they act at once (under a lock, so that one thread at a time touches the world).
+    they act at once (under a lock, so that one thread at a time touches the world). `post` never
+    waits: threads of the transport post, and what another command asks of the graph would reach
+    nobody while they wait for its end.
     """
 
     def __init__(self) -> None:
         self._queue: deque[Callable[[], Any]] = deque()
         self._arrived = threading.Event()
         self._owner: int | None = None
+        self._acting: int | None = None
         self._lock = threading.RLock()
 
     def post(self, command: Callable[[], Any]) -> None:
-        """Have a command applied between steps; does not wait."""
-        if not self._take_world():
-            self._enqueue(command)
-            return
-        try:
+        """Have a command applied between steps; does not wait, not even for other commands."""
+        if threading.get_ident() in (self._owner, self._acting):
             command()
-        finally:
-            self._lock.release()
+        else:
+            self._enqueue(command)
 
     def call(self, command: Callable[[], _Result], *, timeout_s: float = 60.0) -> _Result:
         """Have a command applied between steps, wait for it and return its result.
@@ -66,9 +66,10 @@ class CommandQueue:
         """
         if self._take_world():
             try:
-                return command()
+                return self._act(command)
             finally:
                 self._lock.release()
+                self._apply_left()
         waiting = _Call(command)
         self._enqueue(waiting)
         if not waiting.done.wait(timeout_s):
@@ -109,13 +110,32 @@ class CommandQueue:
         self.apply()
         self._owner = None
         self._lock.release()
+        self._apply_left()
 
     def _enqueue(self, command: Callable[[], Any]) -> None:
         self._queue.append(command)
         self._arrived.set()
-        if self._owner is None:  # the loop ended between the question and the answer
-            with self._lock:
-                self.apply()
+        self._apply_left()
+
+    def _apply_left(self) -> None:
+        """Run what is queued while no loop does; whoever acts at the moment comes here next."""
+        me = threading.get_ident()
+        while self._queue and self._owner is None and self._acting != me:
+            if not self._lock.acquire(blocking=False):
+                return
+            try:
+                if self._owner is None:
+                    self._act(self.apply)
+            finally:
+                self._lock.release()
+
+    def _act(self, command: Callable[[], _Result]) -> _Result:
+        """Run a command; what it posts itself runs within it."""
+        outer, self._acting = self._acting, threading.get_ident()
+        try:
+            return command()
+        finally:
+            self._acting = outer
 
     def _take_world(self) -> bool:
         """Take the lock if this thread may act at once; the caller releases it.

@@ -51,9 +51,9 @@ def test_subscriber_that_stands_still_holds_up_nobody() -> None:
         start = time.monotonic()
         for _ in range(200):
             link.put(big)
-        assert time.monotonic() - start < 1.0
+        assert time.monotonic() - start < 5.0
         assert link.dropped > 100
-        theirs.settimeout(10.0)
+        theirs.settimeout(30.0)
         assert read_block(theirs) == bytes(1 << 20)
         link.close()
 

@@ -104,7 +104,7 @@ from std_msgs.msg import String
 
 class Peers(rospy.SubscribeListener):
     def peer_subscribe(self, topic_name, topic_publish, peer_publish):
-        peer_publish(String("welcome"))
+        peer_publish(String(rospy.get_param("/greeting_word")))
     def peer_unsubscribe(self, topic_name, num_peers):
         print("left", topic_name, num_peers, flush=True)
         rospy.signal_shutdown("seen enough")
@@ -117,6 +117,7 @@ rospy.spin()
 
 
 def test_publisher_tells_its_listener_who_comes_and_goes(program: Run, node: Node) -> None:
+    node.graph.parameters.set("/greeting_word", "welcome")
     greeter = program(_LISTENER)
     greeter.wait_for_line("^ready$")
     heard: list[str] = []

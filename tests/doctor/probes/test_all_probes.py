@@ -45,7 +45,7 @@ def test_robot_that_runs_well_passes(name: str, workspaces_dir: Path) -> None:
     assert list(found) == []
     assert told[:2] == ["probe: spawn", "probe: idle drift"]
     assert [section.name for section in sections][:2] == ["probe_spawn", "probe_idle_drift"]
-    assert time.process_time() - before_s < 8.0
+    assert time.process_time() - before_s < 30.0
 
 
 def test_world_without_robots_is_not_probed() -> None:

@@ -23,7 +23,7 @@ def _found(body: str) -> list[str]:
         )
     except GazelleError:
         assert diagnostics.errors
-    assert time.thread_time() - start < 3.0
+    assert time.thread_time() - start < 10.0
     return [f"{item.message} [{item.code}]" for item in diagnostics]
 
 

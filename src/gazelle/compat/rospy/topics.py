@@ -19,6 +19,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
 from gazelle.graph import Subscription as _Subscription
+from gazelle.graph.delivery import Mailbox
 from gazelle.interfaces import (
     AnyMsg,
     Ros1Message,
@@ -155,10 +156,18 @@ class Publisher(Topic):
         )
         self.name = self.resolved_name = self._impl.topic
         if self._listener is not None:
-            node.graph.discovery.listen(lambda _entity, _is_new: self._tell_listener())
-            self._tell_listener()
+            # A listener may ask the graph, whose answers come through the thread that tells here.
+            news = Mailbox(self._tell_listener, size=0, name=f"listener {self.name}")
+            node.graph.discovery.listen(lambda entity, _is_new: news.put(entity))
+            news.put(None)
 
-    def _tell_listener(self) -> None:
+    def _tell_listener(self, _entity: object) -> None:
+        try:
+            self._tell_of_peers()
+        except Exception:  # noqa: BLE001 - a user's listener may raise anything
+            sys.stderr.write(traceback.format_exc())
+
+    def _tell_of_peers(self) -> None:
         if self._listener is None or self._impl is None:
             return
         count = self._impl.subscription_count
