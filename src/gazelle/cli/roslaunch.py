@@ -94,6 +94,7 @@ def _parser() -> argparse.ArgumentParser:
         help="every run the same: time waits for spawners, frames",
     )
     add("--iters", type=int, default=0, metavar="N", help="end after N steps of the simulator")
+    add("--seed", type=int, default=0, metavar="N", help="seed of the simulator's noise")
     return parser
 
 
@@ -128,6 +129,7 @@ def _launch_options(options: argparse.Namespace) -> LaunchOptions:
     if options.pid:
         Path(options.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
     words = [word for word in ("--fast", "--lockstep") if getattr(options, word[2:])]
+    words += ["--seed", str(options.seed)] if options.seed else []
     return LaunchOptions(
         screen=options.screen,
         log=options.log,
