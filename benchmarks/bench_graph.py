@@ -1,4 +1,4 @@
-"""Speed of the graph: round trips, images, listing, idle publishers.
+"""Speed of the graph: round trips, images, listing, idle publishers, commands.
 
 Run ``python benchmarks/bench_graph.py``; prints one JSON object per measurement. The peer process
 is this file again.
@@ -7,7 +7,10 @@ is this file again.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import os
+import resource
 import socket
 import subprocess
 import sys
@@ -30,10 +33,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=3000, help="round trips to measure")
     parser.add_argument("--images", type=int, default=600, help="images to send")
+    parser.add_argument("--commands", action="store_true", help="measure the commands alone")
     parser.add_argument("--peer", type=int, default=0, help=argparse.SUPPRESS)
+    parser.add_argument("--crowd", type=int, default=0, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.peer:
-        _be_peer(options.peer)
+        _be_peer(options.peer, options.crowd)
         return
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -41,6 +46,9 @@ def main() -> None:
     started = time.perf_counter()
     with Graph.open(port=port, environ={}, role="hub") as graph:
         _say("open first", ms=(time.perf_counter() - started) * 1e3)
+        if options.commands:
+            _bench_commands(graph)
+            return
         node = graph.create_node("bench")
         _bench_idle(node)
         _bench_local(node)
@@ -56,10 +64,16 @@ def main() -> None:
             _bench_images(node, options.images)
             _bench_listing(node, port)
             peer.communicate("\n")
+        _bench_commands(graph)
 
 
-def _be_peer(port: int) -> None:
+def _be_peer(port: int, crowd: int) -> None:
     with Graph.open(port=port, environ={}) as graph:
+        if crowd:
+            _add_nodes(graph, crowd)
+            print("ready", flush=True)
+            sys.stdin.readline()
+            return
         node = graph.create_node("peer")
         pong = node.create_publisher("pong", JOINT_STATE)
         node.create_subscription("ping", JOINT_STATE, pong.publish)
@@ -134,6 +148,43 @@ def _bench_listing(node: Node, port: int) -> None:
             assert len(client.topics()) > 100
             times.append(time.perf_counter() - start)
     _say("join as client and list 100 topics", ms=float(np.median(times)) * 1e3)
+
+
+def _add_nodes(graph: Graph, crowd: int) -> None:
+    """Make five nodes that publish to and hear those of the next process."""
+    for number in range(5):
+        node = graph.create_node(f"node{crowd}_{number}")
+        for topic in range(4):
+            node.create_publisher(f"crowd{crowd}_{number}_{topic}", JOINT_STATE)
+            node.create_subscription(f"crowd{crowd % 10 + 1}_{number}_{topic}", None, print)
+
+
+def _bench_commands(graph: Graph) -> None:
+    """Time commands with 50 nodes in ten processes: the best of seven, and computing time."""
+    with contextlib.ExitStack() as stack:
+        for crowd in range(2, 11):
+            words = [sys.executable, __file__, "--peer", str(graph.port), "--crowd", str(crowd)]
+            peer = stack.enter_context(
+                subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            )
+            stack.callback(peer.communicate, "\n")
+            assert peer.stdout is not None
+            assert peer.stdout.readline()
+        _add_nodes(graph, 1)
+        for command in ("rostopic list", "rosnode list", "rosservice list", "ros2 topic list"):
+            runs = [_command(command.split(), graph.port) for _ in range(7)]
+            _say(f"{command}, 50 nodes", s=min(runs)[0], computing_s=min(run[1] for run in runs))
+
+
+def _command(words: list[str], port: int) -> tuple[float, float]:
+    """Return a command's seconds, by the clock and of computing."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "gazelle.cli", *words],
+        env={**os.environ, "GAZELLE_PORT": str(port)}, check=True, stdout=subprocess.DEVNULL,
+    )  # fmt: skip
+    seconds, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return seconds, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def _await_match(publisher: Any) -> None:

@@ -12,10 +12,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-import yaml
-
 from gazelle.graph.errors import IllegalNameError
-from gazelle.limits.yaml_text import load_yaml
 
 __all__ = [
     "CommandLine",
@@ -189,6 +186,10 @@ def parse_command_line(arguments: Sequence[str]) -> CommandLine:
 
 
 def _yaml_value(text: str) -> Any:
+    import yaml
+
+    from gazelle.limits.yaml_text import load_yaml
+
     try:
         return load_yaml(text) if text else ""
     except yaml.YAMLError:
