@@ -106,6 +106,8 @@ def test_fibonacci_server_and_client_run_unmodified(
     gazelle: Callable[..., Any], graph: Any, package: Path
 ) -> None:
     server = gazelle("rosrun", "my_actions", "server.py", cwd=package)
+    # A client that waits for long says what for.
+    server.eventually(graph.actions)
     client = gazelle("rosrun", "my_actions", "client.py", cwd=package)
     assert client.wait() == 0, client.text + server.text
     lines = [line for line in client.lines if not line.startswith("[")]
