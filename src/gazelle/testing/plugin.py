@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pytest
 
 if TYPE_CHECKING:
-    from gazelle.simulator import Simulation
     from gazelle.graph import Graph
+    from gazelle.simulator import Simulation
     from gazelle.testing.launch import Launch
 
 __all__ = ["gazelle_graph", "gazelle_launch", "gazelle_simulation"]
