@@ -245,4 +245,6 @@ rclpy.spin(node)
     goals.append(client.send_goal({"order": 2}))
     assert all(goal.wait(30) for goal in goals), running.text
     assert [list(goal.result.sequence) for goal in goals] == [[1], [2]]
+    # Results can come before the words that were printed before them.
+    running.wait_for_line("executing 1")
     assert [line for line in running.lines if "exec" in line] == ["executing 2", "executing 1"]
