@@ -115,9 +115,9 @@ export class DisplayList {
 
   /** While nobody chose a frame, the root of the tree is the natural one, as soon as it is known. */
   private chooseFrame(): void {
-    const { infos, fixed } = this.stage.frames;
+    const { infos, fixed, robotRoot } = this.stage.frames;
     if (this.displays.length === 0 || this.chosen) return this.tell('list');
-    const root = ['map', 'odom', 'world'].find((name) => infos.some((info) => info.name === name || info.parent === name)) ?? rootOf(infos);
+    const root = ['map', 'odom', 'world'].find((name) => infos.some((info) => info.name === name || info.parent === name)) ?? rootOf(infos) ?? robotRoot;
     if (root && root !== fixed) this.setFixedFrame(root);
     else this.tell('list');
   }

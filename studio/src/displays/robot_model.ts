@@ -125,6 +125,8 @@ class RobotDrawer implements Drawer {
     for (const body of value.bodies) this.site.offer(flag(`Links/${body.link}`, true, `Whether ${body.link} is drawn.`));
     this.site.status('URDF', 'ok', 'URDF parsed OK');
     this.missing(value);
+    const children = new Set(value.joints.map((each) => each.child));
+    this.site.frames.setRobotRoot(this.frameNames.find((_, index) => !children.has(index)) ?? '');
     this.showLinks();
     this.update();
   }

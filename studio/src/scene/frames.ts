@@ -12,12 +12,16 @@ export interface FrameInfo {
 }
 
 const POSE_LENGTH = 7;
+const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
 
 /** All frames, and who wants to know. */
 export class Frames {
   infos: FrameInfo[] = [];
-  poses: Float32Array = new Float32Array(0);
+  /** Of all frames, and at the end that of the fixed frame in itself, which needs no tf. */
+  poses: Float32Array = new Float32Array(IDENTITY);
   fixed = '';
+  /** The link that a robot on view stands on, of interest while tf tells of no frame. */
+  robotRoot = '';
   private index = new Map<string, number>();
   private channel: Channel | null = null;
   private readonly moved = new Set<() => void>();
@@ -43,9 +47,17 @@ export class Frames {
   at(name: string): number {
     const clean = name.replace(/^\//, '');
     const index = this.index.get(clean) ?? this.index.get(name);
-    if (index === undefined) return -1;
+    const own = this.poses.length - POSE_LENGTH;
+    if (index === undefined) return clean === this.fixed.replace(/^\//, '') ? own : -1;
     const at = index * POSE_LENGTH;
-    return at + POSE_LENGTH <= this.poses.length && !Number.isNaN(this.poses[at]) ? at : -1;
+    return at < own && !Number.isNaN(this.poses[at]) ? at : -1;
+  }
+
+  /** Tell on which link a robot stands. */
+  setRobotRoot(name: string): void {
+    if (name === this.robotRoot) return;
+    this.robotRoot = name;
+    this.renamed.forEach((listener) => listener());
   }
 
   /** Be called after every new set of poses. Returns what ends it. */
@@ -78,7 +90,10 @@ export class Frames {
   }
 
   private takePoses(frame: Frame): void {
-    this.poses = floats(frame, frame.count * POSE_LENGTH);
+    const length = frame.count * POSE_LENGTH;
+    this.poses = new Float32Array(length + POSE_LENGTH);
+    this.poses.set(floats(frame, length));
+    this.poses.set(IDENTITY, length);
     this.moved.forEach((listener) => listener());
   }
 }
