@@ -30,7 +30,8 @@ export class BodyNode {
     this.root.name = value.name;
     this.root.userData.entity = entity;
     this.shapes = value.visuals.map((shape) => new ShapeNode(shape, () => this.refresh()));
-    this.visuals.add(...this.shapes.map((shape) => shape.root));
+    // three complains when it is given none, as for links without visuals.
+    for (const shape of this.shapes) this.visuals.add(shape.root);
     this.root.add(this.visuals);
     place(this.root, value.pose);
   }
