@@ -190,7 +190,7 @@ class _Probe:
 
 def _listening(port: int) -> psutil.Process:
     for one in psutil.net_connections("tcp"):
-        if one.status == psutil.CONN_LISTEN and one.laddr.port == port and one.pid:
+        if one.status == psutil.CONN_LISTEN and one.laddr[1:] == (port,) and one.pid:
             return psutil.Process(one.pid)
     raise SystemExit(f"nobody listens on port {port}")
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
@@ -12,7 +14,7 @@ pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
 
 @pytest.fixture
-def turtle(session: Any) -> Session:
+def turtle(session: Callable[..., Session]) -> Session:
     """``roscore`` with a turtle in it."""
     begun = session("roscore")
     begun.first.wait_for_line("setting /run_id to")
@@ -36,15 +38,16 @@ def test_turtle_is_drawn_and_driven_while_all_numbers_of_its_pose_are_plotted(
     stage.click()
     begin = poses[-1].x
 
-    def drive(key: str) -> None:
+    def drives(key: str, arrived: Callable[[Any], bool]) -> bool:
         stage.press(key)
         # Keys come as fast as a person's keyboard repeats them.
         seen.page.wait_for_timeout(100)
+        return arrived(poses[-1])
 
-    turtle.eventually(lambda: drive("ArrowUp") or poses[-1].x > begin + 0.7)
-    turtle.eventually(lambda: drive("ArrowLeft") or abs(poses[-1].theta) > 0.5)
+    turtle.eventually(lambda: drives("ArrowUp", lambda pose: pose.x > begin + 0.7))
+    turtle.eventually(lambda: drives("ArrowLeft", lambda pose: abs(pose.theta) > 0.5))
     for index, field in enumerate(fields):
-        turtle.eventually(lambda i=index, f=field: _shows(curves.nth(i), getattr(poses[-1], f)))
+        turtle.eventually(partial(_shows, curves.nth(index), poses, field))
     # The line behind the turtle is lighter than the blue around it.
     turtle.eventually(lambda: _colour(seen, 262, 250)[0] > 120)
     seen.shot("driven")
@@ -102,8 +105,9 @@ def test_easy_publisher_drives_in_waves_and_the_monitor_tells_rates(
     seen.shot("rates")
 
 
-def _shows(row: Any, value: float) -> bool:
+def _shows(row: Any, poses: list[Any], field: str) -> bool:
     text = row.locator("output").inner_text()
+    value = getattr(poses[-1], field)
     return bool(re.fullmatch(r"-?[\d.e-]+", text)) and abs(float(text) - value) < 0.1
 
 
