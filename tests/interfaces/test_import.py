@@ -6,7 +6,8 @@ import sys
 
 def test_import_leaves_heavy_modules_alone():
     code = (
-        "import sys, gazelle.interfaces as i; late = {'yaml', 'hashlib', 'rich', 'difflib', "
+        "import sys, gazelle.interfaces as i; "
+        "late = {'yaml', 'numpy', 'hashlib', 'rich', 'difflib', "
         "'gazelle.interfaces.writer', 'gazelle.diagnostics'} & set(sys.modules); "
         "print(sorted(late)); "
         "i.to_cdr(i.message_type('sensor_msgs/LaserScan')()); "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 import tomllib
@@ -120,7 +121,7 @@ def test_it(gazelle_launch):
 
 
 def test_nothing_is_left_when_pytest_itself_is_killed(speech_tests: Pytest, tmp_path: Path) -> None:
-    speech_tests(
+    ran = speech_tests(
         _START
         + """
 import os, signal
@@ -130,6 +131,7 @@ def test_it(gazelle_launch):
 """,
         MY_MARK=str(tmp_path),
     )
+    assert ran.returncode == -signal.SIGKILL, ran.stdout
     left = [one for one in psutil.process_iter() if _environment(one).get("MY_MARK")]
     _gone, alive = psutil.wait_procs(
         [one for one in left if _environment(one).get("MY_MARK") == str(tmp_path)], timeout=30
