@@ -34,6 +34,7 @@ from typing import Any
 from websockets.sync.client import connect
 
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+CLOUDS_HZ = 20.0
 PARTS = ("load", "opening", "slowing")
 DISPLAYS = {
     "PointCloud2": {"Topic": "/points"},
@@ -80,14 +81,13 @@ def measure_load(seconds: float) -> None:
     port = free_port()
     talker = [sys.executable, str(Path(__file__).with_name("bench_studio.py")), "--talk", str(port)]
     with running(talker, port), studio(port) as url, browser() as chromium:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        # Small, because a graphics card would paint this.
+        page = chromium.new_page(viewport={"width": 640, "height": 400})
         page.goto(f"{url}?panels=rviz")
-        page.wait_for_function("window.gazelle?.scene")
+        until(page, "Boolean(window.gazelle?.scene)")
         for display, properties in DISPLAYS.items():
             page.evaluate(f"gazelle.addDisplay('{display}', {json.dumps(properties)}, 'rviz')")
-        page.wait_for_function(
-            "gazelle.scene('rviz').displays['PointCloud2'].counts.points > 0", timeout=60_000
-        )
+        until(page, "gazelle.scene('rviz').displays['PointCloud2'].counts.points > 0")
         page.wait_for_timeout(3000)
         session = page.context.new_cdp_session(page)
         session.send("Performance.enable", {"timeDomain": "threadTicks"})
@@ -96,9 +96,13 @@ def measure_load(seconds: float) -> None:
         page.wait_for_timeout(seconds * 1000)
         after, now = _metrics(session), _shown(page)
         passed = time.perf_counter() - began
+        script = 100 * (after["ScriptDuration"] - before["ScriptDuration"]) / passed
+        clouds_hz = (now["clouds"] - shown["clouds"]) / passed
         say(
             "page",
-            script_percent=100 * (after["ScriptDuration"] - before["ScriptDuration"]) / passed,
+            script_percent=script,
+            # Where software paints, fewer clouds are shown than come.
+            script_percent_at_20_hz=script * CLOUDS_HZ / clouds_hz if clouds_hz else None,
             main_thread_percent=100 * (after["TaskDuration"] - before["TaskDuration"]) / passed,
             per_s={name: round((now[name] - shown[name]) / passed, 1) for name in now},
             heap_mb=after["JSHeapUsedSize"] / 1e6,
@@ -122,6 +126,7 @@ def _shown(page: Any) -> dict[str, int]:
 def measure_opening(workspaces: Path) -> None:
     """Open Gazebo's window on SLAMBOT's museum, as a launch file does, and RViz's beside it."""
     with slambot(workspaces) as (port, _), studio(port) as url, browser() as chromium:
+        _warm_up(chromium)
         for panels in ("gzclient", "rviz", ""):
             context = chromium.new_context(viewport={"width": 1280, "height": 800})
             page = context.new_page()
@@ -130,7 +135,7 @@ def measure_opening(workspaces: Path) -> None:
             sizes = _sizes(session)
             page.add_init_script(FIRST_VIEW)
             page.goto(f"{url}?panels={panels}" if panels else url)
-            page.wait_for_function("window.firstView_ms > 0", timeout=60_000)
+            until(page, "window.firstView_ms > 0")
             first_ms = page.evaluate("window.firstView_ms")
             page.wait_for_timeout(1500)
             own = sum(size for path, size in sizes.items() if not _is_mesh(path))
@@ -142,6 +147,13 @@ def measure_opening(workspaces: Path) -> None:
                 meshes_kb=(sum(sizes.values()) - own) / 1000,
             )
             context.close()
+
+
+def _warm_up(chromium: Any) -> None:
+    """A person's browser has painted something before."""
+    page = chromium.new_page()
+    page.evaluate("document.createElement('canvas').getContext('webgl2').finish()")
+    page.close()
 
 
 def _sizes(session: Any) -> dict[str, int]:
@@ -298,6 +310,15 @@ def browser() -> Iterator[Any]:
         started = playwright.chromium.launch(executable_path=program, args=FLAGS)
         yield started
         started.close()
+
+
+def until(page: Any, condition: str) -> None:
+    """Wait for a condition; Playwright's own way is barred by the page's policy."""
+    for _ in range(1200):
+        if page.evaluate(condition):
+            return
+        page.wait_for_timeout(50)
+    raise SystemExit(f"within a minute it never was true that {condition}")
 
 
 def free_port() -> int:

@@ -137,7 +137,7 @@ def _drag(robot: Robot, rviz: RvizPage, tool: str, topic: str, kind: str) -> Any
     return heard[0]
 
 
-def test_gazebo_s_window_shows_the_museum_and_the_robot(
+def test_gazebo_s_window_shows_museum_and_robot_and_rviz_comes_beside(
     slambot: Robot, window: Callable[..., Any]
 ) -> None:
     """S1 and S5: what the launch file's own ``gui`` opens."""
@@ -148,6 +148,11 @@ def test_gazebo_s_window_shows_the_museum_and_the_robot(
     assert shown[:3] == pytest.approx([there.x, there.y, there.z], abs=0.005)
     seen.page.wait_for_timeout(1500)
     seen.shot()
+    slambot.type("rosrun", "rviz", "rviz")
+    seen.panel("displays").get_by_role("treeitem", name="RobotModel").wait_for()
+    assert seen.panel("rviz").is_visible()
+    assert seen.panel("gazebo").is_visible()
+    seen.shot("with rviz")
 
 
 def _models(seen: Any) -> set[str]:
