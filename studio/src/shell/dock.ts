@@ -70,11 +70,16 @@ export class Dock {
   /** Opens a panel at the right of what is looked at; further ones go into tabs there. */
   showBeside(name: string, params: JsonObject = {}): void {
     const tabs = this.api.getGroup(this.besides);
-    const empty = this.api.panels.length === 0;
-    this.show(name, params, empty ? undefined : {
-      kind: name, direction: tabs ? 'within' : 'right', ...(tabs ? { group: tabs.id } : { width: Math.round(this.api.width * BESIDE) }),
-    });
-    if (!empty) this.besides = this.api.activeGroup?.id ?? '';
+    const widths = this.api.groups.map((group) => [group, group.width] as const);
+    if (this.api.panels.length === 0) return this.show(name, params);
+    this.show(name, params, tabs ? { kind: name, direction: 'within', group: tabs.id } : { kind: name, direction: 'right' });
+    const group = this.api.activeGroup;
+    this.besides = group?.id ?? '';
+    if (tabs || !group) return;
+    // The widest one makes room; narrow ones, as trees, stay as they are.
+    const widest = widths.reduce((one, other) => (other[1] > one[1] ? other : one))[0];
+    for (const [each, width] of widths) if (each !== widest) each.api.setSize({ width });
+    group.api.setSize({ width: Math.round(this.api.width * BESIDE) });
   }
 
   /** Hands parameters to an open panel of a kind and brings it to the front; answers whether there is one. */

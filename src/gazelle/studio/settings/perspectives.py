@@ -18,6 +18,7 @@ _MANAGER = "pluginmanager"
 _RUNNING = "running-plugins"
 # Settings that are topics: of the plug-in, ours.
 _SETTINGS = {"rqt_plot": ("topics", "curves"), "rqt_image_view": ("topic", "topic")}
+_USUAL = "The panels that are there stay."
 
 
 def open_perspective(_studio: Studio, params: Params) -> dict[str, Any]:
@@ -27,8 +28,10 @@ def open_perspective(_studio: Studio, params: Params) -> dict[str, Any]:
     path = Path(params.text("path")).expanduser()
     try:
         return perspective_value(path.read_text(encoding="utf-8"), str(path))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudioError(f"cannot read {path}: {error}") from None
+    except OSError as error:
+        raise StudioError(f"cannot read {path}: {error.strerror}", hint=_USUAL) from None
+    except UnicodeDecodeError as error:
+        raise StudioError(f"cannot read {path}: {error}", hint=_USUAL) from None
 
 
 def perspective_value(text: str, name: str) -> dict[str, Any]:

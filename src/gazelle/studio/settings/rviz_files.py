@@ -22,6 +22,7 @@ _TOPICS = ("Topic", "Image Topic", "Marker Topic", "Description Topic", "Depth M
 _NUMBERS = {"Distance": "distance", "Yaw": "yaw", "Pitch": "pitch", "Scale": "scale",
             "Angle": "angle"}  # fmt: skip
 _KNOWN_PARTS = ("Panels", "Visualization Manager", "Window Geometry", "Preferences", "Toolbars")
+_USUAL = "The displays that are there stay."
 
 
 def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
@@ -31,8 +32,10 @@ def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
     path = Path(params.text("path")).expanduser()
     try:
         return rviz_value(path.read_text(encoding="utf-8"), str(path))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudioError(f"cannot read {path}: {error}") from None
+    except OSError as error:
+        raise StudioError(f"cannot read {path}: {error.strerror}", hint=_USUAL) from None
+    except UnicodeDecodeError as error:
+        raise StudioError(f"cannot read {path}: {error}", hint=_USUAL) from None
 
 
 def rviz_value(text: str, name: str) -> dict[str, Any]:
