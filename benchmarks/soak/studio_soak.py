@@ -4,7 +4,7 @@
 
 DIR is the catkin workspace with `slam_robot`. Starts ``slam_robot_gazebo.launch``, opens its page
 in headless Chromium with world, robot, scan, cloud, pictures, frames, plot, graph, topics and
-console, and drives the robot in a circle. Prints one JSON object per sample and, at the end, how
+console, drives the robot in a circle and brings one tab after the other to the front. Prints one JSON object per sample and, at the end, how
 much each figure has grown from the first third to the last, after a minute of warming up. Exit
 code 1 when one has grown more than 5 %.
 """
@@ -57,8 +57,11 @@ def main() -> None:
         url = stack.enter_context(_launched(options.workspace, home))
         page, browser_pid = stack.enter_context(_page(url, home))
         probe = _Probe(page, browser_pid, int(url.rstrip("/").rpartition(":")[2]))
+        tabs = page.locator(".dv-tab").all()
         begin = time.monotonic()
         while (passed := time.monotonic() - begin) < options.minutes * 60:
+            tabs[0].click()
+            tabs.append(tabs.pop(0))
             page.wait_for_timeout(options.every_s * 1000)
             sample = {"seconds": round(passed), **probe.sample()}
             print(json.dumps(sample), flush=True)
@@ -139,6 +142,7 @@ def _page(url: str, home: Path) -> Iterator[tuple[Any, int]]:
         page.wait_for_function("window.gazelle?.scenes().length > 1")
         for display, topic in _DISPLAYS.items():
             page.evaluate(f"gazelle.addDisplay('{display}', {{Topic: '{topic}'}}, 'rviz')")
+        page.locator(".dv-tab").filter(has_text="Plot").click()
         page.get_by_label("Topic field").fill("/odom/twist/twist")
         page.keyboard.press("Enter")
         yield page, _browser(profile)
