@@ -76,7 +76,7 @@ export class PlotChart {
       cursor: { drag: { x: true, y: false, setScale: false }, points: { size: 5 } },
       scales: { x: { time: false }, y: { range: (_chart, low, high) => padded(low, high) } },
       axes: [{ ...axis, size: 34, space: 90, values: (_chart, ticks) => ticks.map(timeText) },
-        { ...axis, size: 58, values: (_chart, ticks) => ticks.map(valueText) }],
+        { ...axis, size: (_chart, texts) => widthOf(texts), values: (_chart, ticks) => ticks.map(valueText) }],
       series: [{}, ...curves.map((curve) => ({
         label: curve.name, stroke: curve.colour, width: 1.5, show: curve.shown, spanGaps: true, points: { show: false },
       }))],
@@ -115,6 +115,12 @@ function timeText(time_s: number): string {
   const two = (value: number) => String(value).padStart(2, '0');
   const rest = time.getMilliseconds() > 0 ? `.${String(time.getMilliseconds()).padStart(3, '0').replace(/0+$/, '')}` : '';
   return `${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}${rest}`;
+}
+
+/** Room for the numbers beside an axis, pixels; the first round has none yet. */
+function widthOf(texts: readonly string[] | null): number {
+  const longest = Math.max(0, ...(texts ?? []).map((each) => each.length));
+  return Math.max(58, 22 + 7 * longest);
 }
 
 /** A few characters, however large the values are. */
