@@ -4,9 +4,9 @@
 
 DIR is the catkin workspace with `slam_robot`. Starts ``slam_robot_gazebo.launch``, opens its page
 in headless Chromium with world, robot, scan, cloud, pictures, frames, plot, graph, topics and
-console, drives the robot in a circle and brings one tab after the other to the front. Prints one JSON object per sample and, at the end, how
-much each figure has grown from the first third to the last, after a minute of warming up. Exit
-code 1 when one has grown more than 5 %.
+console, drives the robot in a circle and brings one tab after the other to the front. Prints one
+JSON object per sample and, at the end, how much each figure has grown from the first third to the
+last, after a minute of warming up. Exit code 1 when one has grown more than 5 %.
 """
 
 from __future__ import annotations
