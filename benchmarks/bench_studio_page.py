@@ -236,6 +236,7 @@ def _factor(node: Any, seconds: float) -> float:
 
     kind = service_type("gazebo_msgs/srv/GetWorldProperties")
     client = node.create_client("/gazebo/get_world_properties", kind)
+    client.wait_for_service(20)
     first, began = client.call(kind.Request(), timeout_s=20).sim_time, time.perf_counter()
     time.sleep(seconds)
     last, ended = client.call(kind.Request(), timeout_s=20).sim_time, time.perf_counter()
