@@ -152,7 +152,7 @@ def test_gazebo_s_window_shows_museum_and_robot_and_rviz_comes_beside(
     seen.panel("displays").get_by_role("treeitem", name="RobotModel").wait_for()
     assert seen.panel("rviz").is_visible()
     assert seen.panel("gazebo").is_visible()
-    seen.shot("with rviz")
+    seen.shot("with_rviz")
 
 
 def _models(seen: Any) -> set[str]:
