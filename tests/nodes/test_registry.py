@@ -33,3 +33,10 @@ def test_old_names_are_aliases(package: str, type_name: str, target: str) -> Non
 def test_unknown_names_are_no_nodes() -> None:
     assert builtin_node("gazebo_ros", "spawn_modle") is None
     assert "spawn_model" in builtin_types("gazebo_ros")
+
+
+def test_no_name_stands_for_two_nodes() -> None:
+    names = [
+        name for node in builtin_nodes() for name in ((node.package, node.type), *node.aliases)
+    ]
+    assert sorted(names) == sorted(set(names))

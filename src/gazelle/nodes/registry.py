@@ -178,15 +178,6 @@ _NODES = (
     ),
     *(
         BuiltinNode(
-            "topic_tools", name, f"gazelle.nodes.topic_transform:run_{name}", light=True, help=about
-        )
-        for name, about in (
-            ("transform", "publishes what a Python expression makes of a topic or a field"),
-            ("relay_field", "fills messages with fields of another topic"),
-        )
-    ),
-    *(
-        BuiltinNode(
             "topic_tools", name, f"gazelle.nodes.topic_mux:run_{name}", light=True, help=about
         )
         for name, about in (
