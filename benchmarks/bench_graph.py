@@ -26,6 +26,8 @@ from gazelle.interfaces import message_type
 
 JOINT_STATE = message_type("sensor_msgs/msg/JointState")
 IMAGE = message_type("sensor_msgs/msg/Image")
+TEXT = message_type("std_msgs/msg/String")
+_EARS = 5
 
 
 def main() -> None:
@@ -36,7 +38,11 @@ def main() -> None:
     parser.add_argument("--commands", action="store_true", help="measure the commands alone")
     parser.add_argument("--peer", type=int, default=0, help=argparse.SUPPRESS)
     parser.add_argument("--crowd", type=int, default=0, help=argparse.SUPPRESS)
+    parser.add_argument("--ear", type=int, default=0, help=argparse.SUPPRESS)
     options = parser.parse_args()
+    if options.ear:
+        _be_ear(options.ear)
+        return
     if options.peer:
         _be_peer(options.peer, options.crowd)
         return
@@ -52,6 +58,7 @@ def main() -> None:
         node = graph.create_node("bench")
         _bench_idle(node)
         _bench_local(node)
+        _bench_fan_out(node)
         with subprocess.Popen(
             [sys.executable, __file__, "--peer", str(port)],
             stdin=subprocess.PIPE,
@@ -136,6 +143,55 @@ def _bench_images(node: Node, count: int) -> None:
         assert credit.acquire(timeout=5)
         image.publish(message)
     _say("0.9 MB images", per_second=count / (time.perf_counter() - start))
+
+
+def _bench_fan_out(node: Node, seconds: int = 10, rate_hz: int = 30) -> None:
+    """Send a camera's images to five processes and count what they saw."""
+    seen: dict[str, int] = {}
+    ended = threading.Semaphore(0)
+
+    def count(message: Any) -> None:
+        name, _, number = message.data.partition(" ")
+        seen[name] = int(number)
+        ended.release()
+
+    camera, end = node.create_publisher("camera", IMAGE), node.create_publisher("end", TEXT)
+    node.create_subscription("counted", TEXT, count)
+    pixels = np.zeros(640 * 480 * 3, np.uint8)
+    message = IMAGE(height=480, width=640, step=1920, encoding="rgb8", data=pixels)
+    words = [sys.executable, __file__, "--ear", str(node.graph.port)]
+    ears = [subprocess.Popen(words) for _ in range(_EARS)]
+    pause = threading.Event()
+    while min(camera.subscription_count, end.subscription_count) < _EARS:
+        pause.wait(0.05)
+    due = time.perf_counter()
+    for _ in range(seconds * rate_hz):
+        camera.publish(message)
+        due += 1 / rate_hz
+        pause.wait(max(0.0, due - time.perf_counter()))
+    end.publish(TEXT())
+    for ear in ears:
+        ended.acquire(timeout=10)
+        ear.wait(10)
+    sent = seconds * rate_hz
+    _say("0.9 MB images at 30 Hz to five", sent=sent, lost=sum(sent - n for n in seen.values()))
+
+
+def _be_ear(port: int) -> None:
+    images, done = [0], threading.Event()
+
+    def take(_message: Any) -> None:
+        images[0] += 1
+
+    with Graph.open(port=port, environ={}) as graph:
+        node = graph.create_node(f"ear{os.getpid()}")
+        counted = node.create_publisher("counted", TEXT)
+        node.create_subscription("end", TEXT, lambda _message: done.set())
+        node.create_subscription("camera", IMAGE, take)
+        done.wait()
+        time.sleep(0.5)
+        counted.publish(TEXT(data=f"{os.getpid()} {images[0]}"))
+        time.sleep(0.5)
 
 
 def _bench_listing(node: Node, port: int) -> None:

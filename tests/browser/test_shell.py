@@ -8,7 +8,6 @@ import pytest
 
 from gazelle.studio import Server, Studio
 
-pytestmark = pytest.mark.slow
 
 _ALL = (
     "rqt_topic", "rqt_publisher", "rqt_ez_publisher", "rqt_msg", "rqt_service_caller", "rqt_srv",

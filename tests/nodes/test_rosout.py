@@ -82,6 +82,7 @@ def test_a_killed_one_comes_back(gatherers: list[Gatherer]) -> None:
     first, second = gatherers
     first.thread.start()
     _until(second.graph, lambda: "/rosout" in second.graph.node_names())
+    _until(second.graph, lambda: first.graph.nodes)
     (node,) = first.graph.nodes
     assert second.graph.kill_node("/rosout")
     _until(second.graph, lambda: node.closed and _names([first]) == ["/rosout"])

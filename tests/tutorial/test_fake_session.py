@@ -64,6 +64,8 @@ def test_tab_completes_what_is_typed(terminals: list[Terminal]) -> None:
     _robot, keys, free = terminals
     keys.start("roscore", r"started core service")
     free.run("export TURTLEBOT3_MODEL=waffle")
+    # What is asked for once is completed once: the topic has to be there.
+    assert any("/rosout_agg" in free.run("rostopic list") for _ in range(20))
     for typed, wanted in (
         ("rostopic echo /rosout_\t", "rostopic echo /rosout_agg "),
         ("roslaunch turtlebot3_fa\t", "roslaunch turtlebot3_fake "),

@@ -129,7 +129,7 @@ def _drive(desk: _Desk) -> None:
 
 def _record_and_play(desk: _Desk, tmp_path: Path) -> None:
     run = desk.free.run
-    desk.free.start("rosbag record -a", r"Subscribing to /turtle2/pose$")
+    desk.free.start("rosbag record -a", r"Recording to '.*'\.$")
     desk.keys.type(_UP)
     desk.keys.pause(1.0)
     desk.keys.type(_LEFT)

@@ -26,6 +26,7 @@ class Context:
         self._listeners: list[Callable[[], Any]] = []
         self._wakers: list[Callable[[], Any]] = []
         self.arguments = RosArguments()
+        self.interrupted = False
 
     @property
     def graph(self) -> Graph:
@@ -59,7 +60,7 @@ class Context:
             if domain_id is not None:
                 environ["ROS_DOMAIN_ID"] = str(domain_id)
             self._graph = Graph.open(environ=environ)
-            self._ok = True
+            self._ok, self.interrupted = True, False
 
     def ok(self) -> bool:
         """Tell whether `init` was called and no shutdown since."""
@@ -133,7 +134,9 @@ def handle_signals() -> None:
 
 
 def _on_signal(number: int, frame: FrameType | None) -> None:
-    get_default_context().invalidate()
+    context = get_default_context()
+    context.interrupted = context.interrupted or number == signal.SIGINT
+    context.invalidate()
     previous = _PREVIOUS.get(number)
     if callable(previous):
         previous(number, frame)

@@ -148,7 +148,7 @@ class Executor:
                 if self._is_shutdown or until():
                     return None
                 if not self._context.ok():
-                    raise ExternalShutdownException
+                    raise self._end()
                 found = self._next()
                 if found is not None:
                     return found
@@ -156,6 +156,15 @@ class Executor:
                 if left_s is not None and left_s <= 0:
                     return None
                 self._changed.wait(left_s)
+
+    def _end(self) -> BaseException:
+        """Return what spinning ends with: Ctrl-C is Ctrl-C.
+
+        Python's own interrupt may come where nobody hears it, in a finaliser for one.
+        """
+        in_main = threading.current_thread() is threading.main_thread()
+        interrupted = in_main and self._context.interrupted
+        return KeyboardInterrupt() if interrupted else ExternalShutdownException()
 
     def _next(self) -> tuple[Task, Work | None] | None:
         if self._tasks:
