@@ -8,7 +8,6 @@ import pytest
 
 from gazelle.studio import Server, Studio
 
-
 _ALL = (
     "rqt_topic", "rqt_publisher", "rqt_ez_publisher", "rqt_msg", "rqt_service_caller", "rqt_srv",
     "action_caller", "rqt_action", "rqt_plot", "rqt_image_view", "rqt_tf_tree", "rqt_console",
