@@ -1,3 +1,19 @@
 """ament_index_python.resources."""
 
-from gazelle.compat.packages.ament_index import *  # noqa: F403
+from gazelle.workspace.ament_index import (
+    InvalidResourceNameError,
+    InvalidResourceTypeNameError,
+    get_resource,
+    get_resource_types,
+    get_resources,
+    has_resource,
+)
+
+__all__ = [
+    "InvalidResourceNameError",
+    "InvalidResourceTypeNameError",
+    "get_resource",
+    "get_resource_types",
+    "get_resources",
+    "has_resource",
+]

@@ -1,3 +1,9 @@
 """ament_index_python.search_paths."""
 
-from gazelle.compat.packages.ament_index import *  # noqa: F403
+from gazelle.workspace.ament_index import (
+    get_search_paths,
+)
+
+__all__ = [
+    "get_search_paths",
+]

@@ -8,9 +8,14 @@ from functools import lru_cache
 from pathlib import Path
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.workspace import Package, Workspace
+from gazelle.workspace.package import Package
+from gazelle.workspace.workspace import Workspace
 
 __all__ = [
+    "AMENT_PREFIX_PATH_ENV_VAR",
+    "RESOURCE_INDEX_SUBFOLDER",
+    "InvalidResourceNameError",
+    "InvalidResourceTypeNameError",
     "PackageNotFoundError",
     "get_package_prefix",
     "get_package_share_directory",
@@ -21,8 +26,11 @@ __all__ = [
     "get_resources",
     "get_search_paths",
     "has_resource",
+    "known_workspace",
 ]
 
+AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
+RESOURCE_INDEX_SUBFOLDER = "share/ament_index/resource_index"
 _LEGAL = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+", re.ASCII)
 
 
@@ -33,15 +41,23 @@ class PackageNotFoundError(KeyError):
         return str(self.args[0])
 
 
+class InvalidResourceTypeNameError(ValueError):
+    """A kind of entries is a folder's name and holds no ``/``."""
+
+
+class InvalidResourceNameError(ValueError):
+    """An entry is a file's name and holds no ``/``."""
+
+
 def get_search_paths() -> list[str]:
     """Return the install prefixes of ``AMENT_PREFIX_PATH`` that exist."""
-    paths = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    paths = os.environ.get(AMENT_PREFIX_PATH_ENV_VAR, "").split(os.pathsep)
     return [path for path in paths if path and Path(path).is_dir()]
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return the prefixes of all packages by name."""
-    return {name: _prefix(one) for name, one in _workspace().packages.items()}
+    return {name: _prefix(one) for name, one in known_workspace().packages.items()}
 
 
 def get_package_prefix(package_name: str) -> str:
@@ -74,12 +90,17 @@ def get_resources(resource_type: str) -> dict[str, str]:
     """Return prefixes by name of what packages registered in the index.
 
     Packages in source trees are in it as ``packages`` without being installed.
+
+    Raises:
+        InvalidResourceTypeNameError: the kind holds a ``/``.
     """
+    _check(InvalidResourceTypeNameError, "Resource type", resource_type)
     found: dict[str, str] = {}
     for prefix in reversed(get_search_paths()):
         folder = _index(prefix) / resource_type
         if folder.is_dir():
-            found |= {file.name: prefix for file in folder.iterdir() if file.is_file()}
+            files = [one.name for one in folder.iterdir() if one.is_file()]
+            found |= {name: prefix for name in files if not name.startswith(".")}
     if resource_type == "packages":
         found = get_packages_with_prefixes() | found
     return found
@@ -89,8 +110,11 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
     """Return what a package registered, and its prefix.
 
     Raises:
+        InvalidResourceNameError: the name holds a ``/``.
+        InvalidResourceTypeNameError: the kind does.
         LookupError: there is no such entry.
     """
+    _check(InvalidResourceNameError, "Resource name", resource_name)
     prefix = get_resources(resource_type).get(resource_name)
     if prefix is None:
         hint = did_you_mean(resource_name, get_resources(resource_type))
@@ -101,29 +125,37 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 
 def has_resource(resource_type: str, resource_name: str) -> str | bool:
-    """Return the prefix of an entry, False when there is none."""
+    """Return the prefix of an entry, False when there is none.
+
+    Raises:
+        InvalidResourceNameError: the name holds a ``/``.
+        InvalidResourceTypeNameError: the kind does.
+    """
+    _check(InvalidResourceNameError, "Resource name", resource_name)
     return get_resources(resource_type).get(resource_name, False)
 
 
 def get_resource_types() -> set[str]:
     """Return the kinds of entries that there are."""
     folders = [_index(prefix) for prefix in get_search_paths()]
-    found = {one.name for folder in folders if folder.is_dir() for one in folder.iterdir()}
+    there = [one for folder in folders if folder.is_dir() for one in folder.iterdir()]
+    found = {one.name for one in there if one.is_dir() and not one.name.startswith(".")}
     return found | {"packages"}
 
 
 @lru_cache(maxsize=1)
-def _workspace() -> Workspace:
+def known_workspace() -> Workspace:
+    """Return the workspace that all of this looks into, crawled once for the process."""
     return Workspace.discover()
 
 
 def _package(name: str) -> Package:
     if _LEGAL.fullmatch(name) is None:
         raise ValueError(f"'{name}' is not a valid package name")
-    found = _workspace().packages.get(name)
+    found = known_workspace().packages.get(name)
     if found is None:
-        hint = did_you_mean(name, list(_workspace().packages))
-        places = list(_workspace().package_places)
+        hint = did_you_mean(name, list(known_workspace().packages))
+        places = list(known_workspace().package_places)
         text = f"package '{name}' not found, searching: {places}"
         raise PackageNotFoundError(f"{text}; {hint}".rstrip("; "))
     return found
@@ -134,4 +166,9 @@ def _prefix(package: Package) -> str:
 
 
 def _index(prefix: str) -> Path:
-    return Path(prefix) / "share" / "ament_index" / "resource_index"
+    return Path(prefix) / RESOURCE_INDEX_SUBFOLDER
+
+
+def _check(error: type[ValueError], what: str, name: str) -> None:
+    if "/" in name or "\\" in name:
+        raise error(f"{what} '{name}' is invalid")
