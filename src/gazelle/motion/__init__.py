@@ -1,0 +1,1 @@
+"""Arms: inverse kinematics, collision checking, motion planning, time parameterisation."""
