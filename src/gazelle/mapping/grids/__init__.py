@@ -1,0 +1,23 @@
+"""Occupancy grids, and the map files of ``map_server`` and ``nav2_map_server``."""
+
+from __future__ import annotations
+
+from gazelle.mapping.grids.grid import OccupancyGrid
+from gazelle.mapping.grids.map_file import MapFile, read_map_file
+from gazelle.mapping.grids.pixels import MapMode, cells_of_pixels, pixels_of_cells
+from gazelle.mapping.grids.reading import read_map, read_map_image
+from gazelle.mapping.grids.writing import MapWriteError, SaveOptions, write_map
+
+__all__ = [
+    "MapFile",
+    "MapMode",
+    "MapWriteError",
+    "OccupancyGrid",
+    "SaveOptions",
+    "cells_of_pixels",
+    "pixels_of_cells",
+    "read_map",
+    "read_map_file",
+    "read_map_image",
+    "write_map",
+]

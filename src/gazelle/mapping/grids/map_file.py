@@ -1,0 +1,209 @@
+"""The YAML beside a map's picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.limits import read_text_limited
+from gazelle.limits.yaml_text import LimitedLoader
+from gazelle.mapping.grids.pixels import MapMode
+
+__all__ = ["MapFile", "read_map_file"]
+
+_KEYS = ("image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
+_NEEDED = tuple(key for key in _KEYS if key != "mode")
+
+
+@dataclass(frozen=True, slots=True)
+class MapFile:
+    """What a map's YAML says.
+
+    Attributes:
+        path: of the YAML.
+        image: path of the picture.
+        resolution_m: side of a cell, m.
+        origin: x, y (m) and yaw (rad) of the lower left corner.
+        negate: white means occupied.
+        occupied_thresh, free_thresh: occupancies, 0 … 1.
+        mode: how grey values are read.
+        image_span: where the picture is named.
+    """
+
+    path: Path
+    image: Path
+    resolution_m: float
+    origin: tuple[float, float, float]
+    negate: bool = False
+    occupied_thresh: float = 0.65
+    free_thresh: float = 0.196
+    mode: MapMode = MapMode.TRINARY
+    image_span: SourceSpan | None = None
+
+
+def read_map_file(path: Path | str, diagnostics: Diagnostics) -> MapFile | None:
+    """Read a map's YAML; None when it has errors, which are all reported.
+
+    Args:
+        path: of the YAML; ``~`` is the home folder.
+        diagnostics: takes the findings.
+    """
+    path = Path(path).expanduser()
+    entries = _entries(path, diagnostics)
+    if entries is None:
+        return None
+    reader = _Reader(path, entries, diagnostics)
+    reader.check_keys()
+    found = MapFile(
+        path=path,
+        image=reader.image(),
+        resolution_m=reader.number("resolution", 0.05),
+        origin=reader.origin(),
+        negate=reader.negate(),
+        occupied_thresh=reader.number("occupied_thresh", 0.65),
+        free_thresh=reader.number("free_thresh", 0.196),
+        mode=reader.mode(),
+        image_span=reader.span("image"),
+    )
+    reader.check_values(found)
+    return None if reader.failed else found
+
+
+def _entries(path: Path, diagnostics: Diagnostics) -> dict[str, tuple[Any, SourceSpan]] | None:
+    """Return value and place by key."""
+    span = SourceSpan(str(path))
+    try:
+        text = read_text_limited(path)
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not a text"
+        hint = "give the .yaml, not the picture" if path.suffix in (".pgm", ".png") else ""
+        diagnostics.report(
+            "map.unreadable", f"the map '{path}' cannot be read: {reason}", span, fix=hint
+        )
+        return None
+    try:
+        loader = LimitedLoader(text)
+        root = loader.get_single_node()
+        if not isinstance(root, yaml.MappingNode):
+            raise yaml.YAMLError("it is no mapping of names to values")
+        return {
+            str(loader.construct_object(key, deep=True)): (
+                loader.construct_object(value, deep=True),
+                SourceSpan(str(path), key.start_mark.line + 1, key.start_mark.column + 1),
+            )
+            for key, value in root.value
+        }
+    except yaml.YAMLError as error:
+        place = getattr(error, "problem_mark", None)
+        if place is not None:
+            span = SourceSpan(str(path), place.line + 1, place.column + 1)
+        problem = getattr(error, "problem", None) or error
+        diagnostics.report("map.no-yaml", f"this is no YAML of a map: {problem}", span)
+        return None
+
+
+class _Reader:
+    """Takes values out of a map's YAML and tells of every one that cannot be used."""
+
+    def __init__(
+        self, path: Path, entries: dict[str, tuple[Any, SourceSpan]], diagnostics: Diagnostics
+    ) -> None:
+        self.failed = False
+        self._path = path
+        self._entries = entries
+        self._diagnostics = diagnostics
+
+    def span(self, key: str) -> SourceSpan:
+        """Return where a value stands, else the file."""
+        return self._entries[key][1] if key in self._entries else SourceSpan(str(self._path))
+
+    def check_keys(self) -> None:
+        """Tell of keys that are missing and of keys that nobody reads."""
+        for key in _NEEDED:
+            if key not in self._entries:
+                self._wrong(key, f"the map does not contain the tag '{key}'")
+        for key, (_value, span) in self._entries.items():
+            if key not in _KEYS:
+                text = f"'{key}' means nothing in a map's YAML and is not read"
+                self._diagnostics.report(
+                    "map.unknown-key", text, span, fix=did_you_mean(key, _KEYS)
+                )
+
+    def number(self, key: str, default: float) -> float:
+        """Return a finite number."""
+        if key not in self._entries:
+            return default
+        value = _as_number(self._entries[key][0])
+        if value is None:
+            self._wrong(key, f"'{key}' is {self._entries[key][0]!r}, not a number")
+            return default
+        return value
+
+    def origin(self) -> tuple[float, float, float]:
+        """Return x, y and yaw."""
+        value = self._entries.get("origin", ([0.0, 0.0, 0.0], None))[0]
+        numbers = [_as_number(item) for item in value] if isinstance(value, list) else []
+        if len(numbers) != 3 or None in numbers:
+            self._wrong("origin", f"'origin' is {value!r}, not [x, y, yaw]")
+            return 0.0, 0.0, 0.0
+        x, y, yaw = (number or 0.0 for number in numbers)
+        return x, y, yaw
+
+    def negate(self) -> bool:
+        """Return whether white means occupied."""
+        value = self._entries.get("negate", (0, None))[0]
+        if value not in (0, 1):
+            self._wrong("negate", f"'negate' is {value!r}, it is 0 or 1")
+        return value == 1
+
+    def mode(self) -> MapMode:
+        """Return how grey values are read."""
+        value = self._entries.get("mode", ("trinary", None))[0]
+        names = [mode.value for mode in MapMode]
+        if value not in names:
+            self._wrong("mode", f"Invalid mode tag {value!r}; there are {', '.join(names)}")
+            return MapMode.TRINARY
+        return MapMode(value)
+
+    def image(self) -> Path:
+        """Return the path of the picture, which counts from the YAML."""
+        value = self._entries.get("image", ("map.pgm", None))[0]
+        if not isinstance(value, str) or not value:
+            self._wrong("image", f"'image' is {value!r}, not the name of a picture")
+            return self._path
+        return self._path.parent / Path(value).expanduser()
+
+    def check_values(self, found: MapFile) -> None:
+        """Tell of values that a map cannot have."""
+        resolution = found.resolution_m
+        if resolution <= 0:
+            self._wrong("resolution", f"'resolution' is {resolution:g} m, it must be above 0")
+        elif not 0.001 <= resolution <= 10:
+            text = f"a cell of this map is {resolution:g} m wide, which no robot's map is"
+            self._diagnostics.report("map.odd-resolution", text, self.span("resolution"))
+        for key in ("occupied_thresh", "free_thresh"):
+            if not 0 <= getattr(found, key) <= 1:
+                self._wrong(key, f"'{key}' is {getattr(found, key):g}, it lies in 0 … 1")
+        if found.free_thresh > found.occupied_thresh:
+            text = f"'free_thresh' {found.free_thresh:g} is above 'occupied_thresh' "
+            self._wrong("free_thresh", f"{text}{found.occupied_thresh:g}")
+
+    def _wrong(self, key: str, message: str) -> None:
+        self.failed = True
+        self._diagnostics.report("map.bad-value", message, self.span(key))
+
+
+def _as_number(value: Any) -> float | None:
+    """Return a finite number, also one that YAML 1.1 takes for a text such as ``1e-2``."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return None
+    try:
+        number = float(value)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None

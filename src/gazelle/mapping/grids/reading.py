@@ -1,0 +1,98 @@
+"""Reading maps."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.limits import read_limited
+from gazelle.mapping.grids.grid import OccupancyGrid
+from gazelle.mapping.grids.map_file import MapFile, read_map_file
+from gazelle.mapping.grids.pixels import cells_of_pixels
+
+__all__ = ["read_map", "read_map_image"]
+
+_MOST_BYTES = 256 << 20
+_DEEP = ("I", "I;16", "I;16B", "I;16L", "I;16N")
+
+
+def read_map(
+    path: Path | str, diagnostics: Diagnostics, *, generation: int = 1
+) -> OccupancyGrid | None:
+    """Read a map's YAML and its picture.
+
+    Args:
+        path: of the YAML.
+        diagnostics: takes the findings, all at once.
+        generation: 1 reads grey values as ``map_server`` does, 2 as ``nav2_map_server`` does.
+
+    Returns:
+        The grid; None when there is an error.
+    """
+    described = read_map_file(path, diagnostics)
+    return None if described is None else read_map_image(described, diagnostics, generation)
+
+
+def read_map_image(
+    described: MapFile, diagnostics: Diagnostics, generation: int = 1
+) -> OccupancyGrid | None:
+    """Read the picture that a map's YAML names; None when it cannot be read."""
+    pixels = _pixels(described, diagnostics)
+    if pixels is None:
+        return None
+    cells = cells_of_pixels(
+        pixels,
+        described.mode,
+        negate=described.negate,
+        occupied_thresh=described.occupied_thresh,
+        free_thresh=described.free_thresh,
+        generation=generation,
+    )
+    return OccupancyGrid(cells, described.resolution_m, described.origin)
+
+
+def _pixels(described: MapFile, diagnostics: Diagnostics) -> NDArray[np.uint8] | None:
+    from PIL import Image, UnidentifiedImageError
+
+    path, span = described.image, described.image_span
+    try:
+        data = read_limited(path, _MOST_BYTES)
+        with Image.open(io.BytesIO(data)) as picture:
+            return _channels(picture)
+    except UnidentifiedImageError:
+        problem = "it is no picture"
+    except FileNotFoundError:
+        _report_missing(path, span, diagnostics)
+        return None
+    except Image.DecompressionBombError as error:
+        problem = str(error)
+    except (OSError, ValueError, SyntaxError) as error:
+        problem = getattr(error, "strerror", None) or str(error)
+    diagnostics.report("map.bad-image", f'failed to open image file "{path}": {problem}', span)
+    return None
+
+
+def _channels(picture: object) -> NDArray[np.uint8]:
+    """Return (height, width, 1, 3 or 4)."""
+    from PIL.Image import Image
+
+    assert isinstance(picture, Image)
+    if picture.mode in _DEEP:
+        return (np.asarray(picture, np.int64) // 257).clip(0, 255).astype(np.uint8)[..., None]
+    transparent = "A" in picture.mode or "transparency" in picture.info
+    grey = picture.mode in ("1", "L")
+    wanted = "L" if grey else "RGBA" if transparent else "RGB"
+    pixels = np.asarray(picture.convert(wanted), np.uint8)
+    return pixels[..., None] if pixels.ndim == 2 else pixels
+
+
+def _report_missing(path: Path, span: SourceSpan | None, diagnostics: Diagnostics) -> None:
+    folder = path.parent
+    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+    fix = did_you_mean(path.name, there)
+    text = f'failed to open image file "{path}": there is no such file'
+    diagnostics.report("map.no-image", text, span, fix=fix)
