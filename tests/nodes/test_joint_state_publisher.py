@@ -76,3 +76,16 @@ def test_joints_are_ours_again_when_their_publisher_ends(free_port: int) -> None
         stop.set()
         running.join(_WAIT_S)
         ear.close()
+
+
+def test_robot_may_come_on_the_topic_in_ros2(bench: Any) -> None:
+    states = bench.listen("/joint_states", "sensor_msgs/msg/JointState")
+    bench.start("joint_state_publisher/joint_state_publisher", "--ros-args", "-p", "rate:=100")
+    kind: Any = message_type("std_msgs/msg/String")
+    publisher = bench.node.create_publisher("/robot_description", kind, latch=True)
+    robot = """<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">
+      <parent link="a"/><child link="b"/></joint></robot>"""
+    publisher.publish(kind(data=robot))
+    bench.eventually(lambda: states)
+    assert states[0].name == ["j"]
+    assert bench.stop() == [0]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from gazelle.interfaces import message_type
 from gazelle.nodes.robot_state_publisher import StateToTf
@@ -84,5 +86,47 @@ def test_unknown_joints_of_a_message_change_nothing() -> None:
 
 
 def test_prefix_stands_before_every_frame() -> None:
-    (fixed,) = _states(prefix="/r1/").fixed(0)
+    (fixed,) = _states(prefix="r1/").fixed(0)
     assert (fixed.header.frame_id, fixed.child_frame_id) == ("r1/slide", "r1/cam")
+
+
+_NODE = "robot_state_publisher/robot_state_publisher"
+
+
+@pytest.mark.parametrize("way", ["parameters", "file"])
+def test_node_of_ros2_publishes_its_description(bench: Any, tmp_path: Path, way: str) -> None:
+    if way == "file":
+        (tmp_path / "r.urdf").write_text(ROBOT)
+        words = [str(tmp_path / "r.urdf"), "--ros-args", "-p", "frame_prefix:=r1/"]
+    else:
+        values = {"robot_description": ROBOT, "frame_prefix": "r1/"}
+        text = yaml.dump({"/**": {"ros__parameters": values}})
+        (tmp_path / "p.yaml").write_text(text)
+        words = ["--ros-args", "--params-file", str(tmp_path / "p.yaml")]
+    bench.start(_NODE, *words)
+    text = bench.listen("/robot_description", "std_msgs/msg/String")
+    static = bench.listen("/tf_static", "tf2_msgs/msg/TFMessage")
+    bench.eventually(lambda: text and static)
+    assert text[0].data == ROBOT
+    assert static[0].transforms[0].child_frame_id == "r1/cam"
+    assert bench.stop() == [0]
+
+
+def test_prefix_of_ros1_gets_its_slash(bench: Any) -> None:
+    bench.graph.parameters.set("/robot_description", ROBOT)
+    static = bench.listen("/tf_static", "tf2_msgs/msg/TFMessage")
+    described = bench.listen("/robot_description", "std_msgs/msg/String")
+    bench.start(_NODE, "_tf_prefix:=/r1")
+    bench.eventually(lambda: static)
+    assert static[0].transforms[0].child_frame_id == "r1/cam"
+    assert not described
+    assert bench.stop() == [0]
+
+
+def test_two_nodes_of_ros2_with_one_name_stay(bench: Any, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text(ROBOT)
+    got = bench.listen("/robot_description", "std_msgs/msg/String")
+    for _ in range(2):
+        bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
+    bench.eventually(lambda: len(got) == 2)
+    assert bench.stop() == [0, 0]

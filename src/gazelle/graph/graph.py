@@ -90,7 +90,7 @@ class Graph:
         self._environ = environ
         self._keeper = keeper
         self._discovery = Discovery(session, domain)
-        self._nodes: dict[str, Node] = {}
+        self._nodes: list[Node] = []
         self._ids = itertools.count()
         self._lock = threading.RLock()
         self._control: Control | None = None
@@ -152,7 +152,7 @@ class Graph:
     def nodes(self) -> tuple[Node, ...]:
         """The nodes of this process."""
         with self._lock:
-            return tuple(self._nodes.values())
+            return tuple(self._nodes)
 
     def create_node(
         self,
@@ -164,7 +164,7 @@ class Graph:
         rosout: bool = True,
         is_ros2: bool = False,
     ) -> Node:
-        """Add a node; one of the same name anywhere on the graph is told to shut down.
+        """Add a node; in ROS 1, one of the same name anywhere on the graph is told to shut down.
 
         Args:
             name: one legal part.
@@ -172,7 +172,7 @@ class Graph:
             remappings: names as in ``a:=b`` arguments.
             anonymous: make the name unique.
             rosout: announce ``/rosout``, where `Node.log` goes.
-            is_ros2: names follow ROS 2, where they may start with ``_``.
+            is_ros2: names follow ROS 2, where they may start with ``_`` and be there twice.
 
         Raises:
             IllegalNameError: the name is not legal.
@@ -184,11 +184,11 @@ class Graph:
             namespace = self._environ.get("ROS_NAMESPACE", "")
         namespace = resolve(namespace or "/", "/")
         full = join(namespace, own)
-        if not anonymous:
+        if not anonymous and not is_ros2:
             self._end_namesakes(full)
         node = Node(self, full, namespace, remappings or {}, rosout=rosout)
         with self._lock:
-            self._nodes[full] = node
+            self._nodes.append(node)
         if self._keeper is not None:
             self.clock.follow(node)
         return node
@@ -294,11 +294,11 @@ class Graph:
         """Forget a node, or something of a node, that was closed."""
         with self._lock:
             if isinstance(one, Node):
-                if self._nodes.get(one.name) is one:
-                    del self._nodes[one.name]
+                if one in self._nodes:
+                    self._nodes.remove(one)
                 return
-            owner = self._nodes.get(one.entity.node)
-        if owner is not None:
+            owners = [node for node in self._nodes if node.name == one.entity.node]
+        for owner in owners:
             owner.drop(one)
 
     def close(self) -> None:
@@ -339,7 +339,7 @@ class Graph:
 
     def _shut_node_down(self, name: str, reason: str) -> bool:
         with self._lock:
-            node = self._nodes.get(name)
+            node = next((one for one in self._nodes if one.name == name), None)
         if node is None:
             return False
         node.log("warn", f"shutdown request: [{name}] Reason: {reason}")

@@ -14,6 +14,9 @@ Parameters (wiki: joint_state_publisher):
 | ~publish_default_velocities | false | send zero velocities |
 | ~publish_default_efforts | false | send zero efforts |
 
+ROS 2's node takes a file as its first argument too, and without a robot waits for the topic
+``robot_description``.
+
 Unlike ROS's, it leaves out joints that another publisher of the same topic owns: two publishers
 for one wheel make its tf frame jump between two poses.
 """
@@ -30,7 +33,7 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node, ticks
-from gazelle.nodes.tree import robot_of
+from gazelle.nodes.tree import published_robot_of, robot_of
 
 __all__ = ["default_position", "run"]
 
@@ -47,10 +50,13 @@ class _Dependent:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish ``joint_states`` until told to stop."""
     node = start_node(arguments, graph)
-    model = robot_of(node)
+    if arguments.generation == 2:
+        model = published_robot_of(node, arguments.rest, stop)
+    else:
+        model = robot_of(node)
     if model is None:
         node.shutdown()
-        return 1
+        return 0 if stop.is_set() else 1
     publisher = _Publisher(node, arguments, model)
     period_ns = int(1e9 / float(private(node, arguments, "rate", 10)))
     for _ in ticks(node, period_ns, stop):

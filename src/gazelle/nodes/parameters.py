@@ -18,10 +18,14 @@ __all__ = ["private", "private_number", "start_node", "ticks"]
 
 def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     """Make the graph node of a built-in node, with its names and remaps."""
+    ros2 = arguments.generation == 2
     node = graph.create_node(
-        arguments.name, namespace=arguments.namespace, remappings=arguments.remappings
+        arguments.name,
+        namespace=arguments.namespace,
+        remappings=arguments.remappings,
+        is_ros2=ros2,
     )
-    if arguments.generation == 2:
+    if ros2:
         node.console = print_ros2
     keep_log(node, arguments.log_file, arguments.output)
     offer_loggers(node)

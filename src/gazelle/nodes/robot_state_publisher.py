@@ -8,7 +8,11 @@ Parameters (wiki: robot_state_publisher):
 | ~publish_frequency | 50 | Hz, the most that one joint is published |
 | ~use_tf_static | true | fixed joints go to /tf_static, once and latched |
 | ~ignore_timestamp | false | publish every message, however fast |
-| ~tf_prefix | "" | put before every frame |
+| ~tf_prefix | "" | put before every frame, with a slash between |
+
+ROS 2's node of the same name differs: the description may be a file named on the command line,
+``publish_frequency`` is 20 Hz by default, ``frame_prefix`` is put before frames as it is, and the
+description is published, latched, on ``robot_description``.
 """
 
 from __future__ import annotations
@@ -20,29 +24,56 @@ from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
-from gazelle.nodes.tree import TreeJoint, joint_tree, robot_of
+from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.tree import DESCRIPTION, TreeJoint, joint_tree, robot_of, take_description_file
 
 __all__ = ["StateToTf", "run"]
+
+_FREQUENCY_HZ = {1: 50.0, 2: 20.0}
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish tf until told to stop."""
     node = start_node(arguments, graph)
+    ros2 = arguments.generation == 2
+    if ros2 and arguments.rest:
+        take_description_file(node, arguments.rest[0])
     model = robot_of(node)
     if model is None:
         node.shutdown()
         return 1
+    frequency_hz = private_number(
+        node, arguments, "publish_frequency", _FREQUENCY_HZ[arguments.generation]
+    )
     states = StateToTf(
         joint_tree(model),
-        prefix=str(private(node, arguments, "tf_prefix", "")),
-        period_ns=int(1e9 / float(private(node, arguments, "publish_frequency", 50.0))),
+        prefix=_prefix(node, arguments),
+        period_ns=int(1e9 / frequency_hz),
         ignore_timestamp=bool(private(node, arguments, "ignore_timestamp", False)),
     )
+    if ros2:
+        for link in sorted(one.name for one in model.links):
+            node.log("info", f"got segment {link}")
+        _publish_description(node)
     _connect(node, states, bool(private(node, arguments, "use_tf_static", True)))
     stop.wait()
     node.shutdown()
     return 0
+
+
+def _publish_description(node: Node) -> None:
+    name = node.parameters.search(DESCRIPTION) or DESCRIPTION
+    kind: Any = message_type("std_msgs/msg/String")
+    publisher = node.create_publisher(DESCRIPTION, kind, latch=True)
+    publisher.publish(kind(data=str(node.parameters.get(name))))
+
+
+def _prefix(node: Node, arguments: NodeArguments) -> str:
+    """Return what stands before every frame, a slash at its end included."""
+    if arguments.generation == 2:
+        return str(private(node, arguments, "frame_prefix", ""))
+    prefix = str(private(node, arguments, "tf_prefix", "")).strip("/")
+    return f"{prefix}/" if prefix else ""
 
 
 class StateToTf:
@@ -61,7 +92,7 @@ class StateToTf:
         self._mimics = {
             name: item.joint.mimic for name, item in self._moving.items() if item.joint.mimic
         }
-        self._prefix = prefix.strip("/")
+        self._prefix = prefix
         self._period_ns = period_ns
         self._ignore_timestamp = ignore_timestamp
         self._last_ns: dict[str, int] = {}
@@ -106,7 +137,7 @@ class StateToTf:
         return message
 
     def _frame(self, name: str) -> str:
-        return f"{self._prefix}/{name}" if self._prefix else name
+        return f"{self._prefix}{name}"
 
 
 def _connect(node: Node, states: StateToTf, use_tf_static: bool) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import secrets
 import threading
+from argparse import ArgumentParser
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import Any, NamedTuple, NoReturn
 
 from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
@@ -13,12 +16,22 @@ from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node, ticks
 
-__all__ = ["StaticTransform", "parse_arguments", "run_tf", "run_tf2"]
+__all__ = ["StaticTransform", "parse_arguments", "parse_options", "run_tf", "run_tf2"]
 
 _USAGE = (
     "usage: static_transform_publisher x y z yaw pitch roll frame_id child_frame_id {period}\n"
     "   or: static_transform_publisher x y z qx qy qz qw frame_id child_frame_id {period}"
 )
+
+
+_NAME = "static_transform_publisher"
+_NUMBERS = ("x", "y", "z", "roll", "pitch", "yaw", "qx", "qy", "qz", "qw")
+_OPTIONS = frozenset({*(f"--{name}" for name in _NUMBERS), "--frame-id", "--child-frame-id"})
+
+
+class _Parser(ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise LaunchError(f"{self.format_usage()}{self.prog}: error: {message}")
 
 
 class StaticTransform(NamedTuple):
@@ -62,6 +75,34 @@ def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransfo
     return StaticTransform(pose, words[count], words[count + 1], period_ms)
 
 
+def parse_options(words: Sequence[str]) -> StaticTransform:
+    """Return the transform of ROS 2's options, ``--x 1 --yaw 0.5 --frame-id a --child-frame-id b``.
+
+    Raises:
+        LaunchError: an option is unknown, a number or a frame is missing, or the turn is given
+            twice.
+    """
+    parser = _Parser(prog=_NAME, add_help=False, allow_abbrev=False)
+    for name in _NUMBERS:
+        parser.add_argument(f"--{name}", type=float)
+    parser.add_argument("--frame-id", required=True)
+    parser.add_argument("--child-frame-id", required=True)
+    given = parser.parse_args(list(words))
+    x, y, z, roll, pitch, yaw, *quat = (getattr(given, name) for name in _NUMBERS)
+    if any(one is not None for one in quat):
+        if any(one is not None for one in (roll, pitch, yaw)):
+            parser.error("give a quaternion or roll, pitch and yaw, not both")
+        # 0 0 0 1 is what an option that is left out stands for.
+        qx, qy, qz = (one or 0.0 for one in quat[:3])
+        pose = Pose(
+            (x or 0.0, y or 0.0, z or 0.0), (qx, qy, qz, 1.0 if quat[3] is None else quat[3])
+        )
+    else:
+        turn = (roll or 0.0, pitch or 0.0, yaw or 0.0)
+        pose = Pose.from_xyz_rpy((x or 0.0, y or 0.0, z or 0.0), turn)
+    return StaticTransform(pose, given.frame_id, given.child_frame_id, 0.0)
+
+
 def _is_number(word: str) -> bool:
     try:
         float(word)
@@ -86,7 +127,13 @@ def run_tf(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int
 
 def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish once on /tf_static, latched."""
-    transform = parse_arguments(arguments.rest, with_period=False)
+    if any(word in _OPTIONS for word in arguments.rest):
+        transform = parse_options(arguments.rest)
+    else:
+        transform = parse_arguments(arguments.rest, with_period=False)
+    if arguments.generation == 2 and arguments.name == _NAME:
+        # Many of them run side by side, as a rule without names.
+        arguments = replace(arguments, name=f"{_NAME}_{secrets.token_hex(8)}")
     node = start_node(arguments, graph)
     type_: Any = message_type("tf2_msgs/msg/TFMessage")
     publisher = node.create_publisher("/tf_static", type_, latch=True)

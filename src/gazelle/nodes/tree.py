@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
@@ -13,8 +17,20 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Node
+from gazelle.interfaces import message_type
 
-__all__ = ["TreeJoint", "joint_tree", "read_description", "robot_of"]
+__all__ = [
+    "DESCRIPTION",
+    "TreeJoint",
+    "joint_tree",
+    "published_robot_of",
+    "read_description",
+    "robot_of",
+    "take_description_file",
+]
+
+DESCRIPTION = "robot_description"
+_LOOK_S = 0.1
 
 _TURNING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS})
 
@@ -72,12 +88,61 @@ def robot_of(node: Node) -> Model | None:
 
     The node's own ``robot_description`` remap applies, and the search goes up its namespaces.
     """
-    name = node.parameters.search("robot_description") or node.resolve_name("robot_description")
+    name = node.parameters.search(DESCRIPTION) or node.resolve_name(DESCRIPTION)
     try:
         text = str(node.parameters.get(name))
     except (GraphError, KeyError):
         node.log("error", f"Could not find parameter {name} on parameter server")
         return None
+    return _read_or_say(node, text)
+
+
+def published_robot_of(node: Node, words: Sequence[str], stop: threading.Event) -> Model | None:
+    """Return the robot as ROS 2's nodes find it: a file, a parameter, else the topic.
+
+    Args:
+        node: whose parameter and topic ``robot_description`` count.
+        words: the node's own arguments; the first one names a file.
+        stop: ends waiting for the topic.
+
+    Raises:
+        LaunchError: the file cannot be read.
+    """
+    if words:
+        take_description_file(node, words[0])
+    if node.parameters.search(DESCRIPTION):
+        return robot_of(node)
+    topic = node.resolve_name(DESCRIPTION)
+    node.log("info", f"Waiting for robot_description to be published on the {topic} topic...")
+    found: list[str] = []
+    came = threading.Event()
+
+    def take(message: Any) -> None:
+        found.append(str(message.data))
+        came.set()
+
+    subscription = node.create_subscription(DESCRIPTION, message_type("std_msgs/msg/String"), take)
+    while not stop.is_set() and not came.wait(_LOOK_S):
+        continue
+    subscription.unregister()
+    return _read_or_say(node, found[0]) if found else None
+
+
+def take_description_file(node: Node, name: str) -> None:
+    """Let a file be the node's ``robot_description``, as ROS 2's nodes do with an argument.
+
+    Raises:
+        LaunchError: it cannot be read, or is no robot.
+    """
+    try:
+        text = Path(name).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise LaunchError(f"Unable to open urdf file: {name}: {error}") from error
+    read_description(text)
+    node.parameters.set(node.resolve_name(f"~{DESCRIPTION}"), text)
+
+
+def _read_or_say(node: Node, text: str) -> Model | None:
     try:
         return read_description(text)
     except LaunchError as error:
