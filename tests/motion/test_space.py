@@ -55,7 +55,9 @@ def test_a_continuous_joint_with_limits_is_bounded() -> None:
 
 
 def test_limits_that_leave_nothing_are_refused() -> None:
-    with pytest.raises(ValueError, match="joint 'lift' has lower limit 0.6 above its upper limit"):
+    with pytest.raises(
+        ValueError, match=r"joint 'lift' has lower limit 0\.6 above its upper limit"
+    ):
         _space().restricted(np.array([0.6, -np.inf]), np.array([np.inf, np.inf]))
 
 

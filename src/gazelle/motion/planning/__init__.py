@@ -1,0 +1,26 @@
+"""Motion planning: a path from a configuration to a goal, past obstacles.
+
+`plan` is the one entry; planners have the names that MoveIt gives them.
+"""
+
+from __future__ import annotations
+
+from gazelle.motion.planning.failure import ErrorCode, PlanningError
+from gazelle.motion.planning.path import Path
+from gazelle.motion.planning.planners import PLANNERS
+from gazelle.motion.planning.problem import GoalSource
+from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.solve import plan
+from gazelle.motion.planning.validation import FINE_STEP, first_fault
+
+__all__ = [
+    "FINE_STEP",
+    "PLANNERS",
+    "ErrorCode",
+    "GoalSource",
+    "Path",
+    "PlannerSettings",
+    "PlanningError",
+    "first_fault",
+    "plan",
+]

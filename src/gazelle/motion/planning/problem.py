@@ -1,0 +1,146 @@
+"""A planning problem as planners see it: where from, where to, and which motions are allowed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.space import FloatArray, JointSpace, Validity
+
+__all__ = ["GoalSource", "Problem", "Projection", "Waypoints"]
+
+GoalSource = Callable[[np.random.Generator], FloatArray | None]
+"""Draws one more configuration that reaches the goal, None where the draw found none."""
+
+Projection = Callable[[FloatArray], FloatArray | None]
+"""Moves a configuration to the nearest one that satisfies the path constraints."""
+
+Waypoints = list[FloatArray]
+
+_CHAIN_STEP = 0.1
+_MOST_OF_CHAIN = 400
+_TRIES_PER_GOAL = 3
+
+
+@dataclass
+class Problem:
+    """What planners work on.
+
+    Attributes:
+        space: the joints, with limits that path constraints may have narrowed.
+        validity: collisions, limits and path constraints in one.
+        start: a valid configuration.
+        goals: valid configurations; planners may find more of them here as time passes.
+        rng: the only source of chance.
+        settings: ranges and biases.
+        step: longest motion that goes unchecked while searching, rad or m.
+        deadline: value of ``time.perf_counter`` at which to give up.
+        source: draws further goals.
+        project: set where path constraints leave too little room for drawing by chance.
+        why_no_goal: why the last goal that was drawn cannot be one.
+    """
+
+    space: JointSpace
+    validity: Validity
+    start: FloatArray
+    goals: list[FloatArray]
+    rng: np.random.Generator
+    settings: PlannerSettings
+    step: float
+    deadline: float
+    source: GoalSource | None = None
+    project: Projection | None = None
+    why_no_goal: str = ""
+    _drawn: int = 0
+
+    def is_over(self) -> bool:
+        """Return whether the time is used up."""
+        return time.perf_counter() >= self.deadline
+
+    @property
+    def range(self) -> float:
+        """The longest motion that is added to a tree in one go."""
+        return self.settings.range or min(0.2 * self.space.extent, 1.0)
+
+    def sample(self) -> FloatArray:
+        """Return a configuration within the limits, near the path constraints if there are any."""
+        q = self.space.sample(self.rng)
+        if self.project is None:
+            return q
+        projected = self.project(q)
+        return q if projected is None else projected
+
+    @property
+    def has_no_more_goals(self) -> bool:
+        """Whether as many goals were drawn as MoveIt draws."""
+        most = self.settings.max_goal_samples
+        return len(self.goals) >= most or self._drawn >= _TRIES_PER_GOAL * most
+
+    def another_goal(self) -> FloatArray | None:
+        """Return a goal that was not known before; None where none was drawn."""
+        if self.source is None or self.has_no_more_goals:
+            return None
+        self._drawn += 1
+        q = self.source(self.rng)
+        if q is None:
+            return None
+        q = self.space.clamped(q)
+        if not self.validity.is_valid(q):
+            self.why_no_goal = f"goal: {self.validity.why(q)}"
+            return None
+        self.goals.append(q)
+        return q
+
+    def towards(self, q: FloatArray, target: FloatArray, most: float) -> tuple[Waypoints, bool]:
+        """Go from `q` in the direction of `target`, `most` far at most.
+
+        Returns:
+            the waypoints gone to (none where an obstacle is next) and whether the last is `target`.
+        """
+        if self.project is not None:
+            return self._along_constraints(q, target, most)
+        way = self.space.between(q, target)
+        distance = float(np.sqrt(way @ way))
+        arrives = distance <= most
+        end = q + (way if arrives else way * (most / distance))
+        if distance == 0.0 or self.validity.motion_is_valid(q, end, self.step):
+            return [end], arrives
+        return [], False
+
+    def connect(self, q: FloatArray, target: FloatArray) -> Waypoints | None:
+        """Return the waypoints of a motion from `q` to `target`, None where it is not allowed."""
+        waypoints, arrives = self.towards(q, target, np.inf)
+        return waypoints if arrives else None
+
+    def _along_constraints(
+        self, q: FloatArray, target: FloatArray, most: float
+    ) -> tuple[Waypoints, bool]:
+        """Go in small steps, each of them projected (Berenson's CBiRRT)."""
+        assert self.project is not None
+        chain: Waypoints = []
+        gone, here = 0.0, q
+        while gone < most and len(chain) < _MOST_OF_CHAIN:
+            way = self.space.between(here, target)
+            distance = float(np.linalg.norm(way))
+            if distance <= _CHAIN_STEP:
+                if not self.validity.motion_is_valid(here, here + way, self.step):
+                    return chain, False
+                return [*chain, here + way], True
+            following = self.project(here + way * (_CHAIN_STEP / distance))
+            if following is None or not self._is_progress(here, following, target):
+                break
+            if not self.validity.motion_is_valid(here, following, self.step):
+                break
+            gone += float(np.linalg.norm(following - here))
+            chain.append(following)
+            here = following
+        return chain, False
+
+    def _is_progress(self, here: FloatArray, following: FloatArray, target: FloatArray) -> bool:
+        step = float(np.linalg.norm(following - here))
+        nearer = self.space.distance(following, target) < self.space.distance(here, target) - 1e-4
+        return nearer and step <= 2.0 * _CHAIN_STEP

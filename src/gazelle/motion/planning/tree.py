@@ -1,0 +1,71 @@
+"""Trees of configurations that can say which of their nodes is nearest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from gazelle.motion.space import FloatArray, JointSpace
+
+__all__ = ["Tree"]
+
+_TURN = 2.0 * math.pi
+
+
+class Tree:
+    """Nodes in one growing array; a brute search of some thousand beats any index in Python."""
+
+    def __init__(self, space: JointSpace, roots: Sequence[FloatArray]) -> None:
+        """Start a tree, or a forest where there are several roots."""
+        self._nodes = np.empty((256, space.size))
+        self._difference = np.empty((256, space.size))
+        self._turning = np.flatnonzero(space.continuous)
+        self.parents: list[int] = []
+        for root in roots:
+            self.add(root, -1)
+
+    def __len__(self) -> int:
+        return len(self.parents)
+
+    def __getitem__(self, index: int) -> FloatArray:
+        node: FloatArray = self._nodes[index]
+        return node
+
+    @property
+    def nodes(self) -> FloatArray:
+        """All nodes, shape (m, n); a view that the next `add` may leave behind."""
+        return self._nodes[: len(self.parents)]
+
+    def add(self, q: FloatArray, parent: int) -> int:
+        """Add a node and return its index; `parent` -1 makes it a root."""
+        count = len(self.parents)
+        if count == len(self._nodes):
+            self._nodes = np.concatenate([self._nodes, np.empty_like(self._nodes)])
+            self._difference = np.empty_like(self._nodes)
+        self._nodes[count] = q
+        self.parents.append(parent)
+        return count
+
+    def squared_distances(self, q: FloatArray) -> FloatArray:
+        """Return the squared distance of every node to `q`, continuous joints the short way."""
+        count = len(self.parents)
+        difference = np.subtract(self._nodes[:count], q, out=self._difference[:count])
+        for joint in self._turning:
+            column = difference[:, joint]
+            column[:] = (column + math.pi) % _TURN - math.pi
+        squared: FloatArray = np.einsum("ij,ij->i", difference, difference)
+        return squared
+
+    def nearest(self, q: FloatArray) -> int:
+        """Return the index of the node nearest to `q`."""
+        return int(self.squared_distances(q).argmin())
+
+    def branch(self, index: int) -> list[FloatArray]:
+        """Return the nodes from the root to `index`."""
+        nodes = []
+        while index >= 0:
+            nodes.append(self._nodes[index].copy())
+            index = self.parents[index]
+        return nodes[::-1]

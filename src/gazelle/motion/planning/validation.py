@@ -1,0 +1,46 @@
+"""The last check of a path before it leaves, ten times finer than the search."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from gazelle.motion.space import FloatArray, JointSpace, Validity
+
+__all__ = ["FINE_STEP", "first_fault"]
+
+FINE_STEP = 0.005
+"""Longest motion between two states of the last check, rad or m."""
+
+
+def first_fault(
+    space: JointSpace, validity: Validity, states: FloatArray, step: float = FINE_STEP
+) -> str:
+    """Return what is wrong with a line of states, an empty string where nothing is.
+
+    Args:
+        space: limits; a thousandth of a rad or m beyond them counts as within.
+        validity: collisions and path constraints.
+        states: shape (m, n), straight motions between rows.
+        step: longest motion that goes unchecked.
+    """
+    for q in states:
+        if beyond := space.outside(q, tolerance=1e-3):
+            return beyond[0]
+    if not validity.is_valid(states[0]):
+        return validity.why(states[0])
+    for first, last in itertools.pairwise(states):
+        if not validity.motion_is_valid(first, last, step):
+            return _reason(validity, first, last, step)
+    return ""
+
+
+def _reason(validity: Validity, first: FloatArray, last: FloatArray, step: float) -> str:
+    count = max(1, int(np.ceil(np.linalg.norm(last - first) / step)))
+    for part in np.arange(1, count + 1) / count:
+        q = first + (last - first) * part
+        if not validity.is_valid(q):
+            return validity.why(q)
+    place = np.array2string(first, precision=4)
+    return f"the motion that starts at {place} is not allowed"
