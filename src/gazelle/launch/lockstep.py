@@ -22,6 +22,9 @@ Startable = tuple[NodeSpec, Executable]
 _SERVERS = frozenset({"gzserver", "gazebo", "debug", "perf"})
 _PAUSED = frozenset({"-u", "--pause"})
 _BOND = frozenset({"-b", "-bond", "--bond"})
+_MODEL_SPAWNERS = frozenset(
+    {"gazelle.nodes.spawn_model:run", "gazelle.nodes.spawn_model:run_entity"}
+)
 _CONTROLLER_SPAWNERS = frozenset(
     {
         "gazelle.nodes.controller_spawner:run",
@@ -111,7 +114,7 @@ def _spawns(node: Startable) -> bool:
     """Return whether a node puts a model into the world and ends (``-b`` would stay)."""
     spec, executable = node
     builtin = executable.builtin
-    is_spawner = builtin is not None and builtin.target.endswith("spawn_model:run")
+    is_spawner = builtin is not None and builtin.target in _MODEL_SPAWNERS
     return is_spawner and not _BOND & set(shlex.split(spec.args))
 
 

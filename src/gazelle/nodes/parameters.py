@@ -27,6 +27,9 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     )
     if ros2:
         node.console = print_ros2
+        if node.parameters.has(node.name):
+            # In ROS 2 parameters end with their node; these are of one that had this name.
+            node.parameters.delete(node.name)
     keep_log(node, arguments.log_file, arguments.output)
     offer_loggers(node)
     if arguments.log_level:

@@ -57,7 +57,6 @@ _SERVER_NAMES = (
 )
 _SPAWN_NAMES = (
     ("gazebo_ros", "spawn_model.py"),
-    ("gazebo_ros", "spawn_entity.py"),
     ("gazebo", "spawn_model"),
     ("gazebo", "spawn_model.py"),
     ("gazebo_tools", "gazebo_model"),
@@ -79,6 +78,13 @@ _NODES = (
         light=True,
         help="puts a model into the running world",
         aliases=_SPAWN_NAMES,
+    ),
+    BuiltinNode(
+        "gazebo_ros",
+        "spawn_entity.py",
+        "gazelle.nodes.spawn_model:run_entity",
+        light=True,
+        help="puts a model into the running world, ROS 2's name",
     ),
     BuiltinNode(
         "joint_state_publisher",
@@ -139,6 +145,33 @@ _NODES = (
             ("record", "records topics into a bag"),
             ("play", "plays a bag"),
         )
+    ),
+    BuiltinNode(
+        "ros_gz_sim",
+        "create",
+        "gazelle.nodes.ros_gz.create:run",
+        light=True,
+        help="puts a model into the running world, the new Gazebo's way",
+        aliases=(("ros_ign_gazebo", "create"),),
+        name="ros_gz_sim",
+    ),
+    BuiltinNode(
+        "ros_gz_bridge",
+        "parameter_bridge",
+        "gazelle.nodes.ros_gz.parameter_bridge:run",
+        light=True,
+        help="passes topics of the new Gazebo on under names of ROS",
+        aliases=(("ros_ign_bridge", "parameter_bridge"), ("ros_gz_bridge", "bridge_node")),
+        name="ros_gz_bridge",
+    ),
+    BuiltinNode(
+        "ros_gz_image",
+        "image_bridge",
+        "gazelle.nodes.ros_gz.parameter_bridge:run_image",
+        light=True,
+        help="passes images of the new Gazebo on",
+        aliases=(("ros_ign_image", "image_bridge"),),
+        name="ros_gz_image",
     ),
     BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"

@@ -27,16 +27,27 @@ def is_ros2(argv: Sequence[str]) -> bool:
     return "-entity" in argv
 
 
-def read_spawn_arguments(argv: Sequence[str], *, default_namespace: str = "/") -> Namespace:
+def read_spawn_arguments(
+    argv: Sequence[str], *, default_namespace: str = "/", ros2: bool | None = None
+) -> Namespace:
     """Read the arguments of either program.
+
+    Args:
+        argv: the arguments.
+        default_namespace: of ROS 1's robots.
+        ros2: whether it is ROS 2's program; found out of the arguments when None.
 
     Raises:
         SpawnUsageError: they are wrong or incomplete.
     """
-    ros2 = is_ros2(argv)
+    ros2 = is_ros2(argv) if ros2 is None else ros2
     parser = _Parser(prog="spawn_entity.py" if ros2 else "spawn_model", add_help=False)
     if ros2:
         parser.add_argument("-entity", dest="model", required=True, metavar="ENTITY_NAME")
+        # The older name of -timeout.
+        parser.add_argument(
+            "-spawn_service_timeout", dest="timeout", type=float, default=_TIMEOUT_S
+        )
     else:
         parser.add_argument("-model", dest="model", required=True, metavar="MODEL_NAME")
         kind = parser.add_mutually_exclusive_group(required=True)

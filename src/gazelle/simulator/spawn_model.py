@@ -31,24 +31,28 @@ class _SpawnError(GazelleError):
     """Spawning cannot go on; the text is what the user is told."""
 
 
-def spawn_model(argv: list[str], node: Any, stop: threading.Event) -> int:
+def spawn_model(
+    argv: list[str], node: Any, stop: threading.Event, *, ros2: bool | None = None
+) -> int:
     """Do what ``rosrun gazebo_ros spawn_model`` does, with its arguments and messages.
 
     Args:
-        argv: the arguments; ``-entity`` makes it ``spawn_entity.py`` of ROS 2.
+        argv: the arguments.
         node: a started node of the graph.
         stop: ends waiting early.
+        ros2: it is ``spawn_entity.py`` of ROS 2; when None, ``-entity`` tells.
 
     Returns:
         the exit code: 0, 1 when spawning failed, 2 for wrong arguments.
     """
+    ros2 = is_ros2(argv) if ros2 is None else ros2
     try:
-        arguments = read_spawn_arguments(argv, default_namespace=node.namespace)
+        arguments = read_spawn_arguments(argv, default_namespace=node.namespace, ros2=ros2)
     except (SpawnUsageError, ArgumentError) as error:
         node.log("fatal", str(error), padded=False)
         return 2
     try:
-        _Spawner(arguments, node, stop, ros2=is_ros2(argv)).run()
+        _Spawner(arguments, node, stop, ros2=ros2).run()
     except _SpawnError as error:
         node.log("error", str(error), padded=False)
         return 1

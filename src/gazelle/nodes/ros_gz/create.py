@@ -1,0 +1,175 @@
+"""``ros_gz_sim/create``: puts a model into the running world.
+
+Its options are flags of gflags (``-name box``, ``--name=box``) or parameters of the same names:
+world, file, string, topic, name, allow_renaming, x, y, z, R, P, Y; ``-param`` names a parameter
+that holds the model.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from gazelle.diagnostics import did_you_mean
+from gazelle.errors import GazelleError, LaunchError
+from gazelle.geometry import Pose
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type, service_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.ros_gz.models import model_text
+
+__all__ = ["read_flags", "run"]
+
+_TEXTS = ("world", "file", "param", "string", "topic", "name")
+_NUMBERS = ("x", "y", "z", "R", "P", "Y")
+_RENAMING = "allow_renaming"
+_FLAGS = (*_TEXTS, *_NUMBERS, _RENAMING)
+_USAGE = (
+    "usage: create -world [arg] [-file FILE] [-param PARAM] [-topic TOPIC] [-string STRING] "
+    "[-name NAME] [-allow_renaming RENAMING] [-x X] [-y Y] [-z Z] [-R ROLL] [-P PITCH] [-Y YAW]"
+)
+_POLL_S = 0.1
+_TELL_S = 5.0
+_YES = frozenset({"", "true", "t", "1", "yes", "y"})
+
+
+def read_flags(words: Sequence[str]) -> dict[str, str]:
+    """Return the flags of a command line as gflags reads them.
+
+    Raises:
+        LaunchError: a flag is unknown or has no value.
+    """
+    found: dict[str, str] = {}
+    rest = list(words)
+    while rest:
+        word = rest.pop(0)
+        name, equals, value = word.lstrip("-").partition("=")
+        if not word.startswith("-"):
+            # The value that people give a flag that takes none: -allow_renaming true.
+            continue
+        if name not in _FLAGS:
+            hint = did_you_mean(name, _FLAGS)
+            raise LaunchError(f"unknown command line flag '{name}'; {hint}\n{_USAGE}")
+        if not equals and name != _RENAMING:
+            if not rest:
+                raise LaunchError(f"flag '{word}' is missing its argument\n{_USAGE}")
+            value = rest.pop(0)
+        found[name] = value
+    return found
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Create a model, say how it went, and end."""
+    flags = read_flags(arguments.rest)
+    node = start_node(arguments, graph)
+    try:
+        return _create(node, _options(node, arguments, flags), arguments, stop)
+    except GazelleError as error:
+        node.log("error", str(error))
+        return 1
+    finally:
+        node.shutdown()
+
+
+def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, str]) -> dict[str, Any]:
+    """Return what parameters say, and flags where they say nothing."""
+    found: dict[str, Any] = {}
+    for name in _TEXTS:
+        found[name] = str(private(node, arguments, name, "") or flags.get(name, ""))
+    for name in _NUMBERS:
+        given = private(node, arguments, name, 0.0) or flags.get(name, 0.0)
+        try:
+            found[name] = float(given)
+        except (TypeError, ValueError):
+            raise LaunchError(f"illegal value '{given}' specified for flag '{name}'") from None
+    renaming = private(node, arguments, _RENAMING, False)
+    found[_RENAMING] = bool(renaming) or flags.get(_RENAMING, "false").lower() in _YES
+    return found
+
+
+def _create(
+    node: Node, options: Mapping[str, Any], arguments: NodeArguments, stop: threading.Event
+) -> int:
+    text = _text(node, options, arguments, stop)
+    if not _wait(node, "/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel", stop):
+        node.log("info", "Entity creation was interrupted.")
+        return 0
+    kind: Any = service_type("gazebo_msgs/SpawnModel")
+    request = kind.Request(model_name=_name(node, options), model_xml=text)
+    pose = Pose.from_xyz_rpy(
+        (options["x"], options["y"], options["z"]), (options["R"], options["P"], options["Y"])
+    )
+    place, turn = request.initial_pose.position, request.initial_pose.orientation
+    place.x, place.y, place.z = pose.position_m
+    turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
+    answer = node.create_client("/gazebo/spawn_sdf_model", kind).call(request)
+    if not answer.success:
+        node.log("error", f"Entity creation failed.\n {answer.status_message}")
+        return 1
+    node.log("info", "Entity creation successful.")
+    return 0
+
+
+def _text(
+    node: Node, options: Mapping[str, Any], arguments: NodeArguments, stop: threading.Event
+) -> str:
+    if options["file"]:
+        return model_text(options["file"])
+    if options["param"]:
+        text = str(private(node, arguments, options["param"], ""))
+        if not text:
+            raise LaunchError(f"Failed to get XML from param [{options['param']}].")
+        return text
+    if options["string"]:
+        return str(options["string"])
+    if options["topic"]:
+        return _from_topic(node, options["topic"], stop)
+    raise LaunchError("Must specify either -file, -param, -string or -topic")
+
+
+def _from_topic(node: Node, topic: str, stop: threading.Event) -> str:
+    found: list[str] = []
+    came = threading.Event()
+
+    def take(message: Any) -> None:
+        found.append(str(message.data))
+        came.set()
+
+    subscription = node.create_subscription(topic, message_type("std_msgs/msg/String"), take)
+    node.log("info", f"Waiting messages on topic [{topic}].")
+    while not stop.is_set() and not came.wait(_POLL_S):
+        continue
+    subscription.unregister()
+    if not found:
+        raise LaunchError(f"Failed to get XML from topic [{topic}].")
+    return found[0]
+
+
+def _name(node: Node, options: Mapping[str, Any]) -> str:
+    """Return the model's name, with a number behind it where it is taken and may be changed."""
+    wanted = str(options["name"])
+    if not wanted or not options[_RENAMING]:
+        return wanted
+    kind: Any = service_type("gazebo_msgs/GetWorldProperties")
+    client = node.create_client("/gazebo/get_world_properties", kind)
+    taken = set(client.call(kind.Request()).model_names)
+    name, count = wanted, 0
+    while name in taken:
+        count += 1
+        name = f"{wanted}_{count}"
+    return name
+
+
+def _wait(node: Node, service: str, kind: str, stop: threading.Event) -> bool:
+    client = node.create_client(service, service_type(kind))
+    waited_s = 0.0
+    while not stop.is_set():
+        if client.wait_for_service(_POLL_S):
+            return True
+        waited_s += _POLL_S
+        if waited_s >= _TELL_S:
+            waited_s = 0.0
+            node.log("warn", f"Waiting for service [{service}] to become available ...")
+    return False
