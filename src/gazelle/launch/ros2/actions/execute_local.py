@@ -1,0 +1,318 @@
+"""Running a process: start, output, respawn and end."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+from typing import TYPE_CHECKING, Any
+
+from gazelle.launch.ros2 import logging as launch_logging
+from gazelle.launch.ros2.action import Action
+from gazelle.launch.ros2.actions.ending import ProcessEnding
+from gazelle.launch.ros2.child_process import ChildProcess, start_child
+from gazelle.launch.ros2.conditions import evaluate_condition_expression
+from gazelle.launch.ros2.descriptions import Executable
+from gazelle.launch.ros2.entity import LaunchDescriptionEntity
+from gazelle.launch.ros2.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from gazelle.launch.ros2.events.process import (
+    ProcessExited,
+    ProcessIO,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdin,
+    ProcessStdout,
+)
+from gazelle.launch.ros2.faults import not_started
+from gazelle.launch.ros2.output_lines import OutputLines
+from gazelle.launch.ros2.substitution import SomeSubstitutionsType
+from gazelle.launch.ros2.substitutions import LaunchConfiguration
+from gazelle.launch.ros2.utilities import (
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from gazelle.launch.ros2.utilities.type_utils import (
+    normalize_typed_substitution,
+    perform_typed_substitution,
+)
+
+if TYPE_CHECKING:
+    from gazelle.launch.ros2.context import LaunchContext
+
+__all__ = ["ExecuteLocal"]
+
+_EVENTS = {1: ProcessStdout, 2: ProcessStderr}
+
+
+class ExecuteLocal(Action):
+    """Runs a process on this machine.
+
+    It ends with SIGINT, ``sigterm_timeout`` seconds later with SIGTERM, and ``sigkill_timeout``
+    seconds after that with SIGKILL. Signals at the end of the launch go to what it has started
+    too, as those of a terminal do.
+
+    Attributes:
+        process_description: what is run.
+        shell: by a shell.
+        emulate_tty: with terminals for output; the configuration ``emulate_tty`` wins.
+        sigterm_timeout: seconds, see above.
+        sigkill_timeout: seconds, see above.
+        output: where its output goes, see `launch.logging.get_output_loggers`.
+        process_details: name, cmd, cwd, env and pid; None before it is prepared.
+    """
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),
+        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),
+        emulate_tty: bool = False,
+        output: SomeSubstitutionsType | dict[str, Any] = "log",
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Any = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.process_description = process_description
+        self.shell = shell
+        self.emulate_tty = emulate_tty
+        self.sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
+        self.sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
+        chosen: Any = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output)
+        is_dict = isinstance(chosen, dict)
+        self.output: Any = chosen if is_dict else normalize_to_list_of_substitutions(chosen)
+        self.process_details: dict[str, Any] | None = None
+        self.__output_format = output_format
+        self.__is_cached = cached_output
+        self.__log_cmd = log_cmd
+        self.__on_exit = on_exit
+        self.__respawn = normalize_typed_substitution(respawn, bool)
+        self.__respawn_delay_s = respawn_delay or 0.0
+        self.__retries_left = respawn_max_retries
+        self.__was_executed = False
+        self.__lines: dict[int, OutputLines] = {}
+        self.__ending: ProcessEnding | None = None
+        self.__completed: asyncio.Future[Any] | None = None
+        self.__child: ChildProcess | None = None
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the actions of ``on_exit``."""
+        return self.__on_exit if isinstance(self.__on_exit, list) else []
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Find out everything that depends on the running launch."""
+        what = self.process_description
+        what.prepare(context, self)
+        self.process_details = {
+            "action": self,
+            "name": what.final_name,
+            "cmd": what.final_cmd,
+            "cwd": what.final_cwd,
+            "env": what.final_env,
+        }
+        self.__respawn = perform_typed_substitution(context, self.__respawn, bool)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Begin to start it.
+
+        Raises:
+            RuntimeError: it has been executed already.
+        """
+        self.prepare(context)
+        name = str(self.process_description.final_name)
+        if self.__was_executed:
+            raise RuntimeError(
+                f"ExecuteLocal action '{name}': executed more than once: {self.describe()}"
+            )
+        self.__was_executed = True
+        if context.is_shutdown:
+            # What is visited while the launch ends does not begin any more.
+            return None
+        self.__open_output(context, name)
+        self.__completed = context.asyncio_loop.create_future()
+        self.__ending = ProcessEnding(self, context)
+        self.__register_handlers(context)
+        context.asyncio_loop.create_task(self.__run(context))
+        return None
+
+    def __open_output(self, context: LaunchContext, name: str) -> None:
+        output = self.output
+        if not isinstance(output, dict):
+            output = perform_substitutions(context, output)
+        for fd, logger in enumerate(launch_logging.get_output_loggers(name, output), start=1):
+            self.__lines[fd] = OutputLines(logger, self.__format, is_cached=self.__is_cached)
+
+    def __format(self, line: str) -> str:
+        return self.__output_format.format(line=line, this=self)
+
+    def __register_handlers(self, context: LaunchContext) -> None:
+        assert self.__ending is not None
+        handlers: list[Any] = [*self.__ending.handlers()]
+        handlers.append(
+            OnProcessIO(
+                target_action=self,
+                on_stdin=self.__on_stdin,
+                on_stdout=self.__on_output,
+                on_stderr=self.__on_output,
+            )
+        )
+        handlers.append(OnShutdown(on_shutdown=self.__ending.on_launch_shutdown))
+        if self.__on_exit is not None:
+            handlers.append(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+        handlers.append(OnProcessExit(target_action=self, on_exit=self.__on_end))
+        for handler in handlers:
+            context.register_event_handler(handler)
+
+    def __on_stdin(self, event: ProcessStdin) -> None:
+        if self.__child is not None:
+            self.__child.write(event.text)
+
+    def __on_output(self, event: ProcessIO) -> None:
+        self.__lines[event.fd].add(event.text)
+
+    def __on_end(self, _event: Any, _context: LaunchContext) -> None:
+        for lines in self.__lines.values():
+            lines.end()
+
+    async def __run(self, context: LaunchContext) -> None:
+        """Start the process, await its end, and so on while it is to be respawned."""
+        assert self.__ending is not None
+        assert self.__completed is not None
+        try:
+            while await self.__run_once(context):
+                if not await self.__may_respawn(context):
+                    break
+        finally:
+            self.__ending.cancel()
+            self.__completed.set_result(None)
+
+    async def __run_once(self, context: LaunchContext) -> bool:
+        """Run the process to its end; False when it cannot be started."""
+        details = self.process_details
+        assert details is not None
+        logger = launch_logging.get_logger(details["name"])
+        if self.__log_cmd:
+            words = " ".join(word for word in details["cmd"] if word.strip())
+            own = details["env"] is not None
+            logger.info(
+                f"process details: cmd='{words}', cwd='{details['cwd']}', custom_env?={own}"
+            )
+        try:
+            child = await self.__start(context, details)
+        except (OSError, ValueError) as error:
+            logger.error(f"exception occurred while executing process: {error}")
+            context.tell(not_started(error, details["cmd"], details["cwd"], self.place))
+            return False
+        code = await child.complete
+        self.__tell_end(logger, child.pid, code)
+        await context.emit_event(ProcessExited(returncode=code, **details))
+        child.close()
+        if context.guarded is not None:
+            context.guarded.ended(child.pid)
+        return True
+
+    async def __start(self, context: LaunchContext, details: dict[str, Any]) -> ChildProcess:
+        def on_start(child: ChildProcess) -> None:
+            context.guard(child.pid)
+            self.__child = child
+            details["pid"] = child.pid
+            logger = launch_logging.get_logger(details["name"])
+            logger.info(f"process started with pid [{child.pid}]")
+            context.emit_event_sync(ProcessStarted(**details))
+
+        def on_output(fd: int, data: bytes) -> None:
+            context.emit_event_sync(_EVENTS[fd](text=data, **details))
+
+        return await start_child(
+            on_start,
+            on_output,
+            cmd=details["cmd"],
+            cwd=details["cwd"],
+            env=details["env"],
+            shell=self.shell,
+            emulate_tty=self.__has_terminal(context),
+        )
+
+    def __has_terminal(self, context: LaunchContext) -> bool:
+        chosen = context.launch_configurations.get("emulate_tty")
+        if chosen is None:
+            return self.emulate_tty
+        return evaluate_condition_expression(context, normalize_to_list_of_substitutions(chosen))
+
+    def __tell_end(self, logger: Any, pid: int, code: int) -> None:
+        if code == 0:
+            logger.info(f"process has finished cleanly [pid {pid}]")
+            return
+        words = " ".join(word for word in self.process_description.final_cmd or () if word.strip())
+        logger.error(f"process has died [pid {pid}, exit code {code}, cmd '{words}'].")
+
+    async def __may_respawn(self, context: LaunchContext) -> bool:
+        """Return whether it is to be started again, after the delay for that."""
+        ending = self.__ending
+        assert ending is not None
+        if not self.__respawn or self.__retries_left == 0 or context.is_shutdown:
+            return False
+        self.__retries_left -= 1
+        if self.__respawn_delay_s > 0.0 and not ending.began.done():
+            await asyncio.wait([ending.began], timeout=self.__respawn_delay_s)
+        return not ending.began.done()
+
+    def send_signal(self, number: signal.Signals, *, whole_group: bool = False) -> bool:
+        """Send the process a signal; False when there is nothing to get it any more.
+
+        Args:
+            number: of the signal.
+            whole_group: what it has started gets it too.
+        """
+        child = self.__child
+        if child is None or child.complete.done():
+            return False
+        try:
+            child.send_signal(number, whole_group=whole_group)
+        except ProcessLookupError:
+            return False
+        return True
+
+    def get_asyncio_future(self) -> asyncio.Future[Any] | None:
+        """Return what is done when it has ended for good."""
+        return self.__completed
+
+    def get_stdout(self) -> str:
+        """Return everything it wrote to standard output.
+
+        Raises:
+            RuntimeError: ``cached_output`` is not set.
+        """
+        return self.__cached(1)
+
+    def get_stderr(self) -> str:
+        """Return everything it wrote to standard error.
+
+        Raises:
+            RuntimeError: ``cached_output`` is not set.
+        """
+        return self.__cached(2)
+
+    def __cached(self, fd: int) -> str:
+        if not self.__is_cached:
+            name = self.process_description.final_name or self.process_description.cmd
+            what = "stdout" if fd == 1 else "stderr"
+            raise RuntimeError(
+                f"cached output must be true to be able to get {what}, proc '{name}'"
+            )
+        return self.__lines[fd].text() if self.__lines else ""
+
+    @property
+    def return_code(self) -> int | None:
+        """Its exit code, None while it runs and before."""
+        child = self.__child
+        if child is None or not child.complete.done():
+            return None
+        return child.complete.result()

@@ -1,0 +1,213 @@
+"""A process of a launch: its start in the event loop, its output, its end."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import pty
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.graph.parent import PARENT_VARIABLE
+from gazelle.launch.guard import Guard
+
+__all__ = ["ChildProcess", "Guarded", "start_child"]
+
+# What a process wrote last is awaited so long, since a child of it may hold its output open.
+_LAST_WORDS_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Guarded:
+    """Process groups that end with the launcher, whatever ends it.
+
+    Attributes:
+        guard: the process that watches.
+        groups: those that may have something left in them.
+    """
+
+    guard: Guard
+    groups: set[int]
+
+    def begun(self, group: int) -> None:
+        """Watch over a group."""
+        self.groups.add(group)
+        self.guard.begun(group)
+
+    def ended(self, group: int) -> None:
+        """Forget a group, unless something in it still runs."""
+        if not _is_there(group):
+            self.groups.discard(group)
+            self.guard.ended(group)
+
+    def close(self) -> None:
+        """End what is left, and wait for that."""
+        for group in list(self.groups):
+            self.ended(group)
+        self.guard.close()
+
+
+class ChildProcess(asyncio.SubprocessProtocol):
+    """A process that has been started; output and end are told as they come.
+
+    Attributes:
+        complete: its exit code, when it has ended and its output is read.
+        transport: asyncio's handle of it.
+    """
+
+    def __init__(
+        self,
+        loop: asyncio.AbstractEventLoop,
+        on_start: Callable[[ChildProcess], None],
+        on_output: Callable[[int, bytes], None],
+    ) -> None:
+        self.complete: asyncio.Future[int] = loop.create_future()
+        self.transport: Any = None
+        self._loop = loop
+        self._on_start = on_start
+        self._on_output = on_output
+        self._open = {1, 2}
+        self._terminals: list[asyncio.BaseTransport] = []
+
+    @property
+    def pid(self) -> int:
+        """Its number."""
+        return int(self.transport.get_pid())
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Hear that it has been started."""
+        self.transport = transport
+        self._on_start(self)
+
+    def pipe_data_received(self, fd: int, data: bytes | str) -> None:
+        """Hear what it wrote."""
+        self._on_output(fd, data if isinstance(data, bytes) else data.encode())
+
+    def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
+        """Hear that nothing more comes from standard output or error."""
+        self._open.discard(fd)
+        self._finish_when_silent()
+
+    def process_exited(self) -> None:
+        """Hear that it has ended."""
+        self._finish_when_silent()
+        self._loop.call_later(_LAST_WORDS_S, self._finish)
+
+    def send_signal(self, number: int, *, whole_group: bool = False) -> None:
+        """Send it a signal, or it and everything it has started.
+
+        Raises:
+            ProcessLookupError: it has ended.
+        """
+        if whole_group:
+            os.killpg(self.pid, number)
+        else:
+            self.transport.send_signal(number)
+
+    def write(self, data: bytes) -> None:
+        """Give it something to read on standard input."""
+        stdin = self.transport.get_pipe_transport(0)
+        if stdin is not None and not stdin.is_closing():
+            stdin.write(data)
+
+    def close(self) -> None:
+        """Close its pipes; a process that still runs is killed."""
+        self.transport.close()
+        for terminal in self._terminals:
+            terminal.close()
+
+    async def read_terminal(self, fd: int, terminal: int) -> None:
+        """Take standard output or error from a terminal of its own."""
+        stream = os.fdopen(terminal, "rb", buffering=0)
+        transport, _ = await self._loop.connect_read_pipe(lambda: _Terminal(self, fd), stream)
+        self._terminals.append(transport)
+
+    def _finish_when_silent(self) -> None:
+        if not self._open and self.transport.get_returncode() is not None:
+            self._finish()
+
+    def _finish(self) -> None:
+        if not self.complete.done():
+            self.complete.set_result(self.transport.get_returncode())
+
+
+class _Terminal(asyncio.Protocol):
+    """The launcher's end of a process's terminal."""
+
+    def __init__(self, child: ChildProcess, fd: int) -> None:
+        self._child = child
+        self._fd = fd
+
+    def data_received(self, data: bytes) -> None:
+        # The line discipline writes a carriage return before each line feed.
+        self._child.pipe_data_received(self._fd, data.replace(b"\r\n", b"\n"))
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._child.pipe_connection_lost(self._fd, exc)
+
+
+async def start_child(
+    on_start: Callable[[ChildProcess], None],
+    on_output: Callable[[int, bytes], None],
+    *,
+    cmd: Sequence[str],
+    cwd: str | None,
+    env: Mapping[str, str] | None,
+    shell: bool,
+    emulate_tty: bool,
+) -> ChildProcess:
+    """Start a process in a session of its own, so that the launcher decides on its end.
+
+    Args:
+        on_start: is told of the process before anything else is told of it.
+        on_output: is told file descriptor (1 or 2) and bytes of everything it writes.
+        cmd: its words.
+        cwd: its folder, None for the launcher's.
+        env: its environment, None for the launcher's.
+        shell: give the words to a shell, joined by blanks.
+        emulate_tty: let it write to terminals instead of pipes.
+
+    Raises:
+        OSError: it cannot be started.
+    """
+    loop = asyncio.get_running_loop()
+    variables = dict(os.environ if env is None else env)
+    variables.pop(PARENT_VARIABLE, None)
+    if cmd[0] == sys.executable and not shell:
+        # Behind a shell or a prefix a node would take these for its launcher, and end at once.
+        variables[PARENT_VARIABLE] = str(os.getpid())
+    terminals = [(fd, *pty.openpty()) for fd in (1, 2)] if emulate_tty else []
+    outputs = {fd: far for fd, _near, far in terminals}
+    options: dict[str, Any] = {
+        "stdout": outputs.get(1, asyncio.subprocess.PIPE),
+        "stderr": outputs.get(2, asyncio.subprocess.PIPE),
+        "cwd": cwd,
+        "env": variables,
+        "start_new_session": True,
+    }
+    started = lambda: ChildProcess(loop, on_start, on_output)  # noqa: E731
+    try:
+        if shell:
+            _, child = await loop.subprocess_shell(started, " ".join(cmd), **options)
+        else:
+            _, child = await loop.subprocess_exec(started, *cmd, **options)
+    except BaseException:
+        for _fd, near, _far in terminals:
+            os.close(near)
+        raise
+    finally:
+        for _fd, _near, far in terminals:
+            os.close(far)
+    for fd, near, _far in terminals:
+        await child.read_terminal(fd, near)
+    return child
+
+
+def _is_there(group: int) -> bool:
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(group, 0)
+        return True
+    return False

@@ -1,0 +1,198 @@
+"""launch_yaml: launch files in YAML."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gazelle.diagnostics import SourceSpan
+from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
+from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
+from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
+from gazelle.launch.ros2.place import keep_place
+from gazelle.launch.ros2.utilities.type_utils import is_instance_of
+from gazelle.limits.yaml_text import LimitedLoader
+
+__all__ = ["Entity", "Parser"]
+
+
+class _Mapping(dict[Any, Any]):
+    """A mapping that knows where it is written."""
+
+    place: SourceSpan | None = None
+
+
+class _Loader(LimitedLoader):
+    """Reads plain values; mappings keep their places."""
+
+
+def _construct_mapping(loader: _Loader, node: yaml.MappingNode) -> Iterator[_Mapping]:
+    found = _Mapping()
+    mark = node.start_mark
+    found.place = SourceSpan(str(mark.name), mark.line + 1, mark.column + 1)
+    yield found
+    found.update(loader.construct_mapping(node))
+
+
+_Loader.add_constructor("tag:yaml.org,2002:map", _construct_mapping)
+
+
+class Entity(BaseEntity):
+    """A key of a YAML launch file with its value."""
+
+    def __init__(self, element: Any, type_name: str = "", *, parent: Entity | None = None) -> None:
+        self.__element = element
+        self.__type_name = type_name
+        self.__parent = parent
+        self.__read_keys: set[str] = set()
+        self.__children_called = False
+        self.place: SourceSpan | None = getattr(element, "place", None)
+        if self.place is None and parent is not None:
+            self.place = parent.place
+
+    @property
+    def type_name(self) -> str:
+        """Its key."""
+        return self.__type_name
+
+    @property
+    def parent(self) -> Entity | None:
+        """The element around it."""
+        return self.__parent
+
+    @property
+    def children(self) -> list[Any]:
+        """The elements in its list, or in the list below its key ``children``.
+
+        Raises:
+            TypeError: its value is neither mapping nor list.
+            ValueError: its mapping has no ``children``.
+            RuntimeError: an item of the list is no mapping with one key.
+        """
+        self.__children_called = True
+        items = self.__element
+        if isinstance(items, dict):
+            if "children" not in items:
+                raise ValueError(
+                    f"Expected entity `{self.type_name}` to have children entities. That can be a "
+                    "list of subentities or a dictionary with a `children` list element"
+                )
+            self.__read_keys.add("children")
+            items = items["children"]
+        if not isinstance(items, list):
+            kind = type(items).__name__
+            raise TypeError(f"Expected a dict or list in `{self.type_name}`, got {kind}: {items}")
+        return [self._child(item) for item in items]
+
+    def _child(self, item: Any) -> Entity:
+        if not isinstance(item, dict) or len(item) != 1:
+            error = RuntimeError(
+                "Subentities must be a dictionary with only one key, which is the entity type"
+            )
+            keep_place(error, getattr(item, "place", None) or self.place)
+            raise error
+        [(name, value)] = item.items()
+        child = Entity(value, str(name), parent=self)
+        child.place = getattr(item, "place", None)
+        return child
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Check that somebody asked for every key.
+
+        Raises:
+            ValueError: it has some that its kind does not know.
+        """
+        if isinstance(self.__element, list):
+            if not self.__children_called:
+                raise ValueError(
+                    f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}"
+                )
+            return
+        unread = set(self.__element) - self.__read_keys if isinstance(self.__element, dict) else ()
+        if unread:
+            names = ", ".join(f"'{name}'" for name in sorted(map(str, unread)))
+            raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {{{names}}}")
+
+    def get_attr(
+        self,
+        name: str,
+        *,
+        data_type: Any = str,
+        optional: bool = False,
+        can_be_str: bool = True,
+    ) -> Any:
+        """Return a value; YAML's own type has to be the one asked for.
+
+        Raises:
+            AttributeError: it is not there.
+            TypeError: it has another type.
+        """
+        if not isinstance(self.__element, dict) or name not in self.__element:
+            if optional:
+                return None
+            raise AttributeError(f"Can not find attribute '{name}' in Entity '{self.type_name}'")
+        self.__read_keys.add(name)
+        value = self.__element[name]
+        if check_is_list_entity(data_type):
+            if isinstance(value, list) and value and isinstance(value[0], dict):
+                return [Entity(item, name, parent=self) for item in value]
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' "
+                "expected to be a list of dictionaries."
+            )
+        if not is_instance_of(value, data_type, can_be_str=can_be_str):
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type "
+                f"'{data_type}', got '{type(value)}'"
+            )
+        return value
+
+
+class Parser(BaseParser):
+    """Reads launch files in YAML."""
+
+    @classmethod
+    def load(cls, file: Any) -> tuple[Entity, Parser]:
+        """Return the root of a file.
+
+        Raises:
+            OSError: the file cannot be read.
+            yaml.YAMLError: it is no YAML.
+            RuntimeError: it has not one root.
+        """
+        if isinstance(file, str | bytes | os.PathLike):
+            with Path(os.fsdecode(file)).open(encoding="utf-8") as stream:
+                return cls.load(stream)
+        try:
+            tree = _read(file)
+        except yaml.MarkedYAMLError as error:
+            mark = error.problem_mark
+            if mark is not None:
+                keep_place(error, SourceSpan(str(mark.name), mark.line + 1, mark.column + 1))
+            raise
+        if not isinstance(tree, dict) or len(tree) != 1:
+            problem = RuntimeError("Expected only one root")
+            keep_place(problem, getattr(tree, "place", None))
+            raise problem
+        [(name, value)] = tree.items()
+        entity = Entity(value, str(name))
+        entity.place = getattr(tree, "place", None)
+        return entity, cls()
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        """Return the extensions of such files."""
+        return {"launch.yaml", "launch.yml", "yaml", "yml", "launch"}
+
+
+def _read(stream: Any) -> Any:
+    loader = _Loader(stream.read())
+    loader.name = str(getattr(stream, "name", "<string>"))
+    try:
+        return loader.get_single_data()
+    finally:
+        loader.dispose()

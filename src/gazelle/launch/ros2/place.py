@@ -1,0 +1,58 @@
+"""Which line of the user's launch file made something, or raised something."""
+
+from __future__ import annotations
+
+import sys
+import sysconfig
+import traceback
+from pathlib import Path
+from types import FrameType
+
+from gazelle.diagnostics import SourceSpan
+
+__all__ = ["calling_place", "keep_place", "kept_place", "raising_place"]
+
+_OURS = str(Path(__file__).parents[2])
+_NOT_THE_USERS = tuple(
+    {_OURS, sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"), "<frozen"}
+)
+_ATTRIBUTE = "_gazelle_place"
+
+
+def calling_place() -> SourceSpan | None:
+    """Return the line of the user's own file that is being executed, None outside of any."""
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        if _is_the_users(frame.f_code.co_filename):
+            return SourceSpan(frame.f_code.co_filename, frame.f_lineno)
+        frame = frame.f_back
+    return None
+
+
+def raising_place(error: BaseException) -> SourceSpan | None:
+    """Return the innermost line of the user's own files in a traceback."""
+    if isinstance(error, SyntaxError) and error.filename and error.lineno:
+        return SourceSpan(error.filename, error.lineno, error.offset or 0)
+    frames = [
+        (frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)
+    ]
+    for file, line in reversed(frames):
+        if _is_the_users(file):
+            return SourceSpan(file, line)
+    return None
+
+
+def keep_place(error: BaseException, place: SourceSpan | None) -> None:
+    """Remember with an error what it is about; the first place that is told counts."""
+    if place is not None and getattr(error, _ATTRIBUTE, None) is None:
+        setattr(error, _ATTRIBUTE, place)
+
+
+def kept_place(error: BaseException) -> SourceSpan | None:
+    """Return the place that was remembered with an error."""
+    place: SourceSpan | None = getattr(error, _ATTRIBUTE, None)
+    return place
+
+
+def _is_the_users(file: str) -> bool:
+    return not file.startswith(_NOT_THE_USERS) and not file.startswith("<")

@@ -1,0 +1,58 @@
+"""launch.substitutions."""
+
+from __future__ import annotations
+
+from gazelle.launch.ros2.substitution import TextSubstitution
+from gazelle.launch.ros2.substitutions.boolean import (
+    AllSubstitution,
+    AndSubstitution,
+    AnySubstitution,
+    NotSubstitution,
+    OrSubstitution,
+)
+from gazelle.launch.ros2.substitutions.choosing import (
+    EqualsSubstitution,
+    IfElseSubstitution,
+    NotEqualsSubstitution,
+)
+from gazelle.launch.ros2.substitutions.computing import Command, PythonExpression
+from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
+from gazelle.launch.ros2.substitutions.files import (
+    FileContent,
+    FindExecutable,
+    LaunchLogDir,
+    PathJoinSubstitution,
+    ThisLaunchFile,
+    ThisLaunchFileDir,
+)
+from gazelle.launch.ros2.substitutions.values import (
+    AnonName,
+    EnvironmentVariable,
+    LaunchConfiguration,
+    LocalSubstitution,
+)
+
+__all__ = [
+    "AllSubstitution",
+    "AndSubstitution",
+    "AnonName",
+    "AnySubstitution",
+    "Command",
+    "EnvironmentVariable",
+    "EqualsSubstitution",
+    "FileContent",
+    "FindExecutable",
+    "IfElseSubstitution",
+    "LaunchConfiguration",
+    "LaunchLogDir",
+    "LocalSubstitution",
+    "NotEqualsSubstitution",
+    "NotSubstitution",
+    "OrSubstitution",
+    "PathJoinSubstitution",
+    "PythonExpression",
+    "SubstitutionFailure",
+    "TextSubstitution",
+    "ThisLaunchFile",
+    "ThisLaunchFileDir",
+]
