@@ -213,7 +213,7 @@ def test_random_arms_plan_without_touching_anything() -> None:
             (*rng.uniform(0.5, 1.2) * np.array([math.cos(a), math.sin(a)]), rng.uniform(0.05, 0.12))
             for a in rng.uniform(-math.pi, math.pi, 6)
         )
-        arm = PlanarArm(circles)  # type: ignore[arg-type]
+        arm = PlanarArm(circles)
         ends = [q for q in rng.uniform(-2.8, 2.8, (30, 3)) if arm.is_valid(q)][:2]
         try:
             path = plan(space_of(3), arm, ends[0], [ends[1]], seed=case, time_limit_s=1.5)

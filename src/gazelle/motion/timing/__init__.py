@@ -1,0 +1,8 @@
+"""Time parameterisation: when a robot is where along a path."""
+
+from __future__ import annotations
+
+from gazelle.motion.timing.parameterise import Method, method_of, parameterise
+from gazelle.motion.timing.trajectory import Trajectory
+
+__all__ = ["Method", "Trajectory", "method_of", "parameterise"]

@@ -1,0 +1,60 @@
+"""Where the joints are at which time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.motion.space import FloatArray
+
+__all__ = ["Trajectory"]
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Samples of a motion that begins and ends at rest.
+
+    Attributes:
+        names: names of the joints.
+        times_s: shape (m,), from 0, increasing.
+        positions: shape (m, n), rad or m.
+        velocities: shape (m, n), rad/s or m/s.
+        accelerations: shape (m, n), rad/s² or m/s².
+        notes: what was done otherwise than asked, one sentence each.
+    """
+
+    names: tuple[str, ...]
+    times_s: FloatArray
+    positions: FloatArray
+    velocities: FloatArray
+    accelerations: FloatArray
+    notes: tuple[str, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        """The time from the first to the last sample."""
+        return float(self.times_s[-1])
+
+    def at(self, time_s: float) -> FloatArray:
+        """Return the positions at a time, by the quintic spline that trajectory controllers use.
+
+        Times before the first and after the last sample give these.
+        """
+        index = int(np.searchsorted(self.times_s, time_s, side="right")) - 1
+        if index < 0 or index >= len(self.times_s) - 1:
+            rest: FloatArray = self.positions[0 if index < 0 else -1].copy()
+            return rest
+        span = float(self.times_s[index + 1] - self.times_s[index])
+        t = (time_s - float(self.times_s[index])) / span
+        p0, p1 = self.positions[index], self.positions[index + 1]
+        v0, v1 = self.velocities[index] * span, self.velocities[index + 1] * span
+        a0, a1 = self.accelerations[index] * span**2, self.accelerations[index + 1] * span**2
+        gap = p1 - p0
+        cubic = 10.0 * gap - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1
+        quartic = -15.0 * gap + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1
+        quintic = 6.0 * gap - 3.0 * (v0 + v1) + 0.5 * (a1 - a0)
+        value: FloatArray = (
+            p0 + v0 * t + 0.5 * a0 * t**2 + cubic * t**3 + quartic * t**4 + quintic * t**5
+        )
+        return value
