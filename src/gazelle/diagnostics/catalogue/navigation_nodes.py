@@ -1,0 +1,56 @@
+"""Codes of navigation's nodes: parameters, plug-ins, behaviour trees."""
+
+from __future__ import annotations
+
+from gazelle.diagnostics.catalogue.entry import Entry
+
+__all__ = ["ENTRIES"]
+
+ENTRIES = (
+    Entry(
+        "navigation.unknown-parameter",
+        "warning",
+        "A node of navigation has no parameter of this name",
+        "ROS reads the names it knows and never looks at the others, so a misspelt one does"
+        " nothing, silently.",
+        "correct the name, or take it out",
+    ),
+    Entry(
+        "navigation.idle-parameter",
+        "info",
+        "A parameter of navigation has no effect here",
+        "The original reads it; what it changes there does not exist here. The message says what.",
+        "nothing, if that is well",
+    ),
+    Entry(
+        "navigation.bad-value",
+        "warning",
+        "A parameter of navigation has a value of the wrong kind or beyond its limits",
+        "ROS would take its default without a word, or stop the node.",
+        "write a value as the message says",
+    ),
+    Entry(
+        "navigation.tree-structure",
+        "error",
+        "The XML of a behaviour tree does not make a tree",
+        "BehaviorTree.CPP refuses the file, and the navigator does not start.",
+        "see the message",
+        "Error loading XML file",
+    ),
+    Entry(
+        "navigation.tree-unknown-node",
+        "error",
+        "A behaviour tree has a node of a kind that nobody knows",
+        "In ROS it comes from a compiled plug-in (plugin_lib_names).",
+        "choose a node of BehaviorTree.CPP or Nav2",
+        "Error at line: -> Node not recognized",
+    ),
+    Entry(
+        "navigation.tree-unknown-port",
+        "error",
+        "A node of a behaviour tree has no port of this name",
+        "BehaviorTree.CPP refuses the tree, as it may be a typing mistake.",
+        "correct the name, or take it out",
+        "Possible typo? In the XML, you tried to remap port",
+    ),
+)

@@ -1,0 +1,1 @@
+"""Nav2's servers: planning, control, behaviours, behaviour trees, waypoints, lifecycle."""
