@@ -138,7 +138,8 @@ class OrientationConstraint:
 
     def why(self, q: FloatArray) -> str:
         """Return the link, its error and what is tolerated."""
-        error = ", ".join(f"{value:.3f}" for value in self._error(q))
+        # Adding zero turns -0.0 into 0.0.
+        error = ", ".join(f"{value:.3f}" for value in np.round(self._error(q), 3) + 0.0)
         most = ", ".join(f"{value:.3f}" for value in self.tolerance_rad)
         return (
             f"the orientation of link '{self.link}' is ({error}) rad about x, y, z from the one "

@@ -65,7 +65,7 @@ def plan(
     """
     began = time.perf_counter()
     settings = settings or PlannerSettings()
-    narrow = narrowed(space, constraints)
+    narrow = _narrowed(space, constraints)
     guarded = Constrained(validity, tuple(constraints)) if constraints else validity
     rng = np.random.default_rng(seed)
     actual, inside = _start(space, narrow, validity, guarded, start)
@@ -90,6 +90,14 @@ def plan(
         note = f"the start lies outside the limits ({space.outside(actual)[0]}) and is led back"
         path = replace(path, waypoints=rows, notes=(*path.notes, note))
     return path
+
+
+def _narrowed(space: JointSpace, constraints: Sequence[PathConstraint]) -> JointSpace:
+    try:
+        return narrowed(space, constraints)
+    except ValueError as error:
+        code = ErrorCode.START_STATE_VIOLATES_PATH_CONSTRAINTS
+        raise PlanningError(code, f"path constraints: {error}") from error
 
 
 def _start(
