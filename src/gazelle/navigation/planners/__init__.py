@@ -1,0 +1,31 @@
+"""Paths over a costmap: NavFn's potential, A*, any angle; under the names of ROS's planners."""
+
+from __future__ import annotations
+
+from gazelle.navigation.planners.names import PLANNERS, REFUSED_PLANNERS, PlannerKind
+from gazelle.navigation.planners.options import (
+    GlobalPlannerOptions,
+    Nav2NavfnOptions,
+    NavfnOptions,
+    PlannerOptions,
+    Smac2DOptions,
+    ThetaStarOptions,
+)
+from gazelle.navigation.planners.plan import NoPlan, Plan, PlanFailure
+from gazelle.navigation.planners.planning import make_plan
+
+__all__ = [
+    "PLANNERS",
+    "REFUSED_PLANNERS",
+    "GlobalPlannerOptions",
+    "Nav2NavfnOptions",
+    "NavfnOptions",
+    "NoPlan",
+    "Plan",
+    "PlanFailure",
+    "PlannerKind",
+    "PlannerOptions",
+    "Smac2DOptions",
+    "ThetaStarOptions",
+    "make_plan",
+]
