@@ -31,6 +31,7 @@ _COMMANDS = {
     "daemon": _Command("gazelle.cli.ros2.daemon", "Various daemon related sub-commands"),
     "doctor": _Command("gazelle.cli.ros2.doctor", "Check ROS setup and other potential issues"),
     "interface": _Command("gazelle.cli.ros2.interface", "Show information about ROS interfaces"),
+    "launch": _Command("gazelle.cli.ros2.launch", "Run a launch file"),
     "lifecycle": _Command("gazelle.cli.ros2.lifecycle", "Various lifecycle related sub-commands"),
     "multicast": _Command("gazelle.cli.ros2.multicast", "Various multicast related sub-commands"),
     "node": _Command("gazelle.cli.ros2.node", "Various node related sub-commands"),
@@ -43,8 +44,6 @@ _COMMANDS = {
 }
 # Commands of ROS 2 that are not here, and what does their work.
 _ELSEWHERE = {
-    "launch": "launch files of ROS 2 (Python, YAML) do not run here yet; XML ones of ROS 1 do: "
-    "gazelle roslaunch PACKAGE FILE",
     "security": "the graph is on this machine only (127.0.0.1); there is nothing to encrypt",
 }
 

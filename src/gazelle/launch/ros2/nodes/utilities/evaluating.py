@@ -87,7 +87,7 @@ def _value(context: LaunchContext, name: str, value: Any) -> Any:
 def _typed(name: str, text: str) -> Any:
     """Return a text as YAML reads it."""
     found = _loaded(name, text) if text else ""
-    if isinstance(found, _SCALARS) or isinstance(found, bytes):
+    if isinstance(found, (*_SCALARS, bytes)):
         return found
     if isinstance(found, Sequence):
         return _uniform(name, found)

@@ -92,7 +92,7 @@ def _normalized_list(values: Sequence[Any]) -> tuple[Any, ...]:
         allowed = (float, int, str, bool, *SomeSubstitutionsType_types_tuple)
         ensure_argument_type(one, allowed, "subvalue")
     kinds = {_kind(one) for one in values}
-    if kinds == {int} or kinds == {bool}:
+    if kinds in ({int}, {bool}):
         return tuple(values)
     if kinds in ({float}, {int, float}):
         return tuple(float(one) for one in values)

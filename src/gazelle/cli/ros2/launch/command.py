@@ -1,0 +1,188 @@
+"""``ros2 launch [options] PACKAGE FILE [name:=value …]``, or a path in place of both."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from gazelle.cli.ros2.launch.files import launch_file_of
+from gazelle.cli.ros2.launch.surroundings import surround_launch_files
+from gazelle.cli.ros2.verbs import guarded
+from gazelle.cli.tool import ToolError
+from gazelle.diagnostics import Severity, did_you_mean, render
+from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
+
+__all__ = ["launch_arguments", "main"]
+
+_ASSIGN = ":="
+
+
+def main(argv: list[str]) -> int:
+    """Run launch files of ROS 2: Python, XML and YAML."""
+    # Arguments may stand before options, and look like neither.
+    words = [word for word in argv if _ASSIGN not in word]
+    given = [word for word in argv if _ASSIGN in word]
+    return guarded(lambda: _run(_parser().parse_args(words), given))
+
+
+def launch_arguments(words: Sequence[str]) -> list[tuple[str, str]]:
+    """Return the arguments of a command line; of several with one name the last counts.
+
+    Raises:
+        ToolError: one is not ``name:=value``.
+    """
+    found: dict[str, str] = {}
+    for word in words:
+        name, sign, value = word.partition(_ASSIGN)
+        if not sign or not name or (not value and word.count(_ASSIGN) == 1):
+            raise ToolError(
+                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
+                f"{_argument_hint(word)}"
+            )
+        found[name] = value
+    return list(found.items())
+
+
+def _argument_hint(word: str) -> str:
+    name, sign, value = word.partition("=")
+    if sign and not word.endswith(_ASSIGN):
+        return f"\n  fix: {name.rstrip(':')}:={value}"
+    return "\n  fix: name:='' is not possible; write name:=\"''\" for an empty value"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="ros2 launch", description="Run a launch file")
+    add = parser.add_argument
+    text = "Run the launch system non-interactively, with no terminal associated"
+    interactive = sys.stdin is not None and sys.stdin.isatty()
+    add("-n", "--noninteractive", default=not interactive, action="store_true", help=text)
+    text = "Put the launch system in debug mode, provides more verbose output."
+    add("-d", "--debug", action="store_true", help=text)
+    group = parser.add_mutually_exclusive_group()
+    text = "Print the launch description to the console without launching it."
+    group.add_argument("-p", "--print", "--print-description", action="store_true", help=text)
+    text = "Show arguments that may be given to the launch file."
+    group.add_argument("-s", "--show-args", "--show-arguments", action="store_true", help=text)
+    text = "Show all launched subprocesses' output by overriding their output configuration"
+    text += " using the OVERRIDE_LAUNCH_PROCESS_OUTPUT envvar."
+    add("-a", "--show-all-subprocesses-output", action="store_true", help=text)
+    text = "Prefix command, which should go before all executables. Command must be wrapped in"
+    text += " quotes if it contains spaces (e.g. --launch-prefix 'xterm -e gdb -ex run --args')."
+    add("--launch-prefix", help=text)
+    text = "Regex pattern for filtering which executables the --launch-prefix is applied to by"
+    add("--launch-prefix-filter", help=f"{text} matching the executable name.")
+    add("package_name", help="Name of the ROS package which contains the launch file")
+    add("launch_file_name", nargs="?", help="Name of the launch file")
+    text = "Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)"
+    add("launch_arguments", nargs="*", help=text)
+    return parser
+
+
+def _run(options: argparse.Namespace, given: list[str]) -> int:
+    if options.launch_prefix is None and options.launch_prefix_filter is not None:
+        raise ToolError("--launch-prefix must be specified if --launch-prefix-filter is provided")
+    path, stray = _file_and_rest(options)
+    words = [*stray, *given]
+    for name in ("launch_prefix", "launch_prefix_filter"):
+        value = getattr(options, name)
+        if value:
+            words.append(f"{name.replace('_', '-')}{_ASSIGN}{value}")
+    arguments = launch_arguments(words)
+    if options.show_all_subprocesses_output:
+        os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    surround_launch_files()
+    if options.print or options.show_args:
+        return _show(path, with_arguments=options.show_args)
+    return _launch(path, arguments, words, options)
+
+
+def _file_and_rest(options: argparse.Namespace) -> tuple[Path, list[str]]:
+    """Return the launch file and the words that stand where arguments do."""
+    first, second = options.package_name, options.launch_file_name
+    if Path(first).is_file():
+        return Path(first), [*([second] if second else ()), *options.launch_arguments]
+    if second is None:
+        raise ToolError(_no_file(first))
+    try:
+        return launch_file_of(first, second), options.launch_arguments
+    except PackageNotFoundError as error:
+        raise ToolError(f"Package '{first}' not found: {error}") from None
+    except ValueError as error:
+        raise ToolError(str(error)) from None
+
+
+def _no_file(first: str) -> str:
+    if "/" in first or first.endswith((".py", ".xml", ".yaml")):
+        names = sorted(str(one) for one in Path(first).parent.glob("*launch*"))
+        hint = did_you_mean(first, names)
+        return f"file '{first}' does not exist" + (f"; {hint}" if hint else "")
+    if first not in known_workspace().packages:
+        hint = did_you_mean(first, known_workspace().packages)
+        return f"'{first}' is neither a launch file nor a package" + (f"; {hint}" if hint else "")
+    from gazelle.cli.ros2.launch.files import launch_files_below
+
+    folder = known_workspace().packages[first].path
+    names = sorted({one.name for one in launch_files_below(str(folder))})
+    known = f"package '{first}' has: {', '.join(names)}" if names else "it has no launch files"
+    return f"No launch file name supplied; {known}"
+
+
+def _show(path: Path, *, with_arguments: bool) -> int:
+    """Print the tree of a launch file, or its arguments."""
+    from gazelle.launch.ros2.faults import diagnose
+    from gazelle.launch.ros2.introspector import LaunchIntrospector
+    from gazelle.launch.ros2.launch_description_sources import (
+        get_launch_description_from_any_launch_file,
+    )
+
+    try:
+        description = get_launch_description_from_any_launch_file(str(path))
+        if with_arguments:
+            print(_arguments_text(description))
+        else:
+            print(LaunchIntrospector().format_launch_description(description))
+    except Exception as error:  # noqa: BLE001 - a launch file may raise anything
+        render(diagnose(error))
+        return 1
+    return 0
+
+
+def _arguments_text(description: Any) -> str:
+    """Return the arguments as ros2launch lists them."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    arguments = description.get_launch_arguments()
+    for one in arguments:
+        star = "*" if one._conditionally_included else ""
+        lines += ["", f"    '{one.name}':{star}", f"        {one.description}"]
+        if one.default_value is not None:
+            default = " + ".join(token.describe() for token in one.default_value)
+            lines.append(f"        (default: {default})")
+    if not arguments:
+        lines += ["", "  No arguments."]
+    elif any(one._conditionally_included for one in arguments):
+        lines += ["", "* argument(s) which are only used if specific conditions occur"]
+    return "\n".join(lines)
+
+
+def _launch(
+    path: Path,
+    arguments: list[tuple[str, str]],
+    words: list[str],
+    options: argparse.Namespace,
+) -> int:
+    from gazelle.launch.ros2 import LaunchDescription, LaunchService
+    from gazelle.launch.ros2.actions import IncludeLaunchDescription
+    from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
+
+    service = LaunchService(argv=words, noninteractive=options.noninteractive, debug=options.debug)
+    source = AnyLaunchDescriptionSource(str(path))
+    included = IncludeLaunchDescription(source, launch_arguments=arguments)
+    service.include_launch_description(LaunchDescription([included]))
+    code = service.run()
+    # A node that could not be started is told when it is its turn, and the others go on.
+    failed = any(one.severity >= Severity.ERROR for one in service.context.diagnostics)
+    return code or int(failed)

@@ -1,0 +1,99 @@
+"""What runs a node of a launch file."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import stat
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.launch.environment import command_folder
+from gazelle.launch.executables import Executable, find_executable, script_command
+from gazelle.launch.ros2.substitutions import SubstitutionFailure
+from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
+
+if TYPE_CHECKING:
+    from gazelle.launch.ros2.context import LaunchContext
+
+__all__ = ["NodeCommand", "node_command", "wrapper_script"]
+
+_COMPILED = "launch.compiled-node"
+_NO_PACKAGE = "launch.package-missing"
+
+
+class NodeCommand(NamedTuple):
+    """How a node is run.
+
+    Attributes:
+        words: of its command.
+        program: the name that its output begins with.
+        found: what it is; None for a path.
+    """
+
+    words: tuple[str, ...]
+    program: str
+    found: Executable | None = None
+
+
+def node_command(
+    context: LaunchContext, package: str | None, executable: str, place: SourceSpan | None = None
+) -> NodeCommand | None:
+    """Return what runs an executable of a package, or a path.
+
+    Args:
+        context: of the launch; findings are told to it.
+        package: None when `executable` is a path or a command.
+        executable: as written.
+        place: of the user's file, for messages.
+
+    Returns:
+        None when it is compiled code that is not built here: the launch goes on without it.
+
+    Raises:
+        PackageNotFoundError: there is no such package.
+        SubstitutionFailure: the package has no such executable.
+    """
+    program = Path(executable).name
+    if package is None:
+        path = Path(executable)
+        words = script_command(path) if path.is_file() else (executable,)
+        return NodeCommand(words, program)
+    diagnostics = Diagnostics()
+    found = find_executable(
+        package,
+        executable,
+        workspace=known_workspace(),
+        diagnostics=diagnostics,
+        span=place,
+        environ=context.environment,
+    )
+    if found is not None:
+        for one in diagnostics:
+            context.tell(one)
+        return NodeCommand(found.command, program, found)
+    missing = diagnostics.errors[0]
+    if missing.code == _COMPILED:
+        context.tell(missing)
+        return None
+    text = f"{missing.message}; {missing.fix}" if missing.fix else missing.message
+    if missing.code == _NO_PACKAGE:
+        raise PackageNotFoundError(text)
+    raise SubstitutionFailure(text)
+
+
+def wrapper_script(command: NodeCommand) -> Path:
+    """Return a file that runs a command, for where the path of an executable is wanted."""
+    if len(command.words) == 1:
+        return Path(command.words[0])
+    text = f'#!/bin/sh\nexec {shlex.join(command.words)} "$@"\n'
+    folder = command_folder() / "nodes" / "-".join(command.words[-1:]).strip("/").replace("/", "-")
+    folder.mkdir(parents=True, exist_ok=True)
+    script = folder / command.program
+    if not script.is_file() or script.read_text(encoding="utf-8") != text:
+        part = script.with_suffix(f".{os.getpid()}")
+        part.write_text(text, encoding="utf-8")
+        part.chmod(part.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
+        part.replace(script)
+    return script
