@@ -1,0 +1,100 @@
+"""What is asked of the Pilz industrial motion planner."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.motion.planning.failure import ErrorCode, PlanningError
+from gazelle.motion.space import FloatArray
+
+__all__ = ["Auxiliary", "AuxiliaryKind", "CartesianLimits", "Command", "CommandKind"]
+
+_LEAST_SCALING = 1e-4
+
+
+class CommandKind(enum.StrEnum):
+    """Planner ids of the pipeline."""
+
+    PTP = "PTP"
+    LIN = "LIN"
+    CIRC = "CIRC"
+
+
+class AuxiliaryKind(enum.StrEnum):
+    """Names of the path constraint of a CIRC request."""
+
+    CENTER = "center"
+    INTERIM = "interim"
+
+
+@dataclass(frozen=True, eq=False)
+class Auxiliary:
+    """The point that fixes a circle.
+
+    Attributes:
+        kind: whether it is the circle's center or a point passed on the way.
+        point_m: shape (3,), in the planning frame.
+    """
+
+    kind: AuxiliaryKind
+    point_m: FloatArray
+
+
+@dataclass(frozen=True)
+class CartesianLimits:
+    """``cartesian_limits`` of ``pilz_cartesian_limits.yaml``.
+
+    Attributes:
+        max_trans_vel: m/s.
+        max_trans_acc: m/s². Pilz' LIN and CIRC brake with it too; its max_trans_dec has no effect.
+        max_rot_vel: rad/s.
+    """
+
+    max_trans_vel: float
+    max_trans_acc: float
+    max_rot_vel: float
+
+    def __post_init__(self) -> None:
+        for name in ("max_trans_vel", "max_trans_acc", "max_rot_vel"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value > 0.0):
+                raise ValueError(f"{name} is {value:g}; cartesian_limits need numbers above zero")
+
+
+@dataclass(frozen=True, eq=False)
+class Command:
+    """One motion.
+
+    Attributes:
+        kind: how the tip moves.
+        goal: positions of the joints, shape (n,), or a pose of the link, shape (4, 4).
+        auxiliary: for CIRC.
+        velocity_scaling: above 0, up to 1.
+        acceleration_scaling: above 0, up to 1.
+        blend_radius_m: in a sequence, how early the next motion may begin.
+    """
+
+    kind: CommandKind
+    goal: FloatArray
+    auxiliary: Auxiliary | None = None
+    velocity_scaling: float = 1.0
+    acceleration_scaling: float = 1.0
+    blend_radius_m: float = 0.0
+
+    def check(self) -> None:
+        """Refuse what Pilz refuses of every request.
+
+        Raises:
+            PlanningError: INVALID_MOTION_PLAN.
+        """
+        factors = ("Velocity", self.velocity_scaling), ("Acceleration", self.acceleration_scaling)
+        for name, value in factors:
+            if not _LEAST_SCALING <= value <= 1.0:
+                text = f"{name} scaling not in range [{_LEAST_SCALING:g}, 1], actual value is: "
+                raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, f"{text}{value:g}")
+        if self.kind is CommandKind.CIRC and self.auxiliary is None:
+            reason = 'CIRC needs a path constraint named "interim" or "center" with one position'
+            raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, reason)
