@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-import os
 import re
 import shlex
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
@@ -79,9 +79,9 @@ class Executable:
             action: that will run it, for subclasses.
         """
         cmd = [perform_substitutions(context, word) for word in self.cmd]
-        program = os.path.basename(cmd[0]) if cmd else ""
+        program = Path(cmd[0]).name if cmd else ""
         self.final_cmd = [*self._prefix_words(context, program), *cmd]
-        name = os.path.basename(self.final_cmd[0]) if self.final_cmd else ""
+        name = Path(self.final_cmd[0]).name if self.final_cmd else ""
         if self.name is not None:
             name = perform_substitutions(context, self.name)
         self.final_name = f"{name}-{next(_numbers)}"

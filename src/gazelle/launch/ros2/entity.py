@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import collections.abc
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.launch.ros2.place import calling_place
@@ -60,7 +60,7 @@ class LaunchDescriptionEntity:
         return None
 
 
-SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]
+SomeEntitiesType = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity]
 SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, collections.abc.Iterable)
 # The names up to Humble.
 SomeActionsType = SomeEntitiesType

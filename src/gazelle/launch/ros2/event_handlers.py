@@ -54,7 +54,7 @@ class OnActionEventBase(BaseEventHandler):
         super().__init__(matcher=self._picks, **kwargs)
         self.__event_cls = target_event_cls
         self.__action_cls = target_action_cls
-        self.__matcher = action_matcher
+        self.__matcher: Any = action_matcher
         self.__on_event = on_event if callable(on_event) else None
         self.__actions = [] if callable(on_event) else _entities(on_event)
 

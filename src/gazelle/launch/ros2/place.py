@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import sysconfig
 import traceback
+from collections.abc import Iterator
+from contextvars import ContextVar
 from pathlib import Path
 from types import FrameType
 
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["calling_place", "keep_place", "kept_place", "raising_place"]
+__all__ = ["calling_place", "keep_place", "kept_place", "raising_place", "written_at"]
 
 _OURS = str(Path(__file__).parents[2])
 _NOT_THE_USERS = tuple(
     {_OURS, sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"), "<frozen"}
 )
 _ATTRIBUTE = "_gazelle_place"
+_element: ContextVar[SourceSpan | None] = ContextVar("element", default=None)
+
+
+@contextlib.contextmanager
+def written_at(place: SourceSpan | None) -> Iterator[None]:
+    """Let `calling_place` return the place of an element of XML or YAML."""
+    token = _element.set(place or _element.get())
+    try:
+        yield
+    finally:
+        _element.reset(token)
 
 
 def calling_place() -> SourceSpan | None:
     """Return the line of the user's own file that is being executed, None outside of any."""
+    element = _element.get()
+    if element is not None:
+        return element
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
         if _is_the_users(frame.f_code.co_filename):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import collections.abc
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.launch.ros2.place import calling_place
@@ -71,5 +71,5 @@ class TextSubstitution(Substitution):
         return self.text
 
 
-SomeSubstitutionsType = Union[str, Substitution, Iterable[str | Substitution]]
+SomeSubstitutionsType = str | Substitution | Iterable[str | Substitution]
 SomeSubstitutionsType_types_tuple = (str, Substitution, collections.abc.Iterable)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.launch.ros2.action import Action
@@ -78,7 +78,7 @@ class DeclareLaunchArgument(Action):
         description = entity.get_attr("description", optional=True)
         if description is not None:
             kwargs["description"] = parser.escape_characters(description)
-        choices = entity.get_attr("choice", data_type=List[Entity], optional=True)  # noqa: UP006
+        choices = entity.get_attr("choice", data_type=list[Entity], optional=True)
         if choices is not None:
             kwargs["choices"] = [parser.escape_characters(c.get_attr("value")) for c in choices]
             for choice in choices:
@@ -205,7 +205,7 @@ class ResetLaunchConfigurations(Action):
 
 def kept_configurations(entity: Entity, parser: Parser) -> dict[Any, Any] | None:
     """Return the ``<keep name=… value=…/>`` of an element, None when it has none."""
-    found = entity.get_attr("keep", data_type=List[Entity], optional=True)  # noqa: UP006
+    found = entity.get_attr("keep", data_type=list[Entity], optional=True)
     if found is None:
         return None
     kept = {}

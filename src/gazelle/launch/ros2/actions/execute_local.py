@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ExecuteLocal"]
 
+_SIGTERM_TIMEOUT = LaunchConfiguration("sigterm_timeout", default=5)
+_SIGKILL_TIMEOUT = LaunchConfiguration("sigkill_timeout", default=5)
 _EVENTS = {1: ProcessStdout, 2: ProcessStderr}
 
 
@@ -66,8 +68,8 @@ class ExecuteLocal(Action):
         *,
         process_description: Executable,
         shell: bool = False,
-        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),
-        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),
+        sigterm_timeout: SomeSubstitutionsType = _SIGTERM_TIMEOUT,
+        sigkill_timeout: SomeSubstitutionsType = _SIGKILL_TIMEOUT,
         emulate_tty: bool = False,
         output: SomeSubstitutionsType | dict[str, Any] = "log",
         output_format: str = "[{this.process_description.final_name}] {line}",
@@ -177,9 +179,18 @@ class ExecuteLocal(Action):
     def __on_output(self, event: ProcessIO) -> None:
         self.__lines[event.fd].add(event.text)
 
-    def __on_end(self, _event: Any, _context: LaunchContext) -> None:
+    def __on_end(self, event: ProcessExited, _context: LaunchContext) -> None:
+        """Log what it wrote last, then that it has ended."""
         for lines in self.__lines.values():
             lines.end()
+        logger = launch_logging.get_logger(event.process_name)
+        if event.returncode == 0:
+            logger.info(f"process has finished cleanly [pid {event.pid}]")
+            return
+        words = " ".join(word for word in event.cmd if word.strip())
+        logger.error(
+            f"process has died [pid {event.pid}, exit code {event.returncode}, cmd '{words}']."
+        )
 
     async def __run(self, context: LaunchContext) -> None:
         """Start the process, await its end, and so on while it is to be respawned."""
@@ -211,7 +222,6 @@ class ExecuteLocal(Action):
             context.tell(not_started(error, details["cmd"], details["cwd"], self.place))
             return False
         code = await child.complete
-        self.__tell_end(logger, child.pid, code)
         await context.emit_event(ProcessExited(returncode=code, **details))
         child.close()
         if context.guarded is not None:
@@ -245,13 +255,6 @@ class ExecuteLocal(Action):
         if chosen is None:
             return self.emulate_tty
         return evaluate_condition_expression(context, normalize_to_list_of_substitutions(chosen))
-
-    def __tell_end(self, logger: Any, pid: int, code: int) -> None:
-        if code == 0:
-            logger.info(f"process has finished cleanly [pid {pid}]")
-            return
-        words = " ".join(word for word in self.process_description.final_cmd or () if word.strip())
-        logger.error(f"process has died [pid {pid}, exit code {code}, cmd '{words}'].")
 
     async def __may_respawn(self, context: LaunchContext) -> bool:
         """Return whether it is to be started again, after the delay for that."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterable, Mapping
-from typing import Any, List
+from typing import Any
 
 from gazelle.launch.ros2.actions.events import Shutdown
 from gazelle.launch.ros2.actions.execute_local import ExecuteLocal
@@ -177,7 +177,7 @@ def _put_on_exit(kwargs: dict[str, Any], entity: Entity) -> None:
 
 
 def _put_environment(kwargs: dict[str, Any], entity: Entity, parser: Parser) -> None:
-    found = entity.get_attr("env", data_type=List[Entity], optional=True)  # noqa: UP006
+    found = entity.get_attr("env", data_type=list[Entity], optional=True)
     if found is None:
         return
     kwargs["additional_env"] = {

@@ -57,7 +57,7 @@ class OpaqueFunction(Action):
     def __init__(
         self,
         *,
-        function: Callable[..., Any],
+        function: Any,
         args: Iterable[Any] | None = None,
         kwargs: dict[str, Any] | None = None,
         **left_over_kwargs: Any,
@@ -83,8 +83,7 @@ class OpaqueFunction(Action):
                 f"the function of OpaqueFunction returned a {type(found).__name__}; "
                 "it has to return a list of actions, or None"
             )
-        entities = None if found is None else list(found)
-        return entities
+        return None if found is None else list(found)
 
 
 class OpaqueCoroutine(Action):

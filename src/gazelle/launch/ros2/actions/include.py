@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, List
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.launch.ros2 import logging as launch_logging
@@ -64,7 +64,7 @@ class IncludeLaunchDescription(Action):
         pairs = []
         # ROS 2 calls them arg, and let since Kilted.
         for tag in ("arg", "let"):
-            given = entity.get_attr(tag, data_type=List[Entity], optional=True)  # noqa: UP006
+            given = entity.get_attr(tag, data_type=list[Entity], optional=True)
             for one in given or ():
                 name = parser.parse_substitution(one.get_attr("name"))
                 pairs.append((name, parser.parse_substitution(one.get_attr("value"))))
@@ -84,16 +84,12 @@ class IncludeLaunchDescription(Action):
             RuntimeError: an argument of the file has neither value nor default.
         """
         description = self.launch_description_source.get_launch_description(context)
-        file = os.path.abspath(self.launch_description_source.location)
-        folder = os.path.dirname(file)
-        context.extend_locals(
-            {
-                "current_launch_file_path": file,
-                "current_launch_file_directory": folder
-                if os.path.exists(file)
-                else self.launch_description_source.location,
-            }
-        )
+        location = self.launch_description_source.location
+        file = Path(location).absolute()
+        # A description that a script made has a location such as <script>.
+        folder = str(file.parent) if file.exists() else location
+        places = {"current_launch_file_path": str(file), "current_launch_file_directory": folder}
+        context.extend_locals(places)
         self.__check_arguments(description, context)
         settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         for setting in settings:

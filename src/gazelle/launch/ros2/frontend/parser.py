@@ -19,7 +19,7 @@ from gazelle.launch.ros2.frontend.parse_substitution import (
     replace_escaped_characters,
 )
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.place import keep_place
+from gazelle.launch.ros2.place import keep_place, written_at
 from gazelle.launch.ros2.substitution import Substitution
 
 if TYPE_CHECKING:
@@ -73,13 +73,11 @@ class Parser:
         """Return the action that an element stands for."""
         self.load_launch_extensions()
         try:
-            action = instantiate_action(entity, self)
+            with written_at(entity.place):
+                return instantiate_action(entity, self)
         except Exception as error:
             keep_place(error, entity.place)
             raise
-        if entity.place is not None:
-            action.place = entity.place
-        return action
 
     def parse_substitution(self, value: str) -> list[Substitution]:
         """Return what a text is made of."""

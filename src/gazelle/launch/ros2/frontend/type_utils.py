@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List
+from typing import Any, List  # noqa: UP035
 
 from gazelle.launch.ros2.frontend.entity import Entity
 from gazelle.launch.ros2.utilities.type_utils import is_typing_list

@@ -15,7 +15,7 @@ _made: dict[str, type[logging.Handler]] = {}
 def with_per_logger_formatting(cls: type[logging.Handler]) -> type[Any]:
     """Return a subclass of a handler with a formatter per logger."""
 
-    def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
+    def initialize(self: Any, *args: Any, **kwargs: Any) -> None:
         cls.__init__(self, *args, **kwargs)
         self._formatters = {}
 
@@ -30,7 +30,7 @@ def with_per_logger_formatting(cls: type[logging.Handler]) -> type[Any]:
         return formatter.format(record) if formatter is not None else cls.format(self, record)
 
     members = {
-        "__init__": __init__,
+        "__init__": initialize,
         "setFormatterFor": set_formatter_for,
         "unsetFormatterFor": unset_formatter_for,
         "format": format_record,

@@ -49,7 +49,9 @@ class PathJoinSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""
-        return os.path.join(*(perform_substitutions(context, one) for one in self.substitutions))
+        parts = [perform_substitutions(context, part) for part in self.substitutions]
+        # Not Path: it would take a trailing slash away.
+        return os.path.join(*parts)  # noqa: PTH118
 
 
 @expose_substitution("find-exec")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import collections.abc
-from typing import TYPE_CHECKING, Any, List, Union
+from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
 import yaml
 
@@ -50,10 +50,10 @@ ListTypesTuple = (List[int], List[float], List[bool], List[str])  # noqa: UP006
 AllowedTypesTuple = ScalarTypesTuple + ListTypesTuple
 ScalarTypesType = Any
 AllowedTypesType = Any
-ScalarValueType = Union[int, float, bool, str]
-ListValueType = Union[list[int], list[float], list[bool], list[str]]
-AllowedValueType = Union[ScalarValueType, ListValueType]
-SomeValueType = Union[SomeSubstitutionsType, AllowedValueType]
+ScalarValueType = int | float | bool | str
+ListValueType = list[int] | list[float] | list[bool] | list[str]
+AllowedValueType = ScalarValueType | ListValueType
+SomeValueType = SomeSubstitutionsType | AllowedValueType
 NormalizedValueType = Any
 StrSomeValueType = Any
 

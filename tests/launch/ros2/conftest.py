@@ -1,0 +1,71 @@
+"""Runs launch descriptions in the test's own process."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gazelle.launch.ros2 import LaunchContext, LaunchDescription, LaunchService, logging
+
+Run = Callable[..., "Ran"]
+
+
+@dataclass(frozen=True)
+class Ran:
+    """A launch that is over.
+
+    Attributes:
+        code: what `LaunchService.run` returned.
+        text: what the terminal showed, standard error apart.
+        context: of the launch.
+    """
+
+    code: int
+    text: str
+    context: LaunchContext
+
+    @property
+    def lines(self) -> list[str]:
+        """What the terminal showed, line by line."""
+        return self.text.splitlines()
+
+
+@pytest.fixture(autouse=True)
+def _own_logs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    for name in list(os.environ):
+        if name.startswith("OVERRIDE_LAUNCH"):
+            monkeypatch.delenv(name)
+    before = dict(os.environ)
+    logging.reset()
+    yield
+    logging.reset()
+    os.environ.clear()
+    os.environ.update(before)
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs entities to their end; ``during`` is called with the service before."""
+
+    def run_entities(*entities: Any, during: Callable[..., Any] | None = None, **given: str) -> Ran:
+        service = LaunchService()
+        service.context.launch_configurations.update(given)
+        service.include_launch_description(LaunchDescription(list(entities)))
+        if during is not None:
+            during(service)
+        code = service.run()
+        return Ran(code, capsys.readouterr().out, service.context)
+
+    return run_entities
+
+
+@pytest.fixture
+def context() -> LaunchContext:
+    """A context without a running launch."""
+    return LaunchContext()
