@@ -8,10 +8,10 @@ import pytest
 from tests.motion.gantry import Gantry, gantry_space
 from tests.motion.plane import Map2D
 
+from gazelle.description.moveit import CartesianLimits
 from gazelle.motion.pilz import (
     Auxiliary,
     AuxiliaryKind,
-    CartesianLimits,
     Command,
     CommandKind,
     PilzPlanner,
@@ -175,8 +175,9 @@ def test_missing_limits_name_the_file_they_belong_to() -> None:
     bare = replace(_PLANNER, cartesian=None)
     text = "LIN needs cartesian_limits (pilz_cartesian_limits.yaml)"
     _fails(ErrorCode.PLANNING_FAILED, text, Command(_LIN, _pose(1.0)), bare)
-    with pytest.raises(ValueError, match="max_rot_vel is 0; cartesian_limits need numbers above"):
-        CartesianLimits(1.0, 1.0, 0.0)
+    still = replace(_PLANNER, cartesian=replace(_LIMITS, max_rot_vel=0.0))
+    text = "max_rot_vel is 0; cartesian_limits need numbers above zero"
+    _fails(ErrorCode.PLANNING_FAILED, text, Command(_LIN, _pose(1.0)), still)
 
 
 def test_lin_that_is_too_fast_for_a_joint_fails() -> None:

@@ -71,7 +71,7 @@ def test_optimising_planners_come_near_the_shortest_path() -> None:
     # Two tangents and the arc between them.
     shortest = 2.0 * math.sqrt(3.0) + (math.pi - 2.0 * math.acos(0.5))
     for planner in ("RRTstar", "PRMstar"):
-        settings = PlannerSettings(max_iterations=800)
+        settings = PlannerSettings(max_iterations=800, simplify=False)
         path = plan(
             space_of(2),
             circle,
@@ -79,7 +79,6 @@ def test_optimising_planners_come_near_the_shortest_path() -> None:
             [goal],
             planner=planner,
             settings=settings,
-            simplify=False,
             time_limit_s=60.0,
         )
         assert shortest <= path.length < 1.06 * shortest
@@ -88,7 +87,7 @@ def test_optimising_planners_come_near_the_shortest_path() -> None:
 def test_shortcuts_shorten_a_path() -> None:
     arm = PlanarArm(((0.7, 0.5, 0.15), (-0.6, 0.6, 0.2)))
     start, goal = np.array([0.0, 0.0, 0.0]), np.array([math.pi, 0.0, 0.0])
-    raw = plan(space_of(3), arm, start, [goal], simplify=False)
+    raw = plan(space_of(3), arm, start, [goal], settings=PlannerSettings(simplify=False))
     short = plan(space_of(3), arm, start, [goal])
     assert short.length < 0.9 * raw.length
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from gazelle.motion.pilz.command import (
     Auxiliary,
     AuxiliaryKind,
-    CartesianLimits,
     Command,
     CommandKind,
 )
@@ -15,7 +14,6 @@ from gazelle.motion.pilz.sequence import plan_sequence
 __all__ = [
     "Auxiliary",
     "AuxiliaryKind",
-    "CartesianLimits",
     "Command",
     "CommandKind",
     "Kinematics",

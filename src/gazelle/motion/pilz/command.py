@@ -5,12 +5,10 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
-import numpy as np
-
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
 from gazelle.motion.space import FloatArray
 
-__all__ = ["Auxiliary", "AuxiliaryKind", "CartesianLimits", "Command", "CommandKind"]
+__all__ = ["Auxiliary", "AuxiliaryKind", "Command", "CommandKind"]
 
 _LEAST_SCALING = 1e-4
 
@@ -41,27 +39,6 @@ class Auxiliary:
 
     kind: AuxiliaryKind
     point_m: FloatArray
-
-
-@dataclass(frozen=True)
-class CartesianLimits:
-    """``cartesian_limits`` of ``pilz_cartesian_limits.yaml``.
-
-    Attributes:
-        max_trans_vel: m/s.
-        max_trans_acc: m/s². Pilz' LIN and CIRC brake with it too; its max_trans_dec has no effect.
-        max_rot_vel: rad/s.
-    """
-
-    max_trans_vel: float
-    max_trans_acc: float
-    max_rot_vel: float
-
-    def __post_init__(self) -> None:
-        for name in ("max_trans_vel", "max_trans_acc", "max_rot_vel"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name} is {value:g}; cartesian_limits need numbers above zero")
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
+from gazelle.description.moveit import CartesianLimits
 from gazelle.motion.constraints.rotation import rotation_vector
 from gazelle.motion.pilz.cartesian import CartesianPath, circle, line
-from gazelle.motion.pilz.command import CartesianLimits, Command, CommandKind
+from gazelle.motion.pilz.command import Command, CommandKind
 from gazelle.motion.pilz.motion import Motion, check_limits, grid, measured, thinned
 from gazelle.motion.pilz.velocity import Trapezoid
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
@@ -54,7 +55,8 @@ class PilzPlanner:
         space: limits of the joints; PTP and LIN need all of velocity and acceleration.
         kinematics: of the group.
         link: what LIN and CIRC move, the group's tip when empty.
-        cartesian: limits of LIN and CIRC; None where the package has none.
+        cartesian: limits of LIN and CIRC; None where the package has none. They brake with
+            max_trans_acc too: max_trans_dec has no effect, as in Pilz.
         deceleration: of the joints, above zero; `space.acceleration` where None, as in Pilz.
         validity: every trajectory that leaves is checked with it.
         sampling_time_s: time between samples, 0.1 in Pilz.
@@ -133,6 +135,7 @@ class PilzPlanner:
         if limits is None:
             reason = f"{command.kind} needs cartesian_limits (pilz_cartesian_limits.yaml)"
             raise PlanningError(ErrorCode.PLANNING_FAILED, reason)
+        _check(limits)
         begin, end = self.kinematics.fk(start, self.link), self._goal_pose(start, command)
         radius = limits.max_trans_vel / limits.max_rot_vel
         if command.kind is CommandKind.LIN:
@@ -207,6 +210,14 @@ class PilzPlanner:
             reason = "goal: " + "; ".join(outside)
             raise PlanningError(ErrorCode.INVALID_GOAL_CONSTRAINTS, reason)
         return q
+
+
+def _check(limits: CartesianLimits) -> None:
+    for name in ("max_trans_vel", "max_trans_acc", "max_rot_vel"):
+        value = getattr(limits, name)
+        if not (np.isfinite(value) and value > 0.0):
+            reason = f"{name} is {value:g}; cartesian_limits need numbers above zero"
+            raise PlanningError(ErrorCode.PLANNING_FAILED, reason)
 
 
 def _unreachable(command: Command) -> str:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from gazelle.motion.planning.configs import PlannerConfig, configured
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
 from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import PLANNERS
@@ -19,8 +20,10 @@ __all__ = [
     "ErrorCode",
     "GoalSource",
     "Path",
+    "PlannerConfig",
     "PlannerSettings",
     "PlanningError",
+    "configured",
     "first_fault",
     "plan",
 ]

@@ -124,9 +124,9 @@ def _state(space: Any, q: FloatArray) -> Any:
 
 def _configure(base: Any, space: Any, planner: Any, problem: Problem) -> None:
     for name, value in problem.settings.native.items():
-        setter, kind = NATIVE_PARAMETERS[name]
+        setter = NATIVE_PARAMETERS[name][0]
         if hasattr(planner, setter):
-            getattr(planner, setter)(kind(value))
+            getattr(planner, setter)(value)
     joints = problem.settings.projection
     if joints and hasattr(planner, "setProjectionEvaluator"):
         extent = problem.space.high - problem.space.low

@@ -13,7 +13,7 @@ from gazelle.motion.planning.problem import Problem, Waypoints
 from gazelle.motion.planning.rrt import rrt, rrt_star
 from gazelle.motion.planning.rrt_connect import rrt_connect
 
-__all__ = ["PLANNERS", "Chosen", "Planner", "bare_name", "choose"]
+__all__ = ["DEFAULT", "PLANNERS", "Chosen", "Planner", "bare_name", "choose"]
 
 Solve = Callable[[Problem], Waypoints | None]
 

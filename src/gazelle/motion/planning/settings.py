@@ -15,23 +15,23 @@ class PlannerSettings:
     Attributes:
         range: longest motion added to a tree, rad or m; 0 lets the planner choose.
         goal_bias: how often RRT and RRT* head for a goal, 0 to 1.
-        delay_collision_checking: RRT* checks the cheapest neighbours first.
         max_nearest_neighbors: neighbours that PRM connects a configuration with.
         step: longest motion between two checks while searching, rad or m.
         max_goal_samples: goals drawn where the goal leaves a choice.
         max_iterations: configurations that an optimising planner draws before it is content.
         minimum_waypoint_count: waypoints that a path has at least.
+        simplify: whether shortcuts are taken.
         native: parameters by name for planners of OMPL.
         projection: joints that KPIECE and its kin look at; OMPL chooses where there are none.
     """
 
     range: float = 0.0
     goal_bias: float = 0.05
-    delay_collision_checking: bool = True
     max_nearest_neighbors: int = 10
     step: float = 0.05
     max_goal_samples: int = 10
     max_iterations: int = 2000
     minimum_waypoint_count: int = 2
-    native: Mapping[str, str] = field(default_factory=dict)
+    simplify: bool = True
+    native: Mapping[str, float] = field(default_factory=dict)
     projection: tuple[int, ...] = ()

@@ -39,7 +39,6 @@ def plan(
     time_limit_s: float = 5.0,
     constraints: Sequence[PathConstraint] = (),
     settings: PlannerSettings | None = None,
-    simplify: bool = True,
 ) -> Path:
     """Return a path from a configuration to one of the goals.
 
@@ -57,7 +56,6 @@ def plan(
         time_limit_s: MoveIt's allowed_planning_time.
         constraints: what must hold all along the path.
         settings: parameters of the planner.
-        simplify: whether shortcuts are taken.
 
     Raises:
         PlanningError: there is no path, with MoveIt's error code and why.
@@ -84,7 +82,7 @@ def plan(
     )
     _find_goals(problem, space, validity, () if callable(goals) else goals)
     chosen = choose(planner, constrained=project is not None)
-    path = _solved(problem, chosen, simplify, began, time_limit_s)
+    path = _solved(problem, chosen, began, time_limit_s)
     if not np.array_equal(actual, inside):
         rows = np.vstack([actual, path.waypoints])
         note = f"the start lies outside the limits ({space.outside(actual)[0]}) and is led back"
@@ -153,9 +151,7 @@ def _find_goals(
         raise PlanningError(code, "; ".join(told) or "there is no goal")
 
 
-def _solved(
-    problem: Problem, chosen: Chosen, simplify: bool, began: float, time_limit_s: float
-) -> Path:
+def _solved(problem: Problem, chosen: Chosen, began: float, time_limit_s: float) -> Path:
     """Search, shorten and check; search again with finer steps where the check finds a fault."""
     fault = ""
     searching = simplifying = checking = 0.0
@@ -167,7 +163,7 @@ def _solved(
             break
         timed_out = problem.is_over()
         mark = time.perf_counter()
-        short = shortcut(problem, raw) if simplify else raw
+        short = shortcut(problem, raw) if problem.settings.simplify else raw
         simplifying += time.perf_counter() - mark
         mark = time.perf_counter()
         for waypoints in [short] if short is raw else [short, raw]:
