@@ -106,10 +106,9 @@ class Launched:
     def graph(self) -> Any:
         """The launch's graph, joined when first asked for."""
         if self._graph is None:
-            from gazelle.graph import Graph
-
-            self.wait_for_line("ROS_MASTER_URI=")
-            self._graph = Graph.open(port=self.port, role="client", environ={})
+            # What roslaunch and ros2 launch say first; only the former has the graph by then.
+            self.wait_for_line("ROS_MASTER_URI=|Default logging verbosity")
+            self._graph = self.eventually(self._joined)
         return self._graph
 
     @property
@@ -227,6 +226,14 @@ class Launched:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         self.popen.wait(_PATIENCE_S)
+
+    def _joined(self) -> Any:
+        from gazelle.graph import Graph, NoGraphError
+
+        try:
+            return Graph.open(port=self.port, role="client", environ={})
+        except NoGraphError:
+            return None
 
     @property
     def _ended(self) -> bool:

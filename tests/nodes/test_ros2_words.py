@@ -40,6 +40,12 @@ def test_parameter_file_counts_for_its_node_only(tmp_path) -> None:
     assert read_arguments(words, "sim").params == {"background_r": 7, "a/b": 3}
 
 
+def test_section_may_begin_anew_within_itself() -> None:
+    words = ["a", "--ros-args", "-p", "x:=1", "--ros-args", "-r", "__node:=n", "--", "b"]
+    found = read_arguments(words, "other")
+    assert (found.name, found.params, found.rest) == ("n", {"x": 1}, ("a", "b"))
+
+
 def test_generation_is_the_environments_without_the_section(monkeypatch) -> None:
     monkeypatch.delenv("ROS_VERSION", raising=False)
     assert read_arguments([], "n").generation == 1

@@ -156,6 +156,14 @@ _NODES = (
         name="ros_gz_sim",
     ),
     BuiltinNode(
+        "ros_gz_sim",
+        "gzserver",
+        "gazelle.nodes.ros_gz.server:run",
+        light=False,
+        help="a world of the new Gazebo",
+        name="gazebo",
+    ),
+    BuiltinNode(
         "ros_gz_bridge",
         "parameter_bridge",
         "gazelle.nodes.ros_gz.parameter_bridge:run",
@@ -172,6 +180,13 @@ _NODES = (
         help="passes images of the new Gazebo on",
         aliases=(("ros_ign_image", "image_bridge"),),
         name="ros_gz_image",
+    ),
+    BuiltinNode(
+        "move_base",
+        "move_base",
+        "gazelle.nodes.move_base.node:run",
+        light=False,
+        help="drives to goals around obstacles",
     ),
     BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"

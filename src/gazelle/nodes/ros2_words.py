@@ -74,6 +74,9 @@ def _section(words: Iterator[str], result: Ros2Words) -> None:
     for word in words:
         if word == "--":
             return
+        if word == "--ros-args":
+            # Launch files begin a section in the one that they were given.
+            continue
         if word in {"-r", "--remap"}:
             result.words.append(_remap(_value(words, word)))
         elif word in {"-p", "--param"}:

@@ -108,6 +108,9 @@ def _parse_section(words: Iterable[str], found: RosArguments) -> None:
     for word in words:
         if word == "--":
             return
+        if word == "--ros-args":
+            # Launch files begin a section in the one that they were given.
+            continue
         if word in ("-r", "--remap"):
             found.remaps.append(_rule(_value(words, word), word))
         elif word in ("-p", "--param"):

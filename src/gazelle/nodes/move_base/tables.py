@@ -223,10 +223,13 @@ SLOW = Table(
     (
         Row("clearing_distance", "number", 0.5, "radius that is cleared", "m", 0, None),
         Row("limited_trans_speed", "number", 0.25, "speed from then on", "m/s", 0, None),
-        Row("limited_rot_speed", "number", 0.45, "turning speed from then on", "rad/s", 0, None),
         Row("limited_distance", "number", 0.3, "how far the robot goes slowly", "m", 0, None),
-        Row("planner_namespace", "text", "DWAPlannerROS", "whose speed is limited"),
-        Row("max_trans_param_name", "text", "max_vel_trans", "name of the speed there"),
-        Row("max_rot_param_name", "text", "max_vel_theta", "name of the turning speed there"),
+        *refused(
+            "the speed is limited in the local planner directly, whichever it is",
+            "planner_namespace",
+            "max_trans_param_name",
+            "max_rot_param_name",
+        ),
+        *refused("turns keep their speed", "limited_rot_speed"),
     ),
 )

@@ -143,8 +143,9 @@ class Settings:
             options: the class, see `table_of`.
             **others: values of fields that take the place of what was given.
         """
-        values = {row.key: self.value(row) for row in self.table.rows if row.kind in _READ}
-        named = {_field(options, key): value for key, value in values.items()}
+        own = _fields(options)
+        rows = [row for row in self.table.rows if row.kind in _READ and row.key in own]
+        named = {own[row.key]: self.value(row) for row in rows}
         return options(**{**named, **others})
 
     def value(self, row: Row) -> Any:
@@ -216,12 +217,9 @@ class Settings:
         return used
 
 
-def _field(options: type, key: str) -> str:
-    """Return the field that has a parameter's name, or says so in its metadata."""
-    for item in fields(options):
-        if (item.metadata.get("key") or item.name) == key:
-            return item.name
-    raise KeyError(key)
+def _fields(options: type) -> dict[str, str]:
+    """Return fields by the parameters that they are."""
+    return {item.metadata.get("key") or item.name: item.name for item in fields(options)}
 
 
 def _number(value: Any) -> float | None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.launch.environment import command_folder
 from gazelle.launch.executables import Executable, find_executable, script_command
+from gazelle.launch.ros2.faults import with_diagnostic
 from gazelle.launch.ros2.substitutions import SubstitutionFailure
 from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
 
@@ -77,10 +78,11 @@ def node_command(
     if missing.code == _COMPILED:
         context.tell(missing)
         return None
-    text = f"{missing.message}; {missing.fix}" if missing.fix else missing.message
     if missing.code == _NO_PACKAGE:
-        raise PackageNotFoundError(text)
-    raise SubstitutionFailure(text)
+        error: Exception = PackageNotFoundError(f"package '{package}' not found")
+    else:
+        error = SubstitutionFailure(f"executable '{executable}' not found in package '{package}'")
+    raise with_diagnostic(error, missing.code, missing.message, missing.span, fix=missing.fix)
 
 
 def wrapper_script(command: NodeCommand) -> Path:

@@ -1,0 +1,313 @@
+"""``move_base``: drives to goals, as ROS 1's node of this name.
+
+Source of names, defaults and order: ``move_base`` of the navigation stack (noetic).
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.navigation.planners import NoPlan
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.move_base.driving import Driver
+from gazelle.nodes.move_base.executive import Executive, Outcome, PlanPose, State, Timing
+from gazelle.nodes.move_base.local import LocalPlanner
+from gazelle.nodes.move_base.planner import GlobalPlanner
+from gazelle.nodes.move_base.recoveries import make_behaviours
+from gazelle.nodes.move_base.services import Services
+from gazelle.nodes.move_base.tables import MOVE_BASE
+from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.frames import Frames, PlanePose, fill_pose, plane_of, set_stamp
+from gazelle.nodes.navigation.frames import pose_of_message as pose_of
+from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.publishing import CostmapPublisher
+from gazelle.nodes.navigation.reconfigure import offer
+from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.parameters import start_node, ticks
+
+__all__ = ["MoveBase", "run"]
+
+_NANO = 1_000_000_000
+_PLANNER_REST_S = 0.05
+_COSTMAPS = ("global_costmap", "local_costmap")
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Drive to goals until told to stop."""
+    node = start_node(arguments, graph)
+    diagnostics = Diagnostics()
+    tree = nested(node.parameters.get(node.name, {}) or {})
+    tree.update(nested(arguments.params))
+    base = MoveBase(node, tree, diagnostics)
+    for item in diagnostics:
+        node.log({10: "info", 20: "warn"}.get(int(item.severity), "error"), str(item))
+    arguments.ready()
+    try:
+        base.run(stop)
+    finally:
+        base.close()
+        node.shutdown()
+    return 0
+
+
+class MoveBase:
+    """The node: costmaps, planners, goals, and what they do together.
+
+    Attributes:
+        node: on the graph.
+        costmaps: by name, ``global_costmap`` and ``local_costmap``.
+        goals: of the action ``move_base``.
+    """
+
+    def __init__(self, node: Node, tree: Mapping[str, Any], diagnostics: Diagnostics) -> None:
+        """Bring everything up; what is wrong with the parameters is reported."""
+        self.node = node
+        self.settings = Settings(MOVE_BASE, tree, node.name, diagnostics)
+        self.frames = Frames(node)
+        self.costmaps = {
+            name: self._costmap(name, tree, diagnostics) for name in reversed(_COSTMAPS)
+        }
+        number, text = self.settings.number, self.settings.text
+        self._period_s = 1.0 / number("controller_frequency")
+        self.planner = GlobalPlanner(
+            node, self.whole, text("base_global_planner"), tree, diagnostics
+        )
+        self.local = LocalPlanner(
+            node, self.near, text("base_local_planner"), tree, self._period_s, diagnostics
+        )
+        self.goals = SingleGoal(node, "move_base", "move_base_msgs/MoveBase")
+        self.driver = Driver(node, self.near, self.whole, self.local, self.goals)
+        self.driver.behaviours = self._behaviours(tree, diagnostics)
+        self.executive = Executive(self.driver, self._timing())
+        self._goal: PlanePose | None = None
+        self._goal_message: Any = None
+        self._wake = threading.Condition()
+        self._closed = False
+        kind = message_type("geometry_msgs/msg/PoseStamped")
+        self._goal_out = node.create_publisher("~/current_goal", kind, queue_size=1)
+        node.create_subscription("move_base_simple/goal", kind, self._on_simple_goal, queue_size=1)
+        self.services = Services(node, self.planner, self.costmaps, self.goals, self.settings)
+        self._report_rest(tree)
+        self._offer_changes()
+
+    @property
+    def whole(self) -> LiveCostmap:
+        """The global costmap."""
+        return self.costmaps["global_costmap"]
+
+    @property
+    def near(self) -> LiveCostmap:
+        """The local costmap."""
+        return self.costmaps["local_costmap"]
+
+    def run(self, stop: threading.Event) -> None:
+        """Work on goals until told to stop."""
+        self.driver.stopping = stop
+        for costmap in self.costmaps.values():
+            costmap.start()
+        thread = threading.Thread(target=self._plan_on, args=(stop,), name="planner", daemon=True)
+        thread.start()
+        while not stop.is_set() and not self.node.closed:
+            for _now_ns in ticks(self.node, int(self._period_s * _NANO), stop):
+                period_s = self._period_s
+                self._cycle()
+                if self.node.closed or self._period_s != period_s:
+                    break
+            else:
+                break
+        self.driver.stop()
+
+    def close(self) -> None:
+        """Take everything off the graph."""
+        self._closed = True
+        with self._wake:
+            self._wake.notify_all()
+        self.goals.close()
+        for costmap in self.costmaps.values():
+            costmap.close()
+
+    def _cycle(self) -> None:
+        """One round of the control loop."""
+        if self.goals.is_cancelled and not self.goals.has_new:
+            self.executive.end()
+            self.goals.cancel()
+            self._goal = None
+            return
+        if self.goals.has_new:
+            self._begin()
+        if self.goals.current is None or self._goal is None:
+            return
+        pose = self.whole.pose()
+        if pose is None:
+            self.driver.stop()
+            return
+        self.driver.watch_distance(pose)
+        self._feedback(pose)
+        end = self.executive.cycle(PlanPose(*pose))
+        with self._wake:
+            self._wake.notify_all()
+        if end is None:
+            return
+        self._goal = None
+        self.driver.rest(self.settings.flag("shutdown_costmaps"))
+        if end.outcome is Outcome.SUCCEEDED:
+            self.goals.succeed(text=end.text)
+        else:
+            self.node.log("error", f"Aborting because {_lowered(end.text)}")
+            self.goals.abort(text=end.text)
+
+    def _begin(self) -> None:
+        """Take the newest goal, in the global costmap's frame."""
+        goal = self.goals.take()
+        if goal is None:
+            return
+        target = goal.request.target_pose
+        why = _problem(target.pose.orientation)
+        found: Any = why or self.frames.message_in(target, self.whole.global_frame)
+        if isinstance(found, str):
+            self._goal = None
+            self.executive.end()
+            self.node.log("error", found)
+            if why:
+                found = f"Aborting on goal because it was sent with an invalid quaternion: {why}"
+            self.goals.abort(text=found)
+            return
+        self.driver.rest(False)
+        self._goal = plane_of(pose_of(found.pose))
+        self._goal_message = found
+        self.local.reset()
+        self.executive.begin()
+        self._goal_out.publish(found)
+
+    def _feedback(self, pose: PlanePose) -> None:
+        goal = self.goals.current
+        if goal is not None and goal.is_feedback_wanted:
+            feedback = message_type("move_base_msgs/msg/MoveBaseFeedback")()
+            set_stamp(feedback.base_position, self.node.clock.now_ns(), self.whole.global_frame)
+            fill_pose(feedback.base_position.pose, pose)
+            goal.publish_feedback(feedback)
+
+    def _plan_on(self, stop: threading.Event) -> None:
+        """Plan whenever a plan is wanted; runs in the planner's thread."""
+        for _ in self._wanted_plans(stop):
+            goal = self._goal
+            pose = self.whole.pose()
+            if goal is None or pose is None:
+                continue
+            found = self.planner.plan(pose, goal)
+            if self._goal is not goal:
+                continue
+            if isinstance(found, NoPlan):
+                if self.executive.state is State.PLANNING:
+                    self.frames.say("warn", found.reason)
+                self.executive.planned(None, found.reason)
+            else:
+                self.executive.planned([PlanPose(*map(float, row)) for row in found.poses])
+
+    def _wanted_plans(self, stop: threading.Event) -> Iterator[None]:
+        while not stop.is_set() and not self._closed:
+            with self._wake:
+                self._wake.wait_for(lambda: self.executive.wants_plan or self._closed, 0.2)
+            if not self.executive.wants_plan or self._closed:
+                continue
+            frequency = self.executive.timing.planner_frequency_hz
+            rest_s = 1.0 / frequency if frequency > 0 else _PLANNER_REST_S
+            until_ns = self.node.clock.now_ns() + int(rest_s * _NANO)
+            yield
+            self.driver.sleep_until(until_ns)
+
+    def _on_simple_goal(self, message: Any) -> None:
+        self.goals.submit({"target_pose": message})
+
+    def _costmap(self, name: str, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:
+        below = tree.get(name)
+        own: dict[str, Any] = dict(below) if isinstance(below, Mapping) else {}
+        if not own:
+            text = f"{self.node.name}: there are no parameters '{name}'; defaults are used"
+            diagnostics.report("navigation.bad-value", text, fix=f"load a YAML with ns={name!r}")
+        if name == "local_costmap":
+            own.setdefault("global_frame", "odom")
+        made = assemble(own, f"{self.node.name}/{name}", diagnostics, above=tree)
+        frame = made.costmap.options.global_frame.removeprefix("/")
+        publisher = CostmapPublisher(self.node, f"~/{name}", frame)
+        return LiveCostmap(self.node, self.frames, made, publisher)
+
+    def _behaviours(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> Any:
+        return make_behaviours(
+            tree,
+            self.node.name,
+            self.driver.surroundings(),
+            diagnostics,
+            clearing_rotation=self.settings.flag("clearing_rotation_allowed"),
+            conservative_m=self.settings.number("conservative_reset_dist"),
+            aggressive_m=4 * self.near.footprint.circumscribed_m,
+        )
+
+    def _timing(self) -> Timing:
+        number, flag = self.settings.number, self.settings.flag
+        return Timing(
+            number("planner_frequency"),
+            number("planner_patience"),
+            number("controller_patience"),
+            self.settings.integer("max_planning_retries"),
+            number("oscillation_timeout"),
+            number("oscillation_distance"),
+            flag("recovery_behavior_enabled"),
+        )
+
+    def _report_rest(self, tree: Mapping[str, Any]) -> None:
+        """Tell about namespaces that nobody reads."""
+        names = {self.planner.name, self.local.name, *_COSTMAPS}
+        names |= {behaviour.name for behaviour in self.driver.behaviours}
+        idle = [key for key, value in tree.items() if isinstance(value, Mapping)]
+        idle = [key for key in idle if key not in names and key != "TrajectoryPlannerROS"]
+        for key in idle:
+            text = f"the parameters '{key}' are read by nobody: the planners are "
+            text += f"{self.planner.name} and {self.local.name}"
+            self.settings.report("navigation.idle-parameter", text)
+        self.settings.report_unknown(*names, *idle, "TrajectoryPlannerROS", "recovery_behaviors")
+
+    def _offer_changes(self) -> None:
+        """Offer what dynamic_reconfigure may change."""
+        offer(self.node, self.node.name, self.settings, self._change)
+        offer(self.node, f"{self.node.name}/{self.local.name}", self.local.settings,
+              self.local.change)  # fmt: skip
+        for name, costmap in self.costmaps.items():
+            below = f"{self.node.name}/{name}"
+            offer(self.node, below, costmap.assembly.settings, costmap.change)
+            for layer, settings in costmap.assembly.layers.items():
+                offer(self.node, f"{below}/{layer}", settings, costmap.layer_changer(layer))
+
+    def _change(self, values: dict[str, Any]) -> None:
+        self.settings.tree.update(values)
+        self.executive.timing = self._timing()
+        self._period_s = 1.0 / self.settings.number("controller_frequency")
+        self.driver.behaviours = self._behaviours(self.settings.tree, Diagnostics())
+
+
+def _problem(quaternion: Any) -> str:
+    """Return what is wrong with a goal's direction, in move_base's words."""
+    x, y, z, w = (float(getattr(quaternion, axis)) for axis in "xyzw")
+    if not all(map(math.isfinite, (x, y, z, w))):
+        return "Quaternion has nans or infs... discarding as a navigation goal"
+    square = x * x + y * y + z * z + w * w
+    if square < 1e-6:
+        return "Quaternion has length close to zero... discarding as navigation goal"
+    upright = 1 - 2 * (x * x + y * y) / square
+    if abs(upright - 1) > 1e-3:
+        return (
+            "Quaternion is invalid... for navigation the z-axis of the quaternion must be close to "
+            "vertical."
+        )
+    return ""
+
+
+def _lowered(text: str) -> str:
+    return text[:1].lower() + text[1:]

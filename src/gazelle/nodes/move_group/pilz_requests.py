@@ -1,0 +1,134 @@
+"""PTP, LIN and CIRC requests of the ``pilz_industrial_motion_planner`` pipeline."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.description.moveit import MoveItConfig
+from gazelle.diagnostics import did_you_mean
+from gazelle.motion.constraints import OrientationConstraint, PositionConstraint
+from gazelle.motion.pilz import (
+    Auxiliary,
+    AuxiliaryKind,
+    Command,
+    CommandKind,
+    PilzPlanner,
+    plan_sequence,
+)
+from gazelle.motion.space import FloatArray
+from gazelle.motion.timing import Trajectory
+from gazelle.nodes.move_group.constraint_messages import pose_of
+from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.goals import Goal
+from gazelle.nodes.move_group.pipelines import PlannerChoice
+from gazelle.nodes.move_group.problem import GroupProblem
+
+__all__ = ["pilz_sequence", "plan_with_pilz"]
+
+
+def plan_with_pilz(
+    config: MoveItConfig, problem: GroupProblem, choice: PlannerChoice, request: Any
+) -> Trajectory:
+    """Plan one request.
+
+    Raises:
+        MoveGroupError, PlanningError: there is no such motion.
+    """
+    command, link = _command(problem, choice.planner, request)
+    return _planner(config, problem, link).plan(problem.start_q, command)
+
+
+def pilz_sequence(
+    config: MoveItConfig,
+    problem: GroupProblem,
+    planners: Sequence[str],
+    requests: Sequence[Any],
+    radii_m: Sequence[float],
+) -> Trajectory:
+    """Plan requests that run into each other.
+
+    Args:
+        config: limits of the tip.
+        problem: where the first one starts.
+        planners: PTP, LIN or CIRC for each.
+        requests: all of one group.
+        radii_m: how early each may be left for the next.
+
+    Raises:
+        MoveGroupError, PlanningError: there is no such motion.
+    """
+    commands, link = [], ""
+    for planner, request, radius_m in zip(planners, requests, radii_m, strict=True):
+        command, own_link = _command(problem, planner, request, radius_m)
+        commands.append(command)
+        link = link or own_link
+    return plan_sequence(_planner(config, problem, link), problem.start_q, commands)
+
+
+def _planner(config: MoveItConfig, problem: GroupProblem, link: str) -> PilzPlanner:
+    return PilzPlanner(
+        problem.group.space,
+        problem.solver,
+        link=link,
+        cartesian=config.cartesian_limits,
+        validity=problem.checker,
+    )
+
+
+def _command(
+    problem: GroupProblem, planner: str, request: Any, radius_m: float = 0.0
+) -> tuple[Command, str]:
+    """Return the command and the link that its goal is for, empty for joints."""
+    names = [kind.value for kind in CommandKind]
+    if planner.upper() not in names:
+        text = f"Pilz has no planner '{planner}'; {did_you_mean(planner, names)}"
+        raise MoveGroupError(ErrorCode.PLANNING_FAILED, text)
+    kind = CommandKind(planner.upper())
+    goal, link = _goal(problem, request)
+    command = Command(
+        kind,
+        goal,
+        _auxiliary(problem, request) if kind is CommandKind.CIRC else None,
+        float(request.max_velocity_scaling_factor) or 1.0,
+        float(request.max_acceleration_scaling_factor) or 1.0,
+        radius_m,
+    )
+    return command, link
+
+
+def _goal(problem: GroupProblem, request: Any) -> tuple[FloatArray, str]:
+    if len(request.goal_constraints) != 1:
+        text = f"Pilz takes exactly one goal, the request has {len(request.goal_constraints)}"
+        raise MoveGroupError(ErrorCode.INVALID_GOAL_CONSTRAINTS, text)
+    size = problem.group.space.size
+    goal = Goal(problem.constraints(request.goal_constraints[0]), size)
+    if goal.is_exact:
+        return goal.centre, ""
+    places = [one for one in goal.constraints if isinstance(one, PositionConstraint)]
+    turns = [one for one in goal.constraints if isinstance(one, OrientationConstraint)]
+    if len(places) != 1 or len(turns) != 1 or places[0].link != turns[0].link:
+        text = "Pilz takes a position of every joint, or a position and an orientation of one link"
+        raise MoveGroupError(ErrorCode.INVALID_GOAL_CONSTRAINTS, text)
+    target = np.eye(4)
+    target[:3, :3] = turns[0].orientation
+    point = places[0].regions[0].pose[:3, 3]
+    target[:3, 3] = point - target[:3, :3] @ np.array(places[0].offset_m)
+    return target, places[0].link
+
+
+def _auxiliary(problem: GroupProblem, request: Any) -> Auxiliary | None:
+    """Return the point of a CIRC request; without it Pilz refuses the command itself."""
+    along = request.path_constraints
+    kinds = {kind.value: kind for kind in AuxiliaryKind}
+    if along.name not in kinds or not len(along.position_constraints):
+        return None
+    place = along.position_constraints[0]
+    poses = place.constraint_region.primitive_poses
+    if not len(poses):
+        return None
+    T_frame = problem.T_planning_frame(place.header.frame_id)
+    point = (T_frame @ pose_of(poses[0]).matrix())[:3, 3]
+    return Auxiliary(kinds[along.name], point)

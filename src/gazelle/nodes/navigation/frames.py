@@ -1,0 +1,165 @@
+"""Poses in the plane, from tf and from messages."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gazelle.geometry import Pose
+from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
+from gazelle.interfaces import message_type
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node
+
+__all__ = [
+    "Frames",
+    "PlanePose",
+    "RobotPose",
+    "fill_pose",
+    "path_message",
+    "plane_of",
+    "pose_of_message",
+    "set_stamp",
+    "stamp_ns_of",
+]
+
+PlanePose = tuple[float, float, float]
+"""x (m), y (m), yaw (rad)."""
+
+_NANO = 1_000_000_000
+_SILENCE_NS = 5 * _NANO
+
+
+class RobotPose(NamedTuple):
+    """Where the robot is.
+
+    Attributes:
+        pose: x, y (m) and yaw (rad).
+        stamp_ns: time of the transform.
+    """
+
+    pose: PlanePose
+    stamp_ns: int
+
+
+class Frames:
+    """tf as one node sees it.
+
+    Attributes:
+        buffer: the transforms.
+    """
+
+    def __init__(self, node: Node) -> None:
+        """Start to listen."""
+        self.buffer = TransformBuffer(on_warning=lambda text: node.log("warn", text))
+        self._listener = TransformListener(self.buffer, node)
+        self._node = node
+        self._said: dict[str, int] = {}
+        self._lock = threading.Lock()
+
+    def robot(self, global_frame: str, base_frame: str, tolerance_s: float) -> RobotPose | str:
+        """Return the robot's newest pose, or why it is not known."""
+        try:
+            found = self.buffer.lookup_transform(global_frame, base_frame)
+        except TransformError as error:
+            return f"no transform from {base_frame} to {global_frame}: {error}"
+        now_ns = self._node.clock.now_ns()
+        late_s = (now_ns - found.stamp_ns) / _NANO
+        if tolerance_s > 0 and found.stamp_ns and late_s > tolerance_s:
+            return (
+                f"the transform from {base_frame} to {global_frame} is {late_s:.3f} s old, "
+                f"transform_tolerance is {tolerance_s:g} s"
+            )
+        return RobotPose(plane_of(found.pose), found.stamp_ns)
+
+    def between(self, target: str, source: str, stamp_ns: int = 0) -> Pose | str:
+        """Return ``T_target_source`` at a time, or why it is not known."""
+        try:
+            return self.buffer.lookup_transform(target, source, stamp_ns).pose
+        except TransformError as error:
+            return str(error)
+
+    def message_in(self, pose: Any, frame: str) -> Any:
+        """Return a ``PoseStamped`` in another frame by the newest transform, or why it cannot be.
+
+        An empty frame in the message means `frame`.
+        """
+        source = str(pose.header.frame_id).removeprefix("/")
+        made = type(pose)()
+        made.header.stamp, made.header.frame_id = pose.header.stamp, frame
+        if source in ("", frame):
+            made.pose = pose.pose
+            return made
+        transform = self.between(frame, source)
+        if isinstance(transform, str):
+            return transform
+        at = transform @ pose_of_message(pose.pose)
+        fill_pose(made.pose, at)
+        return made
+
+    def say(self, level: str, text: str, key: str = "") -> None:
+        """Log something, the same thing at most every five seconds."""
+        now_ns = self._node.clock.now_ns()
+        with self._lock:
+            last_ns = self._said.get(key or text)
+            if last_ns is not None and 0 <= now_ns - last_ns < _SILENCE_NS:
+                return
+            self._said[key or text] = now_ns
+        self._node.log(level, text)
+
+
+def plane_of(pose: Pose) -> PlanePose:
+    """Return a pose seen from above."""
+    x, y, z, w = pose.quat_xyzw
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return float(pose.position_m[0]), float(pose.position_m[1]), yaw
+
+
+def pose_of_message(message: Any) -> Pose:
+    """Return a ``geometry_msgs/Pose``; a quaternion of 0 means no rotation."""
+    p, q = message.position, message.orientation
+    quat = (float(q.x), float(q.y), float(q.z), float(q.w))
+    norm = math.sqrt(sum(value * value for value in quat))
+    if norm > 0 and math.isfinite(norm):
+        turn = (quat[0] / norm, quat[1] / norm, quat[2] / norm, quat[3] / norm)
+    else:
+        turn = (0.0, 0.0, 0.0, 1.0)
+    return Pose((float(p.x), float(p.y), float(p.z)), turn)
+
+
+def fill_pose(message: Any, pose: Pose | PlanePose) -> None:
+    """Write a pose into a ``geometry_msgs/Pose``."""
+    if not isinstance(pose, Pose):
+        x, y, yaw = map(float, pose)
+        pose = Pose((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+    p, q = message.position, message.orientation
+    p.x, p.y, p.z = pose.position_m
+    q.x, q.y, q.z, q.w = pose.quat_xyzw
+
+
+def stamp_ns_of(message: Any) -> int:
+    """Return the stamp of a message with a header."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * _NANO + int(stamp.nanosec)
+
+
+def set_stamp(message: Any, now_ns: int, frame_id: str) -> None:
+    """Write a message's header."""
+    message.header.frame_id = frame_id
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(now_ns, _NANO)
+
+
+def path_message(poses: Any, frame_id: str, now_ns: int) -> Any:
+    """Return rows of x, y, yaw as a ``nav_msgs/Path``."""
+    stamped: Any = message_type("geometry_msgs/msg/PoseStamped")
+    path: Any = message_type("nav_msgs/msg/Path")()
+    set_stamp(path, now_ns, frame_id)
+    for x, y, yaw in poses:
+        one = stamped()
+        set_stamp(one, now_ns, frame_id)
+        one.pose.position.x, one.pose.position.y = float(x), float(y)
+        one.pose.orientation.z, one.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+        path.poses.append(one)
+    return path

@@ -1,0 +1,352 @@
+"""A costmap that lives in a node: it listens to maps and sensors and follows the robot."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.geometry import Pose
+from gazelle.mapping.grids import OccupancyGrid
+from gazelle.navigation.costmap import CostGrid, Footprint, SourceOptions, StaticLayer, Window
+from gazelle.nodes.navigation.assembling import Assembly
+from gazelle.nodes.navigation.frames import Frames, PlanePose, plane_of, stamp_ns_of
+from gazelle.nodes.navigation.publishing import CostmapPublisher
+from gazelle.nodes.navigation.sensing import MESSAGE_TYPES, observation_of
+from gazelle.nodes.parameters import ticks
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node, Subscription
+
+__all__ = ["LiveCostmap"]
+
+_WAITING = 20
+_NANO = 1_000_000_000
+
+
+class LiveCostmap:
+    """Layers with their topics, updated by a thread of their own.
+
+    Attributes:
+        assembly: layers and parameters.
+        frames: tf.
+        lock: held while costs change; hold it to read them for longer than a moment.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        frames: Frames,
+        assembly: Assembly,
+        publisher: CostmapPublisher,
+    ) -> None:
+        """Listen; nothing is updated before `start` or `update`."""
+        self.assembly = assembly
+        self.frames = frames
+        self.lock = threading.RLock()
+        self.rests = False
+        self._node = node
+        self._publisher = publisher
+        self._waiting: dict[tuple[str, str], deque[Any]] = {}
+        self._map_frame = ""
+        self._subscriptions: list[Subscription] = []
+        self._updated_ns: int | None = None
+        self._changed: Window | None = None
+        self._published_ns: int | None = None
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._listen()
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+        return self.assembly.settings.name
+
+    @property
+    def global_frame(self) -> str:
+        """Frame of the costs."""
+        return self.assembly.costmap.options.global_frame.removeprefix("/")
+
+    @property
+    def base_frame(self) -> str:
+        """Frame of the robot."""
+        return self.assembly.costmap.options.robot_base_frame.removeprefix("/")
+
+    @property
+    def grid(self) -> CostGrid:
+        """The costs as they are; hold `lock`."""
+        return self.assembly.costmap.grid
+
+    @property
+    def footprint(self) -> Footprint:
+        """The robot's outline, padded."""
+        return self.assembly.costmap.footprint
+
+    def snapshot(self) -> CostGrid:
+        """Return a copy of the costs."""
+        with self.lock:
+            grid = self.grid
+            return CostGrid(grid.costs.copy(), grid.resolution_m, grid.origin)
+
+    def pose(self) -> PlanePose | None:
+        """Return where the robot is in the costmap's frame; why not is said."""
+        tolerance = self.assembly.costmap.options.transform_tolerance
+        found = self.frames.robot(self.global_frame, self.base_frame, tolerance)
+        if isinstance(found, str):
+            self.frames.say("warn", f"{self.name}: {found}", key=f"{self.name} pose")
+            return None
+        return found.pose
+
+    def stale(self) -> list[str]:
+        """Return what keeps the costmap from being current, in words."""
+        now_ns = self._node.clock.now_ns()
+        with self.lock:
+            found = self.assembly.costmap.stale(now_ns)
+        if self._updated_ns is None:
+            found.append("it was not updated yet")
+        return found
+
+    @property
+    def is_ready(self) -> bool:
+        """True once it was updated with everything that its layers need."""
+        return self._updated_ns is not None
+
+    def start(self) -> None:
+        """Update at the costmap's rate from now on."""
+        if self._thread is None:
+            self._stop.clear()
+            self._thread = threading.Thread(target=self._run, name=self.name, daemon=True)
+            self._thread.start()
+
+    def close(self) -> None:
+        """Stop updating and listening."""
+        self._stop.set()
+        self._thread = None
+        for one in self._subscriptions:
+            one.unregister()
+        self._subscriptions.clear()
+        self._publisher.close()
+
+    def update(self) -> bool:
+        """Take in what was seen; False while the robot's pose or the map is missing."""
+        pose = self.pose()
+        if pose is None:
+            return False
+        T_map_global = self._map_to_global()
+        if T_map_global is None:
+            return False
+        now_ns = self._node.clock.now_ns()
+        with self.lock:
+            self._take_waiting(now_ns)
+            before = self.grid
+            window = self.assembly.costmap.update(pose, now_ns, T_map_global)
+            if window is not None:
+                whole = self.grid.whole if self.grid is not before else window
+                self._changed = whole if self._changed is None else self._changed.union(whole)
+        self._updated_ns = now_ns
+        self._publish(pose, now_ns)
+        return True
+
+    def clear_around(
+        self,
+        size_m: float,
+        *,
+        layers: tuple[str, ...] | None = None,
+        inside: bool = False,
+        centre: PlanePose | None = None,
+    ) -> bool:
+        """Forget obstacles outside (or inside) of a square around the robot."""
+        pose = centre or self.pose()
+        if pose is None:
+            return False
+        with self.lock:
+            self.assembly.costmap.clear(layers, pose, size_m, inside=inside)
+        return True
+
+    def reset(self) -> None:
+        """Forget what sensors saw."""
+        with self.lock:
+            self.assembly.costmap.reset()
+            for held in self._waiting.values():
+                held.clear()
+
+    def set_footprint(self, footprint: Footprint) -> None:
+        """Give the robot another outline; padding is added."""
+        padding = self.assembly.costmap.options.footprint_padding
+        with self.lock:
+            self.assembly.base_footprint = footprint
+            self.assembly.costmap.footprint = footprint.padded(padding)
+
+    def _run(self) -> None:
+        while not self._stop.is_set() and not self._node.closed:
+            rate = max(self.assembly.costmap.options.update_frequency, 0.1)
+            for _now_ns in ticks(self._node, int(_NANO / rate), self._stop):
+                if not self.rests:
+                    self.update()
+                if self.assembly.costmap.options.update_frequency != rate:
+                    break
+            else:
+                return
+
+    def _listen(self) -> None:
+        for (owner, name), source in self.assembly.sources.items():
+            kind = MESSAGE_TYPES.get(source.data_type)
+            if kind is None:
+                known = ", ".join(MESSAGE_TYPES)
+                text = (
+                    f"{self.name}/{owner}/{name}: data_type '{source.data_type}' is none of {known}"
+                )
+                self._node.log("error", f"{text}; the sensor is left out")
+                continue
+            self._waiting[owner, name] = deque(maxlen=_WAITING)
+            self._subscribe(source.topic, kind, self._keeper((owner, name)))
+        for layer in self.assembly.costmap.layers:
+            if isinstance(layer, StaticLayer):
+                topic = layer.options.map_topic or "map"
+                self._subscribe(topic, "nav_msgs/msg/OccupancyGrid", self._on_map)
+                if layer.options.subscribe_to_updates:
+                    kind = "map_msgs/msg/OccupancyGridUpdate"
+                    self._subscribe(f"{topic}_updates", kind, self._on_map_update)
+
+    def _subscribe(self, topic: str, kind: str, callback: Callable[[Any], None]) -> None:
+        made = self._node.create_subscription(topic, kind, callback, queue_size=_WAITING)
+        self._subscriptions.append(made)
+
+    def _keeper(self, key: tuple[str, str]) -> Callable[[Any], None]:
+        return self._waiting[key].append
+
+    def _on_map(self, message: Any) -> None:
+        info = message.info
+        cells = np.asarray(message.data, np.int8)
+        if cells.size != info.width * info.height or not cells.size:
+            text = f"a map of {info.width} × {info.height} cells has {cells.size}; it is left out"
+            self._node.log("error", f"{self.name}: {text}")
+            return
+        yaw = plane_of(_pose_of(info.origin))[2]
+        origin = (float(info.origin.position.x), float(info.origin.position.y), 0.0)
+        if abs(yaw) > 1e-6:
+            text = f"the map's origin is turned by {yaw:.3f} rad; costmaps ignore that, as ROS's do"
+            self._node.log("warn", f"{self.name}: {text}")
+        try:
+            grid = OccupancyGrid(
+                cells.reshape(int(info.height), int(info.width)), float(info.resolution), origin
+            )
+        except ValueError as error:
+            self._node.log("error", f"{self.name}: the map is left out: {error}")
+            return
+        with self.lock:
+            self._map_frame = str(message.header.frame_id).removeprefix("/") or self.global_frame
+            self.assembly.costmap.set_static_map(grid)
+        size = f"{info.width} X {info.height} map at {info.resolution:f} m/pix"
+        self._node.log("info", f"{self.name}: Received a {size}")
+
+    def _on_map_update(self, message: Any) -> None:
+        cells = np.asarray(message.data, np.int8).reshape(int(message.height), int(message.width))
+        with self.lock:
+            self.assembly.costmap.update_static_map(int(message.x), int(message.y), cells)
+
+    def _map_to_global(self) -> PlanePose | None:
+        """Return the costmap's frame in the map's; None while it is needed and not known."""
+        statics = [one for one in self.assembly.costmap.layers if isinstance(one, StaticLayer)]
+        if not any(one.options.enabled for one in statics):
+            return (0.0, 0.0, 0.0)
+        if not self._map_frame:
+            topic = statics[0].options.map_topic or "map"
+            text = f"{self.name}: waits for a map on topic {self._node.resolve_name(topic)}"
+            self.frames.say("warn", f"{text}; map_server or SLAM publishes one")
+            return None
+        if self._map_frame == self.global_frame:
+            return (0.0, 0.0, 0.0)
+        found = self.frames.between(self._map_frame, self.global_frame)
+        if isinstance(found, str):
+            self.frames.say("warn", f"{self.name}: the map is in frame {self._map_frame}: {found}")
+            return None
+        return plane_of(found)
+
+    def _take_waiting(self, now_ns: int) -> None:
+        for (layer, name), held in self._waiting.items():
+            source = self.assembly.sources[layer, name]
+            for _ in range(len(held)):
+                message = held.popleft()
+                if not self._take(message, layer, name, source, now_ns):
+                    held.append(message)
+
+    def _take(
+        self, message: Any, layer: str, name: str, source: SourceOptions, now_ns: int
+    ) -> bool:
+        """Give a message to its layer; False to try again when tf knows more."""
+        stamp_ns = stamp_ns_of(message)
+        frame = str(message.header.frame_id).removeprefix("/")
+        found = self.frames.between(self.global_frame, frame, stamp_ns)
+        if isinstance(found, str):
+            tolerance = self.assembly.costmap.options.transform_tolerance
+            if 0 <= now_ns - stamp_ns < int(max(tolerance, 0.1) * _NANO):
+                return False
+            self.frames.say(
+                "warn",
+                f"{self.name}: a {source.data_type} of frame '{frame}' on {source.topic} cannot be "
+                f"used: {found}",
+                key=f"{self.name} {name}",
+            )
+            return True
+        origin: Pose | str | None = None
+        if source.sensor_frame and source.sensor_frame != frame:
+            origin = self.frames.between(self.global_frame, source.sensor_frame, stamp_ns)
+        try:
+            seen = observation_of(
+                message,
+                found,
+                origin=None if isinstance(origin, str) else origin,
+                inf_is_valid=source.inf_is_valid,
+            )
+        except ValueError as error:
+            self.frames.say("error", f"{self.name}: {source.topic}: {error}")
+            return True
+        self.assembly.costmap.observe(name, seen, layer)
+        return True
+
+    def _publish(self, pose: PlanePose, now_ns: int) -> None:
+        frequency = self.assembly.costmap.options.publish_frequency
+        last_ns = self._published_ns
+        if frequency <= 0:
+            return
+        if last_ns is not None and 0 <= now_ns - last_ns < int(_NANO / frequency) - 1_000_000:
+            return
+        self._published_ns = now_ns
+        with self.lock:
+            changed, self._changed = self._changed, None
+            options = self.assembly.costmap.options
+            self._publisher.publish(
+                self.grid, changed, now_ns, always_full=options.always_send_full_costmap
+            )
+            corners = self.footprint.at(pose)
+        self._publisher.publish_footprint(corners, now_ns)
+
+    def change(self, values: dict[str, Any]) -> None:
+        """Take new values of the costmap's own parameters."""
+        with self.lock:
+            options = self.assembly.costmap.options
+            known = {key: value for key, value in values.items() if hasattr(options, key)}
+            self.assembly.costmap.options = replace(options, **known)
+
+    def layer_changer(self, name: str) -> Callable[[dict[str, Any]], None]:
+        """Return what takes new values of a layer's parameters."""
+        return lambda values: self.change_layer(name, values)
+
+    def change_layer(self, name: str, values: dict[str, Any]) -> None:
+        """Take new values of a layer's parameters."""
+        with self.lock:
+            for layer in self.assembly.costmap.layers:
+                if layer.name == name:
+                    known = {k: v for k, v in values.items() if hasattr(layer.options, k)}
+                    layer.options = replace(layer.options, **known)
+
+
+def _pose_of(message: Any) -> Pose:
+    from gazelle.nodes.navigation.frames import pose_of_message
+
+    return pose_of_message(message)
