@@ -94,7 +94,7 @@ def _streams(load: str) -> list[tuple[str, dict[str, Any]]]:
 
 def _read_for(page: ClientConnection, seconds: float) -> tuple[dict[str, int], int]:
     """Acknowledge what comes, return frames by kind and bytes."""
-    names = {2: "tf", 10: "image", 20: "cloud"}
+    names = {2: "tf", 10: "image", 20: "cloud", 29: "cloud"}
     counts: dict[str, int] = {}
     size = 0
     end = time.perf_counter() + seconds

@@ -80,6 +80,18 @@ export function registerFamily(prefix: string, kindOf: (name: string) => PanelKi
   families.set(prefix, kindOf);
 }
 
+const listeners = new Set<() => void>();
+
+/** Calls back when the panels that are known have changed while the page was open. */
+export function onPanelsChanged(listener: () => void): void {
+  listeners.add(listener);
+}
+
+/** Tells everybody who shows the panels. */
+export function panelsChanged(): void {
+  for (const listener of listeners) listener();
+}
+
 /** Takes a kind out of the menu. */
 export function forgetPanel(kind: string): void {
   kinds.delete(kind);

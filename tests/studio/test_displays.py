@@ -191,7 +191,7 @@ def test_points_come_with_pose_and_intensity_colours(page: Page, talk: Talk, mov
     rows = [(1, 2, 3, 10), (4, 5, 6, 20), (math.nan, 0, 0, 99), (7, 8, 9, 15)]
     talk("/cloud", "sensor_msgs/PointCloud2", **_cloud(rows, "intensity"))
     pose, points, colours = _points(stream.next())
-    assert pose.tolist() == [0, 0, 2, 0, 0, 0, 1, 0]
+    assert pose.tolist() == [0, 0, 2, 0, 0, 0, 1, 4]
     assert points.tolist() == [[1, 2, 3], [4, 5, 6], [7, 8, 9]]
     # RViz's rainbow: the least is red, the greatest magenta; NaN points do not count.
     assert colours[0].tolist() == [255, 0, 0, 255]
@@ -224,7 +224,7 @@ def test_points_by_axis_rgb_and_flat(page: Page, talk: Talk, move: Move) -> None
 
 def test_points_are_not_more_than_the_budget(page: Page, talk: Talk, move: Move) -> None:
     move("map", "laser", (0, 0, 0))
-    stream = page.display("PointCloud2", "/big", budget=1000)
+    stream = page.display("PointCloud2", "/big", **{"Point Budget": 1000})
     rows = [(number, 0, 0, number) for number in range(2500)]
     talk("/big", "sensor_msgs/PointCloud2", **_cloud(rows, "intensity"))
     frame = stream.next()

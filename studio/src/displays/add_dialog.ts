@@ -24,19 +24,31 @@ export function askDisplay(graph: GraphStore): Promise<Choice | null> {
       dialog.close();
     };
     const tabs = h('div', { class: 'add-tabs', role: 'tablist' });
-    const show = (byTopic: boolean): void => {
-      list.replaceChildren(...(byTopic ? byTopics(graph) : byTypes()).map((option) => row(option, finish)));
-      if (!list.childElementCount) list.append(h('div', { class: 'notice' }, 'Nobody publishes anything that a display shows.'));
+    let byTopic = false;
+    let shown = '';
+    const fill = (): void => {
+      const options = byTopic ? byTopics(graph) : byTypes();
+      const text = JSON.stringify(options);
+      if (text === shown) return;
+      shown = text;
+      list.replaceChildren(...options.map((option) => row(option, finish)));
+      if (!options.length) list.append(h('div', { class: 'notice' }, 'Nobody publishes anything that a display shows.'));
+    };
+    const show = (topics: boolean): void => {
+      byTopic = topics;
+      fill();
       [...tabs.children].forEach((tab, index) => tab.setAttribute('aria-selected', String(byTopic === (index === 1))));
     };
-    for (const [text, byTopic] of [['By display type', false], ['By topic', true]] as const) {
-      const tab = button(text, () => show(byTopic));
+    for (const [text, topics] of [['By display type', false], ['By topic', true]] as const) {
+      const tab = button(text, () => show(topics));
       tab.setAttribute('role', 'tab');
       tabs.append(tab);
     }
     const dialog = h('dialog', { class: 'dialog add-dialog', 'aria-label': 'Add a display' },
       h('h2', {}, 'Add a display'), tabs, list, h('div', { class: 'dialog-buttons' }, button('Cancel', () => finish(null))));
+    const unwatch = graph.watch(fill);
     dialog.addEventListener('close', () => {
+      unwatch();
       dialog.remove();
       resolve(chosen);
     });

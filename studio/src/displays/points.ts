@@ -6,7 +6,10 @@ import type { DisplayKind, Drawer, Site } from './display';
 import { choice, colour, flag, num, text, type PropertySpec } from './properties';
 
 const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes'] as const;
+const PACKED = 29;
 const POSE_BYTES = 32;
+const CUBE_BYTES = 8;
+const LEVELS = 65535;
 const MOST_FRAMES = 200;
 const SERVER = { server: true };
 
@@ -31,6 +34,7 @@ const COMMON: PropertySpec[] = [
   num('Autocompute Value Bounds/Max Value', 10, 'The upper bound of AxisColor.', SERVER),
   flag('Use Fixed Frame', true, 'AxisColor along the axes of the fixed frame.', SERVER),
   colour('Color', '255; 255; 255', 'The colour of FlatColor.', SERVER),
+  num('Point Budget', 100000, 'Most points of one message that are sent to the page, evenly chosen.', { min: 1, ...SERVER }),
 ];
 
 function kind(name: string, types: string[], about: string, extra: PropertySpec[] = [], sizes = 0.01): DisplayKind {
@@ -70,20 +74,30 @@ class Cloud {
   readonly points: THREE.Points;
   born = 0;
   private capacity = 0;
+  private packed = false;
 
   constructor(material: THREE.Material) {
     this.points = new THREE.Points(new THREE.BufferGeometry(), material);
     this.points.frustumCulled = false;
   }
 
-  take(frame: Frame): void {
+  take(frame: Frame, pose: ArrayLike<number>): void {
     const count = frame.count;
-    if (count > this.capacity) this.grow(count);
+    const packed = frame.kind === PACKED;
+    if (count > this.capacity || packed !== this.packed) this.grow(count, packed);
     const geometry = this.points.geometry;
     const position = geometry.getAttribute('position') as THREE.BufferAttribute;
     const tint = geometry.getAttribute('tint') as THREE.BufferAttribute;
-    (position.array as Float32Array).set(floats(frame, count * 3, POSE_BYTES));
-    (tint.array as Uint8Array).set(new Uint8Array(frame.buffer, frame.offset + POSE_BYTES + count * 12, count * 4));
+    place(this.points, pose);
+    this.points.scale.set(1, 1, 1);
+    const begin = packed ? POSE_BYTES + CUBE_BYTES : POSE_BYTES;
+    if (packed) {
+      this.stretch(frame);
+      (position.array as Uint16Array).set(new Uint16Array(frame.buffer, frame.offset + begin + count * 4, count * 3));
+    } else {
+      (position.array as Float32Array).set(floats(frame, count * 3, begin));
+    }
+    (tint.array as Uint8Array).set(new Uint8Array(frame.buffer, frame.offset + begin + (packed ? 0 : count * 12), count * 4));
     for (const [attribute, used] of [[position, count * 3], [tint, count * 4]] as const) {
       attribute.clearUpdateRanges();
       attribute.addUpdateRange(0, used);
@@ -97,11 +111,20 @@ class Cloud {
     this.points.geometry.dispose();
   }
 
-  private grow(count: number): void {
+  /** Packed positions are levels 0 to 1 of the cloud's cube. */
+  private stretch(frame: Frame): void {
+    const [origin, step] = floats(frame, 2, POSE_BYTES);
+    this.points.position.add(new THREE.Vector3(origin, origin, origin).applyQuaternion(this.points.quaternion));
+    this.points.scale.setScalar(step * LEVELS);
+  }
+
+  private grow(count: number, packed: boolean): void {
+    this.packed = packed;
     this.capacity = Math.ceil(count * 1.25) + 64;
     this.points.geometry.dispose();
     const geometry = new THREE.BufferGeometry();
-    const position = new THREE.BufferAttribute(new Float32Array(this.capacity * 3), 3);
+    const values = packed ? new Uint16Array(this.capacity * 3) : new Float32Array(this.capacity * 3);
+    const position = new THREE.BufferAttribute(values, 3, packed);
     const tint = new THREE.BufferAttribute(new Uint8Array(this.capacity * 4), 4, true);
     geometry.setAttribute('position', position.setUsage(THREE.DynamicDrawUsage));
     geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
@@ -126,18 +149,17 @@ class PointsDrawer implements Drawer {
   }
 
   frame(frame: Frame): void {
-    const pose = floats(frame, 7);
+    const pose = floats(frame, 8);
     const { frames, status, view } = this.site;
     if (Number.isNaN(pose[0])) {
       status('Transform', 'error', `No transform to [${frames.fixed}]`);
       return;
     }
     status('Transform', 'ok', 'Transform OK');
-    status('Points', frame.count ? 'ok' : 'warn', `Showing [${frame.count}] points from [1] messages`);
+    status('Points', frame.count ? 'ok' : 'warn', `Showing [${frame.count}]${pose[7] > frame.count ? ` of [${pose[7]}]` : ''} points from [1] messages`);
     const cloud = this.next();
-    cloud.take(frame);
+    cloud.take(frame, pose);
     cloud.born = performance.now();
-    place(cloud.points, pose);
     view.invalidate();
   }
 

@@ -2,7 +2,7 @@
 
 import type { Connection } from '../connection';
 import { isObject, textOf, type JsonObject } from '../json';
-import { forgetPanel, PANEL_GROUPS, registerFamily, registerPanel, type PanelGroup, type PanelKind } from '../panel';
+import { forgetPanel, PANEL_GROUPS, panelsChanged, registerFamily, registerPanel, type PanelGroup, type PanelKind } from '../panel';
 
 const OWN = 'plugin:';
 const FOREIGN = 'rqt-plugin:';
@@ -12,14 +12,17 @@ export function watchPlugins(connection: Connection): void {
   registerFamily(OWN, (kind) => ownKind(kind, { title: kind.slice(OWN.length).split('.').pop() ?? kind }));
   registerFamily(FOREIGN, (kind) => foreignKind(kind, { title: kind.slice(FOREIGN.length) }));
   let known: string[] = [];
+  let listed = '';
   const refresh = async (): Promise<void> => {
     if (connection.state !== 'open') return;
     const answer = await connection.call('plugin.list').catch(() => null);
-    if (!Array.isArray(answer)) return;
+    if (!Array.isArray(answer) || JSON.stringify(answer) === listed) return;
+    listed = JSON.stringify(answer);
     const kinds = answer.filter(isObject).map(kindOf);
     for (const kind of known) if (!kinds.some((each) => each.kind === kind)) forgetPanel(kind);
     kinds.forEach(registerPanel);
     known = kinds.map((each) => each.kind);
+    panelsChanged();
   };
   connection.onHello(() => void refresh());
   window.addEventListener('focus', () => void refresh());

@@ -1,7 +1,7 @@
 /** The bar at the top: the world's controls, the panels, the layouts, the theme. */
 
 import type { Connection } from '../connection';
-import { allPanels, PANEL_GROUPS } from '../panel';
+import { allPanels, onPanelsChanged, PANEL_GROUPS } from '../panel';
 import { button, h, spacer } from '../widgets/dom';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import type { Dock } from './dock';
@@ -13,9 +13,16 @@ import type { WorldControls } from './world_controls';
 export function buildTopbar(
   root: HTMLElement, connection: Connection, dock: Dock, layouts: Layouts, world: WorldControls, help: () => void,
 ): HTMLButtonElement {
-  const panels = button('Panels', () => openMenu(panels, panelItems(dock), 'Panels', 3), { icon: 'panels', title: 'Open a panel (P)' });
+  const open = (): void => openMenu(panels, panelItems(dock), 'Panels', 3);
+  const panels = button('Panels', open, { icon: 'panels', title: 'Open a panel (P)' });
   const layout = button('Layout', () => void layouts.openMenu(layout), { icon: 'layout', title: 'Save, load and reset layouts' });
   for (const each of [panels, layout]) each.setAttribute('aria-haspopup', 'menu');
+  onPanelsChanged(() => {
+    if (panels.getAttribute('aria-expanded') !== 'true') return;
+    // Once to close it, once to open it with what is new.
+    open();
+    open();
+  });
   const light = h('span', { class: 'light', role: 'img' });
   connection.onState((state) => {
     light.dataset['state'] = state;

@@ -64,6 +64,16 @@ class Newest {
   }
 }
 
+/** Whether somebody types into a field: what comes meanwhile must not take it away. */
+class Typing {
+  on = false;
+
+  constructor(field: HTMLInputElement) {
+    field.addEventListener('input', () => { this.on = true; });
+    for (const end of ['change', 'blur']) field.addEventListener(end, () => { this.on = false; });
+  }
+}
+
 function stepOf(spec: JsonObject, otherwise: number | 'any'): number | 'any' {
   return typeof spec['step'] === 'number' ? spec['step'] : otherwise;
 }
@@ -80,12 +90,13 @@ function slider(spec: JsonObject, act: Act): WidgetView {
   const range = h('input', { type: 'range', min, max, step, 'aria-label': name });
   const field = h('input', { type: 'number', class: 'number', min, max, step: 'any', 'aria-label': `${name} value` });
   const newest = new Newest(act);
+  const typing = new Typing(field);
   const put = (value: number) => { range.value = String(value); field.value = short(value); };
   range.addEventListener('input', () => { field.value = short(Number(range.value)); newest.send(Number(range.value)); });
   field.addEventListener('change', () => { range.value = field.value; newest.send(Number(field.value)); });
   return {
     element: labelled(spec, h('span', { class: 'own-slider' }, range, field, unit(spec))),
-    show: (value) => { if (!newest.busy && typeof value === 'number') put(value); },
+    show: (value) => { if (!newest.busy && !typing.on && typeof value === 'number') put(value); },
   };
 }
 
@@ -93,10 +104,11 @@ function number(spec: JsonObject, act: Act): WidgetView {
   const limit = (name: string) => typeof spec[name] === 'number' ? spec[name] : undefined;
   const field = h('input', { type: 'number', class: 'number', min: limit('min'), max: limit('max'), step: stepOf(spec, 'any'), 'aria-label': labelOf(spec) });
   const newest = new Newest(act);
+  const typing = new Typing(field);
   field.addEventListener('change', () => { if (field.value !== '') newest.send(Number(field.value)); });
   return {
     element: labelled(spec, h('span', { class: 'own-inline' }, field, unit(spec))),
-    show: (value) => { if (!newest.busy && typeof value === 'number') field.value = short(value, 12); },
+    show: (value) => { if (!newest.busy && !typing.on && typeof value === 'number') field.value = short(value, 12); },
   };
 }
 
@@ -121,10 +133,9 @@ function choice(spec: JsonObject, act: Act): WidgetView {
 function textinput(spec: JsonObject, act: Act): WidgetView {
   const input = h('input', { type: 'text', spellcheck: 'false', placeholder: textOf(spec, 'placeholder') || undefined, 'aria-label': labelOf(spec) });
   const newest = new Newest(act);
-  let typing = false;
-  input.addEventListener('input', () => { typing = true; });
-  input.addEventListener('change', () => { typing = false; newest.send(input.value); });
-  return { element: labelled(spec, input), show: (value) => { if (!newest.busy && !typing) input.value = String(value ?? ''); } };
+  const typing = new Typing(input);
+  input.addEventListener('change', () => newest.send(input.value));
+  return { element: labelled(spec, input), show: (value) => { if (!newest.busy && !typing.on) input.value = String(value ?? ''); } };
 }
 
 function press(spec: JsonObject, act: Act): WidgetView {

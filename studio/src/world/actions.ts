@@ -117,7 +117,7 @@ export async function insertFile(panel: ScenePanel, file: File, at?: THREE.Vecto
     panel.fail(new Error(`${file.name} is neither URDF nor SDF: it has no <robot>, <sdf> or <model>.`));
     return;
   }
-  await insert(panel, { text }, file.name.replace(/\.[^.]*$/, ''), at);
+  await insert(panel, { text, file: file.name }, file.name.replace(/\.[^.]*$/, ''), at);
 }
 
 /** Show what a `.rviz` file lists: one by its `path` where the server is, or its `text`. */

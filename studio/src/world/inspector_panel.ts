@@ -20,6 +20,7 @@ interface PropertyValue {
   editable: boolean;
 }
 
+const NOISE = 1e-9;
 const POSE_FIELDS = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] as const;
 const LIVE_MS = 200;
 
@@ -166,8 +167,9 @@ function list(values: Json[], label: string, set: (value: Json) => void): HTMLEl
   return h('span', { class: 'triple' }, ...inputs);
 }
 
+/** What is only read: velocities of a body at rest are rounding errors. */
 function plain(value: Json): string {
-  if (typeof value === 'number') return short(value);
+  if (typeof value === 'number') return short(Math.abs(value) < NOISE ? 0 : value, 4);
   if (Array.isArray(value)) return value.map(plain).join(' ');
   return value === null ? '–' : String(value);
 }

@@ -70,9 +70,7 @@ class RvizPage:
 
     def set(self, display: str, prop: str, value: str | bool) -> None:
         """Type a property of a display into its row."""
-        row = self.row(display)
-        if row.get_attribute("aria-expanded") == "false":
-            row.get_by_role("button", name=f"Properties of {display}").click()
+        row = self.opened(display)
         field = row.get_by_label(prop, exact=True).first
         if isinstance(value, bool):
             field.set_checked(value)
@@ -81,6 +79,13 @@ class RvizPage:
         else:
             field.fill(value)
             field.press("Enter")
+
+    def opened(self, display: str) -> Any:
+        """A display's row in the tree with its properties."""
+        row = self.row(display)
+        if row.get_attribute("aria-expanded") == "false":
+            row.get_by_role("button", name=f"Properties of {display}").click()
+        return row
 
     def row(self, display: str) -> Any:
         """A display's row in the tree."""

@@ -31,8 +31,7 @@ def test_every_type_of_marker_is_drawn_and_namespaces_hide_them(rviz: RvizPage, 
     rviz.add("/shapes", "MarkerArray")
     rviz.shows("MarkerArray", markers=11, **{f"type{kind}": 1 for kind in _TYPES if kind != 10})
     before = rviz.report()["triangles"]
-    rviz.row("MarkerArray").get_by_role("button", name="Properties of MarkerArray").click()
-    rviz.row("MarkerArray").get_by_text("Namespaces", exact=True).click()
+    rviz.opened("MarkerArray").get_by_text("Namespaces", exact=True).click()
     rviz.row("MarkerArray").get_by_label("type2", exact=True).uncheck()
     rviz.eventually(lambda: rviz.report()["triangles"] < before)
     rviz.seen.shot()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.studio.displays.cameras import CameraInfo, info_topic
 from gazelle.studio.displays.pictures import pixels_rgb
 from gazelle.studio.displays.point_colours import Colouring
-from gazelle.studio.displays.points import BUDGET, Points, points_frame
+from gazelle.studio.displays.points import Points, budget_of, points_frame
 from gazelle.studio.displays.showing import Site, headed, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.stamps import stamp_s
@@ -27,7 +27,7 @@ _COLOUR = "Color Image Topic"
 def open_depth_cloud(site: Site) -> OpenStream:
     """Display of a depth topic with its ``camera_info``, and ``Color Image Topic`` if named."""
     topic = site.params.text("Depth Map Topic", "") or site.params.text("topic")
-    budget = site.params.whole("budget", BUDGET, least=1)
+    budget = budget_of(site)
     colouring = Colouring.read(site.params)
     info = CameraInfo(site.studio, info_topic(topic))
     colours = _Last(site, site.params.text(_COLOUR, ""))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
+from gazelle.studio.displays.packing import pack
 from gazelle.studio.displays.point_colours import Colouring, ramp
 from gazelle.studio.displays.showing import Site, headed, open_newest
 from gazelle.studio.errors import StudioError
@@ -19,10 +20,11 @@ from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["BUDGET", "KIND_POINTS", "Points", "open_points", "points_frame", "points_of"]
+__all__ = ["BUDGET", "KIND_PACKED_POINTS", "KIND_POINTS", "Points", "budget_of", "open_points", "points_frame", "points_of"]
 
 KIND_POINTS = 20
-BUDGET = 150_000
+KIND_PACKED_POINTS = 29
+BUDGET = 100_000
 """Points of one message that a page gets unless it says otherwise."""
 
 _LARGEST_BUDGET = 5_000_000
@@ -37,17 +39,19 @@ class Points(NamedTuple):
         xyz: (N, 3) float32, metres, in the message's frame.
         channels: name → (N,) values.
         rgb: (N,) packed RGBA, None where the message has no colours.
+        total: points of the message, those left out included.
     """
 
     xyz: NDArray[np.float32]
     channels: dict[str, NDArray[Any]]
     rgb: NDArray[np.uint32] | None = None
+    total: int = 0
 
 
 def open_points(site: Site) -> OpenStream:
     """Display of points of any of these messages."""
     colouring = Colouring.read(site.params)
-    budget = site.params.whole("budget", BUDGET, least=1, most=_LARGEST_BUDGET)
+    budget = budget_of(site)
 
     def make(sample: Sample) -> Frame:
         message = headed(sample)
@@ -57,6 +61,11 @@ def open_points(site: Site) -> OpenStream:
         return points_frame(points, pose, colouring, stamp_s(message, sample.time_s))
 
     return open_newest(site, make)
+
+
+def budget_of(site: Site) -> int:
+    """Return the most points that a page wants of one message."""
+    return site.params.whole("Point Budget", BUDGET, least=1, most=_LARGEST_BUDGET)
 
 
 def points_of(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bool) -> Points:
@@ -79,9 +88,15 @@ def points_of(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bo
 
 def points_frame(points: Points, pose: Pose, colouring: Colouring, at_s: float) -> Frame:
     """Return the frame of points at a pose in the fixed frame."""
-    head = np.array([*pose_values(pose), 0.0], np.float32)
+    count = len(points.xyz)
+    head = np.array([*pose_values(pose), points.total or count], np.float32)
     colours = _colours(points, pose, colouring)
-    return Frame(KIND_POINTS, len(points.xyz), at_s, (head, points.xyz, colours))
+    packed = pack(points.xyz)
+    if packed is None:
+        return Frame(KIND_POINTS, count, at_s, (head, points.xyz, colours))
+    cube = np.array([packed.origin_m, packed.step_m], np.float32)
+    parts = (head, cube, colours, packed.levels)
+    return Frame(KIND_PACKED_POINTS, count, at_s, parts)
 
 
 def _colours(points: Points, pose: Pose, colouring: Colouring) -> NDArray[np.uint32]:
@@ -111,7 +126,7 @@ def _from_cloud2(message: Any, budget: int, channels: tuple[str, ...], with_rgb:
     wanted = {name: cloud.column(fields[name]) for name in channels if name in fields}
     colour = next((fields[name] for name in ("rgb", "rgba") if name in fields), None)
     rgb = _packed_rgb(cloud.column(colour, "u4")) if with_rgb and colour is not None else None
-    return _finite(Points(xyz, wanted, rgb))
+    return _finite(Points(xyz, wanted, rgb, cloud.total))
 
 
 class _Cloud:
@@ -132,6 +147,7 @@ class _Cloud:
         if height > 1 and row > width * self._step and self._size >= row * height:
             self._data = _without_padding(self._data, height, row, width * self._step)
             self._size = len(self._data)
+        self.total = count
         self._every = max(1, -(-count // budget))
         self.count = -(-count // self._every)
 
@@ -181,6 +197,7 @@ def _finite(points: Points) -> Points:
         points.xyz[kept],
         {name: values[kept] for name, values in points.channels.items()},
         None if points.rgb is None else points.rgb[kept],
+        points.total,
     )
 
 
@@ -213,7 +230,7 @@ def _from_cloud(message: Any, budget: int, channels: tuple[str, ...], with_rgb: 
     rgb = None
     if with_rgb and "rgb" in fitting:
         rgb = _packed_rgb(np.ascontiguousarray(fitting["rgb"]).view(np.uint32))
-    return _finite(Points(xyz, wanted, rgb))
+    return _finite(Points(xyz, wanted, rgb, len(message.points)))
 
 
 _READERS: dict[str, Callable[[Any, int, tuple[str, ...], bool], Points]] = {

@@ -20,6 +20,7 @@ _MOST_TEXT = 16 << 20
 _MASS_KG = 1.0
 _PRIMITIVES = ("box", "cylinder", "sphere")
 _NUMBER = re.compile(r"_(\d+)$")
+_PLACE = re.compile(r"<[a-z_]+>(?=:\d+:\d+)")
 
 
 def insert(studio: Studio, params: Params) -> Any:
@@ -29,14 +30,17 @@ def insert(studio: Studio, params: Params) -> Any:
     names = call_world(studio, "get_world_properties", "gazebo_msgs/GetWorldProperties")
     name = _free_name(params.text("name", "") or wanted, set(names.model_names))
     service = "spawn_urdf_model" if _is_urdf(text) else "spawn_sdf_model"
-    call_world(
-        studio,
-        service,
-        "gazebo_msgs/SpawnModel",
-        model_name=name,
-        model_xml=text,
-        initial_pose=pose_message(pose_of(params)),
-    )
+    try:
+        call_world(
+            studio,
+            service,
+            "gazebo_msgs/SpawnModel",
+            model_name=name,
+            model_xml=text,
+            initial_pose=pose_message(pose_of(params)),
+        )
+    except StudioError as error:
+        raise _in_file(error, source.text("file", "")) from error
     return {"name": name}
 
 
@@ -96,12 +100,18 @@ def _text_of(source: Params) -> tuple[str, str]:
     text = source.text("text")
     if len(text) > _MOST_TEXT:
         raise StudioError(f"the file has more than {_MOST_TEXT >> 20} MiB")
-    return text, _named(text)
+    return text, _named(text, source.text("file", ""))
 
 
-def _named(text: str) -> str:
+def _in_file(error: StudioError, file: str) -> StudioError:
+    """Name the file that was dropped where the world only knows of a text."""
+    words = str(error)
+    return StudioError(_PLACE.sub(lambda _: file, words)) if file else error
+
+
+def _named(text: str, file: str) -> str:
     diagnostics = Diagnostics()
-    root = parse_xml(text, "dropped file", diagnostics)
+    root = parse_xml(text, file or "dropped file", diagnostics)
     if root is None:
         raise StudioError("; ".join(f"{one.span}: {one.message}" for one in diagnostics))
     models = [tag for tag in (root, *root.children) if tag.name in ("model", "robot")]
