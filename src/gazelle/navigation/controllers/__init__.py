@@ -1,0 +1,47 @@
+"""Following paths: DWA, DWB, MPPI, Regulated Pure Pursuit, under the names of ROS's controllers."""
+
+from __future__ import annotations
+
+from gazelle.navigation.controllers.mppi import MppiController
+from gazelle.navigation.controllers.mppi_options import MppiOptions
+from gazelle.navigation.controllers.names import (
+    CONTROLLERS,
+    REFUSED_CONTROLLERS,
+    ControllerKind,
+    ControllerSetting,
+)
+from gazelle.navigation.controllers.options import (
+    DwaOptions,
+    DwbOptions,
+    TrajectoryPlannerOptions,
+)
+from gazelle.navigation.controllers.pursuit import PursuitController
+from gazelle.navigation.controllers.pursuit_options import PursuitOptions
+from gazelle.navigation.controllers.sampling import SamplingController
+from gazelle.navigation.controllers.state import (
+    Command,
+    Controller,
+    NoCommand,
+    RobotState,
+    Velocity,
+)
+
+__all__ = [
+    "CONTROLLERS",
+    "REFUSED_CONTROLLERS",
+    "Command",
+    "Controller",
+    "ControllerKind",
+    "ControllerSetting",
+    "DwaOptions",
+    "DwbOptions",
+    "MppiController",
+    "MppiOptions",
+    "NoCommand",
+    "PursuitController",
+    "PursuitOptions",
+    "RobotState",
+    "SamplingController",
+    "TrajectoryPlannerOptions",
+    "Velocity",
+]

@@ -1,0 +1,96 @@
+"""The part of a path that lies before a robot."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.navigation.costmap.grid import CostGrid
+
+__all__ = ["FollowedPlan", "angle_between", "densified"]
+
+Pose = tuple[float, float, float]
+
+
+def angle_between(a_rad: float, b_rad: float) -> float:
+    """Return the turn from one direction to another, in [−π, π]."""
+    return math.remainder(b_rad - a_rad, math.tau)
+
+
+def densified(plan: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
+    """Return a path with points at most so far apart; new points have the direction before them."""
+    if len(plan) < 2:
+        return plan
+    parts = [plan[:1]]
+    for a, b in itertools.pairwise(plan):
+        count = max(math.ceil(math.hypot(b[0] - a[0], b[1] - a[1]) / step_m), 1)
+        share = np.arange(1, count + 1)[:, None] / count
+        part = np.column_stack([a[:2] + (b[:2] - a[:2]) * share, np.full(count, a[2])])
+        part[-1, 2] = b[2]
+        parts.append(part)
+    return np.concatenate(parts)
+
+
+class FollowedPlan:
+    """A path and how far along it a robot is.
+
+    Attributes:
+        poses: (n, 3), densely.
+        begin: index of the point nearest to the robot.
+    """
+
+    def __init__(self, plan: NDArray[np.float64], step_m: float = 0.05) -> None:
+        """Take a path.
+
+        Raises:
+            ValueError: it is empty, or not (n, 3) finite numbers.
+        """
+        plan = np.asarray(plan, float)
+        if plan.ndim != 2 or plan.shape[1] != 3 or not len(plan) or not np.isfinite(plan).all():
+            raise ValueError("a path is (n, 3) finite numbers, at least one row")
+        self.poses = densified(plan, step_m)
+        self.begin = 0
+        steps = np.hypot(*np.diff(self.poses[:, :2], axis=0).T)
+        self._along = np.concatenate([[0.0], np.cumsum(steps)])
+
+    @property
+    def goal(self) -> Pose:
+        """The last pose."""
+        x, y, yaw = map(float, self.poses[-1])
+        return x, y, yaw
+
+    def advance(self, pose: Pose, search_m: float) -> int:
+        """Find the nearest point within a length ahead, and remember it.
+
+        What was passed is not gone back to, so that a path that crosses itself is followed in
+        order.
+        """
+        last = int(np.searchsorted(self._along, self._along[self.begin] + search_m, "right"))
+        part = self.poses[self.begin : max(last, self.begin + 1), :2]
+        self.begin += int(((part - pose[:2]) ** 2).sum(axis=1).argmin())
+        return self.begin
+
+    def remaining_m(self) -> float:
+        """Return the length from the nearest point to the goal."""
+        return float(self._along[-1] - self._along[self.begin])
+
+    def local(
+        self, pose: Pose, grid: CostGrid, behind_m: float = math.inf, ahead_m: float = math.inf
+    ) -> NDArray[np.float64]:
+        """Return the part around the robot that lies in the window of a costmap.
+
+        The window ends half its larger side away from the robot, as ``transformGlobalPlan`` has it.
+        """
+        reach = max(grid.width, grid.height) * grid.resolution_m / 2
+        self.advance(pose, 2 * reach)
+        here = self._along[self.begin]
+        near = np.hypot(*(self.poses[:, :2] - pose[:2]).T) <= reach
+        kept = near & (self._along >= here - behind_m) & (self._along <= here + ahead_m)
+        after = np.nonzero(~kept[self.begin :])[0]
+        before = np.nonzero(~kept[: self.begin])[0]
+        end = self.begin + (int(after[0]) if len(after) else len(kept))
+        start = int(before[-1]) + 1 if len(before) else 0
+        return self.poses[start : max(end, self.begin + 1)]

@@ -1,0 +1,129 @@
+"""Which controller a name in a parameter file means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.navigation.controllers.mppi import MppiController
+from gazelle.navigation.controllers.mppi_options import MppiOptions
+from gazelle.navigation.controllers.options import (
+    DwaOptions,
+    DwbOptions,
+    TrajectoryPlannerOptions,
+)
+from gazelle.navigation.controllers.profile import (
+    dwa_profile,
+    dwb_profile,
+    trajectory_planner_profile,
+)
+from gazelle.navigation.controllers.pursuit import PursuitController
+from gazelle.navigation.controllers.pursuit_options import PursuitOptions
+from gazelle.navigation.controllers.sampling import SamplingController
+from gazelle.navigation.controllers.state import Controller
+
+__all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]
+
+ControllerOptions = (
+    DwaOptions | DwbOptions | MppiOptions | PursuitOptions | TrajectoryPlannerOptions
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerSetting:
+    """What a controller is told besides its own parameters.
+
+    Attributes:
+        period_s: between two velocity commands.
+        critics: parameters of critics by name (Nav2).
+        tolerance: of the goal, m and rad; a goal checker's (Nav2).
+        seed: of whatever is random.
+    """
+
+    period_s: float
+    critics: Mapping[str, Mapping[str, Any]]
+    tolerance: tuple[float, float] = (0.25, 0.25)
+    seed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerKind:
+    """A controller.
+
+    Attributes:
+        options: class of its options.
+        make: makes one of options and setting.
+        note: what differs from the original, empty for nothing that matters.
+    """
+
+    options: type[ControllerOptions]
+    make: Callable[[Any, ControllerSetting], Controller]
+    note: str = ""
+
+
+def _dwa(options: DwaOptions, setting: ControllerSetting) -> Controller:
+    return SamplingController(dwa_profile(options), setting.period_s)
+
+
+def _trajectory(options: TrajectoryPlannerOptions, setting: ControllerSetting) -> Controller:
+    return SamplingController(trajectory_planner_profile(options), setting.period_s)
+
+
+def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
+    return SamplingController(dwb_profile(options, setting.critics), setting.period_s)
+
+
+def _mppi(options: MppiOptions, setting: ControllerSetting) -> Controller:
+    return MppiController(
+        options, setting.period_s, setting.critics, setting.tolerance, setting.seed
+    )
+
+
+def _pursuit(options: PursuitOptions, setting: ControllerSetting) -> Controller:
+    return PursuitController(options, setting.period_s, setting.tolerance)
+
+
+_TEB = (
+    "it optimises time-elastic bands, compiled; dwa_local_planner/DWAPlannerROS drives the same "
+    "robots, and nav2_mppi_controller plans as far ahead"
+)
+
+CONTROLLERS: Mapping[str, ControllerKind] = {
+    "dwa_local_planner/DWAPlannerROS": ControllerKind(DwaOptions, _dwa),
+    "base_local_planner/TrajectoryPlannerROS": ControllerKind(
+        TrajectoryPlannerOptions, _trajectory, "trajectories are scored as DWAPlannerROS does"
+    ),
+    **{
+        f"{package}{separator}{name}": kind
+        for separator in ("/", "::")
+        for package, name, kind in (
+            ("dwb_core", "DWBLocalPlanner", ControllerKind(DwbOptions, _dwb)),
+            ("nav2_mppi_controller", "MPPIController", ControllerKind(MppiOptions, _mppi)),
+            (
+                "nav2_regulated_pure_pursuit_controller",
+                "RegulatedPurePursuitController",
+                ControllerKind(PursuitOptions, _pursuit),
+            ),
+        )
+    },
+}
+"""Controllers by their names in ROS 1's and ROS 2's files."""
+
+REFUSED_CONTROLLERS: Mapping[str, str] = {
+    "teb_local_planner/TebLocalPlannerROS": _TEB,
+    "teb_local_planner::TebLocalPlannerROS": _TEB,
+    "eband_local_planner/EBandPlannerROS": "it is compiled; dwa_local_planner/DWAPlannerROS drives "
+    "the same robots",
+    "asr_ftc_local_planner/FTCPlanner": "it is compiled; dwa_local_planner/DWAPlannerROS drives "
+    "the same robots",
+    "pose_follower/PoseFollower": "it is compiled; dwa_local_planner/DWAPlannerROS drives the same "
+    "robots",
+    "nav2_rotation_shim_controller::RotationShimController": "it turns before another controller "
+    "drives; name its primary_controller instead, RegulatedPurePursuitController turns by itself",
+    "nav2_rotation_shim_controller/RotationShimController": "see "
+    "nav2_rotation_shim_controller::RotationShimController",
+    "nav2_graceful_controller::GracefulController": "it is compiled; "
+    "nav2_regulated_pure_pursuit_controller drives the same robots",
+}
+"""Why a controller is not there, and what is."""

@@ -1,0 +1,78 @@
+"""What a controller is given, and what it gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.navigation.costmap.footprint import Footprint
+from gazelle.navigation.costmap.grid import CostGrid
+
+__all__ = ["Command", "Controller", "NoCommand", "RobotState", "Velocity"]
+
+Pose = tuple[float, float, float]
+Velocity = tuple[float, float, float]
+"""Along x and y of the robot (m/s) and around z (rad/s)."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotState:
+    """Where a robot is and how it moves.
+
+    Attributes:
+        pose: in the frame of the local costmap.
+        velocity: in its own frame, as odometry says.
+    """
+
+    pose: Pose
+    velocity: Velocity = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Command:
+    """A velocity to drive with.
+
+    Attributes:
+        velocity: along x and y of the robot (m/s) and around z (rad/s).
+        trajectory: where that leads, (n, 3) poses.
+        cost: of the controller's own measure.
+    """
+
+    velocity: Velocity
+    trajectory: NDArray[np.float64]
+    cost: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class NoCommand:
+    """There is no velocity to drive with; the robot has to stop.
+
+    Attributes:
+        reason: in words.
+    """
+
+    reason: str
+
+
+class Controller(Protocol):
+    """Follows a path. One object follows one robot."""
+
+    def set_plan(self, plan: NDArray[np.float64]) -> None:
+        """Take a path, (n, 3) poses in the frame of the local costmap, the last one the goal."""
+
+    def compute(
+        self, state: RobotState, grid: CostGrid, footprint: Footprint
+    ) -> Command | NoCommand:
+        """Return the next velocity."""
+
+    def goal_reached(self, state: RobotState) -> bool:
+        """Tell whether the robot stands in the goal, by the controller's own tolerances."""
+
+    def limit_speed(self, m_s: float | None) -> None:
+        """Drive no faster than this; None for the options' own speed."""
+
+    def reset(self) -> None:
+        """Forget what was driven before."""
