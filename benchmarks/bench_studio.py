@@ -3,7 +3,8 @@
 Run ``python benchmarks/bench_studio.py``; prints one JSON object per measurement. Talker and
 server are processes of their own; the page is a plain WebSocket client in this one that
 acknowledges every frame. `core_percent` is the server's CPU time (user and system, all threads)
-in per cent of one core.
+in per cent of one core. The line `foxglove` is a peer on the same load in the same run: the
+bridge of foxglove-sdk, in Rust, with one client that takes the three topics as they are.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from typing import Any
 import numpy as np
 import psutil
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
 
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
@@ -55,6 +57,8 @@ def main() -> None:
             for load in options.loads:
                 _measure(load, url, psutil.Process(other.pid), options.seconds)
             other.terminate()
+        if "everything" in options.loads:
+            _measure_peer(environ, options.seconds)
         one.communicate(b"\n")
 
 
@@ -75,6 +79,68 @@ def _measure(load: str, url: str, process: psutil.Process, seconds: float) -> No
             frames_per_s={name: round(count / passed, 1) for name, count in counts.items()},
             mb_per_s=size / passed / 1e6,
         )
+
+
+def _measure_peer(environ: dict[str, str], seconds: float) -> None:
+    """What foxglove-sdk's server costs that shows the same topics."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    words = [sys.executable, "-m", "gazelle.cli", "bridge", "foxglove", "-p", str(port)]
+    with subprocess.Popen(words, env=environ, stdout=subprocess.DEVNULL) as bridge:
+        page = _viewer(port)
+        with page:
+            _take_for(page, 2.0)
+            process = psutil.Process(bridge.pid)
+            begin, used = time.perf_counter(), _cpu_s(process)
+            messages, size = _take_for(page, seconds)
+            passed = time.perf_counter() - begin
+            _say(
+                "foxglove",
+                core_percent=100 * (_cpu_s(process) - used) / passed,
+                messages_per_s=messages / passed,
+                mb_per_s=size / passed / 1e6,
+            )
+        bridge.terminate()
+
+
+def _viewer(port: int) -> ClientConnection:
+    """Return a client of the peer that has subscribed to the three topics."""
+    address, names = f"ws://127.0.0.1:{port}", {"/points", "/image", "/tf"}
+    end = time.monotonic() + 20.0
+    while True:
+        try:
+            page = connect(
+                address, subprotocols=[Subprotocol("foxglove.sdk.v1")], max_size=None,
+                compression=None,
+            )  # fmt: skip
+            break
+        except OSError:
+            if time.monotonic() > end:
+                raise
+            time.sleep(0.1)
+    while names:
+        message = page.recv(20.0)
+        if isinstance(message, bytes) or (value := json.loads(message))["op"] != "advertise":
+            continue
+        for channel in value["channels"]:
+            if channel["topic"] in names:
+                names.discard(channel["topic"])
+                wanted = [{"id": channel["id"], "channelId": channel["id"]}]
+                page.send(json.dumps({"op": "subscribe", "subscriptions": wanted}))
+    return page
+
+
+def _take_for(page: ClientConnection, seconds: float) -> tuple[int, int]:
+    count = size = 0
+    end = time.perf_counter() + seconds
+    while (left := end - time.perf_counter()) > 0:
+        try:
+            message = page.recv(left)
+        except TimeoutError:
+            break
+        count, size = count + 1, size + len(message)
+    return count, size
 
 
 def _streams(load: str) -> list[tuple[str, dict[str, Any]]]:
