@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Clock"]
 
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+_STOP_SLICE_S = 0.2
 
 
 class Clock:
@@ -65,22 +66,29 @@ class Clock:
             return False
         return self.sleep_until(self.now_ns() + duration_ns)
 
-    def sleep_until(self, target_ns: int) -> bool:
+    def sleep_until(self, target_ns: int, stop: threading.Event | None = None) -> bool:
         """Sleep until the clock shows a time.
 
+        Args:
+            target_ns: the time.
+            stop: ends the sleep early, also while simulated time stands still.
+
         Returns:
-            True when it does, False when the graph was closed first.
+            True when it does, False when the graph was closed or `stop` was set first.
 
         Raises:
             TimeJumpError: simulated time went backwards meanwhile.
         """
         with self._changed:
             jumps = self._jumps
-            while not self._closed:
+            while not (self._closed or (stop is not None and stop.is_set())):
                 left_ns = target_ns - self.now_ns()
                 if left_ns <= 0:
                     return True
-                self._changed.wait(None if self._use_sim_time else left_ns / 1e9)
+                left_s = None if self._use_sim_time else left_ns / 1e9
+                if stop is not None:
+                    left_s = min(left_s or _STOP_SLICE_S, _STOP_SLICE_S)
+                self._changed.wait(left_s)
                 if self._jumps != jumps:
                     raise TimeJumpError(self._last_jump_ns)
         return False

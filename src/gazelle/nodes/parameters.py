@@ -67,7 +67,7 @@ def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:
     next_ns = node.clock.now_ns() + period_ns
     while not stop.is_set():
         try:
-            if not node.clock.sleep_until(next_ns):
+            if not node.clock.sleep_until(next_ns, stop):
                 return
         except TimeJumpError:
             next_ns = node.clock.now_ns() + period_ns

@@ -30,6 +30,16 @@ ENTRIES = (
         "write a value as the message says",
     ),
     Entry(
+        "navigation.unknown-plugin",
+        "error",
+        "A plug-in of navigation is not known",
+        "Planners, controllers, layers and behaviours are compiled code in ROS; Gazelle has its own"
+        " under the same names.",
+        "choose one of those that the message names",
+        "Failed to create the planner, are you sure it is properly registered and that the "
+        "containing library is built?",
+    ),
+    Entry(
         "navigation.tree-structure",
         "error",
         "The XML of a behaviour tree does not make a tree",

@@ -131,7 +131,7 @@ class Driver:
     def sleep_until(self, target_ns: int) -> None:
         """Wait for a time; a jump back ends the wait."""
         try:
-            self._node.clock.sleep_until(target_ns)
+            self._node.clock.sleep_until(target_ns, self.stopping)
         except TimeJumpError:
             return
 

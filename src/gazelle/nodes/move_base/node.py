@@ -224,7 +224,7 @@ class MoveBase:
             self.driver.sleep_until(until_ns)
 
     def _on_simple_goal(self, message: Any) -> None:
-        self.goals.submit({"target_pose": message})
+        self.goals.submit(self.goals.goal_class(target_pose=message))
 
     def _costmap(self, name: str, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:
         below = tree.get(name)

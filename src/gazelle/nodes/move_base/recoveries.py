@@ -91,7 +91,9 @@ def _defaults(
     aggressive_m: float,
 ) -> list[Behaviour]:
     # What move_base itself loads without the parameter (loadDefaultRecoveryBehaviors).
-    turn: list[tuple[str, str, dict[str, Any]]] = [("rotate", _ROTATE, {})] if clearing_rotation else []
+    turn: list[tuple[str, str, dict[str, Any]]] = (
+        [("rotate", _ROTATE, {})] if clearing_rotation else []
+    )
     rows: list[tuple[str, str, dict[str, Any]]] = [
         ("conservative_reset", _CLEAR, {"reset_distance": conservative_m}),
         *turn,

@@ -92,7 +92,7 @@ def _beams(scan: Any, inf_is_valid: bool) -> tuple[NDArray[np.float64], NDArray[
     met = (ranges >= max(scan.range_min, sys.float_info.min)) & (ranges < scan.range_max)
     nothing = np.isposinf(ranges) & inf_is_valid
     # 0.1 mm inside of the largest range, as the original has it.
-    ranges = np.where(nothing, scan.range_max - 1e-4, ranges)
+    ranges = np.where(nothing, scan.range_max - 1e-4, np.where(met, ranges, 0.0))
     flat = np.column_stack(
         [ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))]
     )

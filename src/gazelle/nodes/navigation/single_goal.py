@@ -57,6 +57,11 @@ class SingleGoal:
         return self.is_cancelled or self.has_new
 
     @property
+    def goal_class(self) -> Any:
+        """The action's goal message."""
+        return self._server.types.Goal
+
+    @property
     def result_class(self) -> Any:
         """The action's result message."""
         return self._server.types.Result
