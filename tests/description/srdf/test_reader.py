@@ -65,7 +65,7 @@ def test_all_unknown_names_are_told_at_once_with_places(read: Reader) -> None:
     assert "did you mean 'base'?" in text
     assert "arm.srdf:3:16" in text and "did you mean 'elbow'?" in text
     assert "the SRDF has no group 'amr'" in text and "did you mean 'arm'?" in text
-    assert "did you mean 'lower'" in text and "did you mean 'right'?" in text
+    assert "did you mean 'lower'" in text and "did you mean 'right' or 'wrist'?" in text
     assert len(found.diagnostics.by_code("parameters.srdf-name")) == 5
     assert found.content.groups[0].chains == () and found.content.disabled_pairs == ()
 

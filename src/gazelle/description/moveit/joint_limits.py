@@ -1,0 +1,93 @@
+"""``joint_limits.yaml``: limits that take the place of the URDF's."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from gazelle.description.moveit.settings import Settings
+from gazelle.diagnostics import SourceSpan
+
+__all__ = ["JointLimit", "read_joint_limits"]
+
+_QUANTITIES = ("velocity", "acceleration", "jerk")
+_KEYS = (
+    *("has_position_limits", "min_position", "max_position", "angle_wraparound"),
+    *("has_deceleration_limits", "max_deceleration", "has_effort_limits", "max_effort"),
+    *(f"has_{quantity}_limits" for quantity in _QUANTITIES),
+    *(f"max_{quantity}" for quantity in _QUANTITIES),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimit:
+    """Limits of a joint, or of one variable of a planar or floating joint; rad, m and seconds.
+
+    A number is None when the file does not change it. ``has_…_limits: false`` switches a limit
+    off, the URDF's as well; that is None for velocity, acceleration and jerk with the flag False.
+
+    Attributes:
+        has_velocity: False when there is no velocity limit, None when the URDF's stays.
+        has_acceleration: the same of acceleration; the URDF has none.
+        has_jerk: the same of jerk.
+    """
+
+    min_position: float | None = None
+    max_position: float | None = None
+    has_velocity: bool | None = None
+    max_velocity: float | None = None
+    has_acceleration: bool | None = None
+    max_acceleration: float | None = None
+    has_jerk: bool | None = None
+    max_jerk: float | None = None
+    span: SourceSpan | None = None
+
+
+def read_joint_limits(branch: Settings, variables: Collection[str]) -> dict[str, JointLimit]:
+    """Read the ``joint_limits`` branch.
+
+    As in MoveIt, ``max_velocity`` counts only beside ``has_velocity_limits: true``, and so on.
+
+    Args:
+        branch: the branch.
+        variables: names of the robot's joints, and of the variables of those that have several.
+    """
+    found: dict[str, JointLimit] = {}
+    for name, settings in branch.branches():
+        if branch.check_name(name, "joint", variables):
+            found[name] = _read_limit(settings)
+    return found
+
+
+def _read_limit(settings: Settings) -> JointLimit:
+    settings.check_keys(_KEYS)
+    low, high = settings.number("min_position"), settings.number("max_position")
+    if low is not None and high is not None and low > high:
+        message = f"{settings.name()}: min_position {low:g} is above max_position {high:g}; both"
+        message += " are ignored"
+        settings.diagnostics.report("moveit.bad-limit", message, settings.span("min_position"))
+        low = high = None
+    velocity, acceleration, jerk = (_read_maximum(settings, item) for item in _QUANTITIES)
+    return JointLimit(low, high, *velocity, *acceleration, *jerk, span=settings.span())
+
+
+def _read_maximum(settings: Settings, quantity: str) -> tuple[bool | None, float | None]:
+    flag, value = settings.flag(f"has_{quantity}_limits"), settings.number(f"max_{quantity}")
+    span = settings.span(f"max_{quantity}")
+    if flag and value is None:
+        message = (
+            f"{settings.name()} has a {quantity} limit and no max_{quantity}; the URDF's stays"
+        )
+        settings.diagnostics.report("moveit.limit-without-value", message, settings.span())
+        return None, None
+    if flag and value is not None and value <= 0:
+        message = f"{settings.name('max_' + quantity)} is {value:g}, limits are above 0; it is"
+        message += " ignored"
+        settings.diagnostics.report("moveit.bad-limit", message, span)
+        return None, None
+    if flag is None and value is not None:
+        message = f"{settings.name('max_' + quantity)} has no effect, as in MoveIt, for"
+        message += f" has_{quantity}_limits is not true"
+        fix = f"add has_{quantity}_limits: true"
+        settings.diagnostics.report("moveit.limit-without-flag", message, span, fix=fix)
+    return flag, value if flag else None

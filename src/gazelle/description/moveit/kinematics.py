@@ -1,0 +1,100 @@
+"""``kinematics.yaml``: how inverse kinematics of a group are solved."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from gazelle.description.moveit.settings import Settings
+
+__all__ = ["KinematicsSettings", "read_kinematics"]
+
+_KEYS = (
+    "epsilon",
+    "joints",
+    "keep_constant",
+    "kinematics_solver",
+    "kinematics_solver_attempts",
+    "kinematics_solver_ik_links",
+    "kinematics_solver_search_resolution",
+    "kinematics_solver_timeout",
+    "max_solver_iterations",
+    "mode",
+    "orientation_vs_position",
+    "position_only_ik",
+    "solve_type",
+)
+# Solvers of other packages bring keys of their own.
+_OTHERS = ("bio_ik", "cached_ik", "pick_ik", "trac_ik")
+
+
+@dataclass(frozen=True, slots=True)
+class KinematicsSettings:
+    """Parameters of a group's solver, with the defaults of MoveIt's KDL plug-in.
+
+    Attributes:
+        solver: the plug-in's name; Gazelle's own solver does the work.
+        search_resolution: step of a search over a redundant joint, rad.
+        timeout_s: how long one request may take.
+        position_only: the orientation of the tip does not matter.
+        orientation_vs_position: weight of a rad of orientation error against a m of position.
+        epsilon: largest error of a solution, m and rad.
+        max_iterations: steps from one seed.
+        tips: ``kinematics_solver_ik_links``: the tips of a group that has several.
+    """
+
+    solver: str = "kdl_kinematics_plugin/KDLKinematicsPlugin"
+    search_resolution: float = 0.1
+    timeout_s: float = 0.05
+    position_only: bool = False
+    orientation_vs_position: float = 1.0
+    epsilon: float = 1e-5
+    max_iterations: int = 500
+    tips: tuple[str, ...] = ()
+
+
+def read_kinematics(branch: Settings, groups: Collection[str]) -> dict[str, KinematicsSettings]:
+    """Read ``robot_description_kinematics``: settings by group.
+
+    Args:
+        branch: the branch.
+        groups: names of the groups of the SRDF.
+    """
+    found: dict[str, KinematicsSettings] = {}
+    for name, settings in branch.branches():
+        if branch.check_name(name, "group", groups):
+            found[name] = _read_group(settings)
+    return found
+
+
+def _read_group(settings: Settings) -> KinematicsSettings:
+    default = KinematicsSettings()
+    solver = settings.text("kinematics_solver")
+    if not any(word in solver for word in _OTHERS):
+        settings.check_keys(_KEYS)
+    if not solver:
+        message = f"{settings.name()} names no kinematics_solver; MoveIt gives the group no inverse"
+        message += " kinematics, Gazelle solves it as usual"
+        settings.diagnostics.report("moveit.no-solver", message, settings.span())
+    weight = _positive(settings, "orientation_vs_position", 1.0, zero=True)
+    return KinematicsSettings(
+        solver or default.solver,
+        _positive(settings, "kinematics_solver_search_resolution", default.search_resolution),
+        _positive(settings, "kinematics_solver_timeout", default.timeout_s),
+        bool(settings.flag("position_only_ik")) or weight == 0,
+        weight,
+        _positive(settings, "epsilon", default.epsilon),
+        int(_positive(settings, "max_solver_iterations", default.max_iterations)),
+        settings.texts("kinematics_solver_ik_links"),
+    )
+
+
+def _positive(settings: Settings, key: str, default: float, *, zero: bool = False) -> float:
+    value = settings.number(key)
+    if value is None:
+        return default
+    if value > 0 or (zero and value == 0):
+        return value
+    message = f"{settings.name(key)} is {value:g}, it has to be above 0; {default:g} is used"
+    settings.diagnostics.report("moveit.bad-limit", message, settings.span(key))
+    return default
