@@ -1,0 +1,1 @@
+"""srdfdom, by Gazelle."""
