@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.parameter import Parameter as RosParameter
+from gazelle.errors import GraphError
 from gazelle.launch.ros2.nodes.parameter_descriptions import (
     Parameter,
     ParameterFile,
@@ -71,8 +72,8 @@ def to_parameters_list(
     found = []
     for name, value in parameter_values(context, node_name, namespace, evaluated_parameters):
         plain = list(value) if isinstance(value, tuple) else value
-        kind = next((one for one in RosParameter.Type if one.check(plain)), None)
-        if kind is None:
-            raise RuntimeError(f"invalid parameter value {value!r}")
-        found.append(RosParameter(name, kind, plain))
+        try:
+            found.append(RosParameter(name, RosParameter.Type.from_parameter_value(plain), plain))
+        except (GraphError, TypeError) as error:
+            raise RuntimeError(f"invalid parameter value {value!r}") from error
     return found
