@@ -1,0 +1,198 @@
+"""``ros2 launch``: which file, its options, its arguments, and what goes wrong."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gazelle.cli.ros2.launch.command import launch_arguments, main
+from gazelle.cli.tool import ToolError
+from gazelle.workspace.ament_index import known_workspace
+
+Run = Callable[..., Any]
+_HEAD = """
+from launch import LaunchDescription
+from launch.actions import *
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def generate_launch_description():
+"""
+_ECHO = """    return LaunchDescription([
+        DeclareLaunchArgument('word', default_value='hello', description='what is said'),
+        DeclareLaunchArgument('name', description='who says it'),
+        GroupAction([DeclareLaunchArgument('more', default_value=['a', 'b'])],
+                    condition=IfCondition('false')),
+        ExecuteProcess(cmd=['sh', '-c', ['echo ', LaunchConfiguration('word'), ' $GZ_LAUNCHED']]),
+    ])
+"""
+
+
+@pytest.fixture
+def ros2(gazelle: Run, tmp_path: Path) -> Run:
+    """Runs ``ros2 launch WORDS…`` in a workspace with package ``bringup``."""
+    folder = tmp_path / "ws" / "src" / "bringup"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package format='3'><name>bringup</name></package>")
+    for name, body in {
+        "say.launch.py": _ECHO,
+        "wrong.launch.py": "    robot = {}\n    return LaunchDescription([robot['arm']])\n",
+        "node.launch.py": "    node = Node(package='bringup', executable='no')\n"
+        "    return LaunchDescription([node])\n",
+        "dies.launch.py": "    return LaunchDescription([\n        ExecuteProcess(cmd=['sh', '-c', "
+        "'echo bad >&2; exit 3'], name='sick', output='screen'),\n        ExecuteProcess(cmd=["
+        "'sleep', '60'], name='healthy')])\n",
+    }.items():
+        (folder / "launch" / name).write_text(_HEAD + body)
+    (folder / "launch" / "say.launch.xml").write_text(
+        '<launch><arg name="word" default="hello"/><log message="xml says $(var word)"/></launch>'
+    )
+
+    def run(*words: str, **options: Any) -> Any:
+        return gazelle("ros2", "launch", *words, cwd=tmp_path / "ws", **options)
+
+    return run
+
+
+def test_arguments_reach_the_file_wherever_it_is_named(ros2: Run, tmp_path: Path) -> None:
+    ran = ros2("bringup", "say.launch.py", "name:=me", "word:=a", "word:=good day", "-a")
+    assert ran.wait() == 0
+    # With -a all output is shown.
+    assert "[sh-1] good day" in ran.text
+    file = str(tmp_path / "ws/src/bringup/launch/say.launch.py")
+    assert ros2("--noninteractive", file, "name:=me").wait() == 0
+    xml = ros2("bringup", "say.launch.xml", "word:=this")
+    assert xml.wait() == 0
+    assert "[INFO] [launch.user]: xml says this" in xml.text
+
+
+def test_arguments_are_listed_with_defaults_and_conditions(ros2: Run) -> None:
+    shown = ros2("bringup", "say.launch.py", "--show-args")
+    assert shown.wait() == 0
+    assert shown.lines == [
+        "Arguments (pass arguments as '<name>:=<value>'):", "",
+        "    'word':", "        what is said", "        (default: 'hello')", "",
+        "    'name':", "        who says it", "",
+        "    'more':*", "        no description given", "        (default: 'a' + 'b')", "",
+        "* argument(s) which are only used if specific conditions occur",
+    ]  # fmt: skip
+
+
+def test_tree_is_printed_and_nothing_is_started(ros2: Run) -> None:
+    shown = ros2("bringup", "say.launch.py", "-p")
+    assert shown.wait() == 0
+    assert "LaunchDescription object at" in shown.lines[0]
+    assert "ExecuteProcess(cmd=['sh', '-c', 'echo ' + LaunchConfig('word') + " in shown.text
+    assert "process started" not in shown.text
+
+
+def test_prefix_goes_before_what_its_filter_finds(ros2: Run) -> None:
+    prefix = ("--launch-prefix", "env GZ_LAUNCHED=prefixed")
+    ran = ros2("bringup", "say.launch.py", "name:=me", "-a", *prefix)
+    assert ran.wait() == 0 and "] hello prefixed" in ran.text
+    filtered = ros2("bringup", "say.launch.py", "name:=me", "-a", *prefix,
+                    "--launch-prefix-filter", "bash")  # fmt: skip
+    assert filtered.wait() == 0 and "prefixed" not in filtered.text
+    refused = ros2("bringup", "say.launch.py", "--launch-prefix-filter", "x")
+    assert refused.wait() == 1
+    assert "--launch-prefix must be specified if --launch-prefix-filter is" in refused.text
+
+
+def test_debug_tells_of_every_event(ros2: Run) -> None:
+    ran = ros2("bringup", "say.launch.py", "name:=me", "-d")
+    assert ran.wait() == 0
+    assert "[DEBUG] [launch]: processing event: '<" in ran.text
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["bringupp", "say.launch.py"], "Package 'bringupp' not found: package 'bringupp' not"),
+        (["bringupp", "say.launch.py"], "did you mean 'bringup'?"),
+        (["bringup", "sai.launch.py"], "file 'sai.launch.py' was not found in the share direct"),
+        (["bringup", "sai.launch.py"], "did you mean 'say.launch.py'"),
+        (["bringup", "launch/say.launch.py"], "fix: ros2 launch bringup say.launch.py"),
+        (["bringup"], "No launch file name supplied; package 'bringup' has: dies.launch.py, "),
+        (["nothing"], "'nothing' is neither a launch file nor a package"),
+        (["src/bringup/launch/sai.launch.py"], "does not exist; did you mean 'src/bringup/launch"),
+        (["bringup", "say.launch.py", "word:="], "malformed launch argument 'word:=', expected"),
+        (["bringup", "say.launch.py", "word=x"], "fix: word:=x"),
+    ],
+)
+@pytest.mark.usefixtures("ros2")
+def test_mistakes_of_the_command_line_are_told(
+    words: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path / "ws")
+    known_workspace.cache_clear()
+    assert main(words) == 1
+    known_workspace.cache_clear()
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "messages"),
+    [
+        (
+            ["say.launch.py", "nam:=x"],
+            ["missing required argument 'name' (description: 'who says", "did you mean 'nam'?"],
+        ),
+        (["node.launch.py"], ["Cannot locate node of type [no] in package [bringup]"]),
+    ],
+)
+def test_mistakes_of_the_launch_are_told(ros2: Run, words: list[str], messages: list[str]) -> None:
+    ran = ros2("bringup", *words)
+    assert ran.wait() == 1
+    assert [text for text in messages if text not in ran.text] == []
+    assert "Traceback" not in ran.text
+
+
+def test_exception_in_a_launch_file_is_shown_at_its_line(ros2: Run) -> None:
+    ran = ros2("bringup", "wrong.launch.py")
+    assert ran.wait() == 1
+    assert "wrong.launch.py:10: error: KeyError: 'arm' [ros2_launch.exception]" in ran.text
+    assert "return LaunchDescription([robot['arm']])" in ran.text
+    assert "/gazelle/" not in ran.text
+
+
+def test_death_of_a_process_is_told_and_others_go_on(ros2: Run) -> None:
+    ran = ros2("bringup", "dies.launch.py")
+    line = ran.wait_for_line(r"\[ERROR\] \[sick-1\]: process has died")
+    assert "exit code 3, cmd 'sh -c echo bad >&2; exit 3']." in line
+    assert "[sick-1] bad" in ran.lines
+    assert ran.stop(signal.SIGTERM) == 0
+    assert ran.processes() == {}
+
+
+def test_launcher_that_is_killed_leaves_nothing(ros2: Run) -> None:
+    ran = ros2("bringup", "dies.launch.py")
+    ran.wait_for_line("process has died")
+    ran.stop(signal.SIGKILL)
+    ran.eventually(lambda: not ran.processes())
+
+
+def test_files_of_one_name_are_both_named(ros2: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "ws/src/bringup"
+    (folder / "old").mkdir()
+    (folder / "old" / "say.launch.py").write_text("")
+    ran = ros2("bringup", "say.launch.py")
+    assert ran.wait() == 1
+    assert "was found more than once" in ran.text
+    assert f"fix: ros2 launch {folder}/launch/say.launch.py" in ran.text
+
+
+def test_arguments_may_hold_the_sign_themselves() -> None:
+    assert launch_arguments(["a:=b:=c", "d:=e", "a:=x"]) == [("a", "x"), ("d", "e")]
+    assert launch_arguments(["cmd:=x:=1"]) == [("cmd", "x:=1")]
+    for word in (":=x", "x:=", "x"):
+        with pytest.raises(ToolError, match="malformed launch argument"):
+            launch_arguments([word])
