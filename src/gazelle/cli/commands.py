@@ -36,6 +36,7 @@ COMMANDS: dict[str, Command] = {
     "rospack": Command("gazelle.cli.rospack", "find, list, list-names, depends, depends1"),
     "rosversion": Command("gazelle.cli.rospack", "version of a package"),
     "rostest": Command("gazelle.cli.rostest", "run the tests of a launch file"),
+    "launch_test": Command("gazelle.cli.launch_test", "run the tests of a ROS 2 launch"),
     "roswtf": Command("gazelle.cli.roswtf", "look for what is wrong in files and in the graph"),
     "rosclean": Command("gazelle.cli.rosclean", "check, purge: log files of nodes"),
     "gzserver": Command("gazelle.cli.gzserver", "run a world"),

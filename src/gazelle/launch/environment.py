@@ -23,6 +23,7 @@ ROS_COMMANDS = (
     "gzclient",
     "gzserver",
     "ign",
+    "launch_test",
     "ros2",
     "rosbag",
     "rosclean",

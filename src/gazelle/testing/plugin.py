@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["gazelle_graph", "gazelle_launch", "gazelle_simulation"]
 
+# Launch tests of ROS 2.
+pytest_plugins = ("gazelle.testing.launch_test_plugin",)
+
 _MARKER = "gazelle"
 _MOST_LINES = 200
 _LAUNCHES = "gazelle.testing.launch"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,6 +43,7 @@ def _own_logs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
         if name.startswith("OVERRIDE_LAUNCH"):
             monkeypatch.delenv(name)
     before = dict(os.environ)
+    monkeypatch.setattr(sys, "path", list(sys.path))
     logging.reset()
     yield
     logging.reset()

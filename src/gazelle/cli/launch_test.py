@@ -1,0 +1,15 @@
+"""``launch_test``: tests of ROS 2 beside and after a launch."""
+
+from __future__ import annotations
+
+from gazelle.cli.ros2.launch.surroundings import surround_launch_files
+
+__all__ = ["main"]
+
+
+def main(argv: list[str]) -> int:
+    """Run the tests of a file with a ``generate_test_description``."""
+    surround_launch_files()
+    from gazelle.launch.ros2.testing.command import main as run_tests
+
+    return run_tests(argv)

@@ -1,0 +1,230 @@
+"""What the processes of a launch wrote, and how they ended, for tests in another thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+from gazelle.launch.ros2.events.process import ProcessExited
+from gazelle.launch.ros2.testing.asserts import assertInStream
+from gazelle.launch.ros2.testing.lookup import NoMatchingProcessException, resolveProcesses
+
+__all__ = ["ActiveIoHandler", "ActiveProcInfoHandler", "IoHandler", "ProcInfoHandler"]
+
+_PATIENCE_S = 10
+
+
+class IoHandler:
+    """The output of processes that have ended; iterating gives its events in order."""
+
+    def __init__(self) -> None:
+        self._events: list[Any] = []
+        self._by_name: dict[str, list[Any]] = {}
+
+    def track(self, process_name: str) -> None:
+        """Know a process, whether it writes something or not."""
+        self._by_name.setdefault(process_name, [])
+
+    def append(self, process_io: Any) -> None:
+        """Add an event of output."""
+        self._events.append(process_io)
+        self._by_name.setdefault(process_io.process_name, []).append(process_io)
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._events)
+
+    def processes(self) -> list[Any]:
+        """Return the actions of processes that wrote something."""
+        return [events[0].action for events in self._by_name.values() if events]
+
+    def process_names(self) -> list[str]:
+        """Return the names of processes."""
+        return list(self._by_name)
+
+    def __getitem__(self, key: Any) -> list[Any]:
+        """Return the events of a process, by its name or action."""
+        return list(self._by_name[key if isinstance(key, str) else key.process_details["name"]])
+
+
+class ActiveIoHandler:
+    """The output of processes that still run."""
+
+    def __init__(self) -> None:
+        self._condition = threading.Condition()
+        self._io_handler = IoHandler()
+
+    @property
+    def io_event(self) -> threading.Condition:
+        """Is notified of everything that is written."""
+        return self._condition
+
+    def track(self, process_name: str) -> None:
+        """Know a process, whether it writes something or not."""
+        with self._condition:
+            self._io_handler.track(process_name)
+            self._condition.notify_all()
+
+    def append(self, process_io: Any) -> None:
+        """Add an event of output."""
+        with self._condition:
+            self._io_handler.append(process_io)
+            self._condition.notify_all()
+
+    def __iter__(self) -> Iterator[Any]:
+        with self._condition:
+            return iter(list(self._io_handler))
+
+    def processes(self) -> list[Any]:
+        """Return the actions of processes that wrote something."""
+        with self._condition:
+            return self._io_handler.processes()
+
+    def process_names(self) -> list[str]:
+        """Return the names of processes."""
+        with self._condition:
+            return self._io_handler.process_names()
+
+    def __getitem__(self, key: Any) -> list[Any]:
+        with self._condition:
+            return self._io_handler[key]
+
+    def assertWaitFor(self, *args: Any, **kwargs: Any) -> None:
+        """Wait for a text, see `waitFor`, and fail when it does not come."""
+        assert self.waitFor(*args, **kwargs), "Waiting for output timed out"
+
+    def waitFor(
+        self,
+        expected_output: Any,
+        process: Any = None,
+        cmd_args: Any = None,
+        *,
+        strict_proc_matching: bool = True,
+        output_filter: Any = None,
+        timeout: float = _PATIENCE_S,
+        strip_ansi_escape_sequences: bool = True,
+        stream: str = "stderr",
+    ) -> bool:
+        """Return whether a text is written within so many seconds; see `assertInStream`.
+
+        Raises:
+            Exception: no such process wrote anything at all.
+        """
+
+        def is_there() -> bool:
+            try:
+                assertInStream(
+                    self._io_handler,
+                    expected_output,
+                    process,
+                    cmd_args,
+                    output_filter=output_filter,
+                    strict_proc_matching=strict_proc_matching,
+                    strip_ansi_escape_sequences=strip_ansi_escape_sequences,
+                    stream=stream,
+                )
+            except (NoMatchingProcessException, AssertionError):
+                return False
+            return True
+
+        with self._condition:
+            is_found = self._condition.wait_for(is_there, timeout)
+        if not is_found:
+            resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
+        return is_found
+
+
+class ProcInfoHandler:
+    """How processes ended; iterating gives the last event of each."""
+
+    def __init__(self) -> None:
+        self._events: dict[Any, Any] = {}
+
+    def append(self, process_info: Any) -> None:
+        """Add a start or an end."""
+        self._events[process_info.action] = process_info
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(list(self._events.values()))
+
+    def processes(self) -> list[Any]:
+        """Return the actions of processes that have been started."""
+        return list(self._events)
+
+    def process_names(self) -> list[str]:
+        """Return their names."""
+        return [action.process_details["name"] for action in self._events]
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return the last event of a process, by its action or a part of its name."""
+        if not isinstance(key, str):
+            return self._events[key]
+        for action, event in self._events.items():
+            if key in action.process_details["name"]:
+                return event
+        raise KeyError(key)
+
+
+class ActiveProcInfoHandler:
+    """Starts and ends of processes while the launch runs."""
+
+    def __init__(self) -> None:
+        self._condition = threading.Condition()
+        self._proc_info_handler = ProcInfoHandler()
+
+    @property
+    def proc_event(self) -> threading.Condition:
+        """Is notified of every start and end."""
+        return self._condition
+
+    def append(self, process_info: Any) -> None:
+        """Add a start or an end."""
+        with self._condition:
+            self._proc_info_handler.append(process_info)
+            self._condition.notify_all()
+
+    def __iter__(self) -> Iterator[Any]:
+        with self._condition:
+            return iter(self._proc_info_handler)
+
+    def processes(self) -> list[Any]:
+        """Return the actions of processes that have been started."""
+        with self._condition:
+            return self._proc_info_handler.processes()
+
+    def process_names(self) -> list[str]:
+        """Return their names."""
+        with self._condition:
+            return self._proc_info_handler.process_names()
+
+    def __getitem__(self, key: Any) -> Any:
+        with self._condition:
+            return self._proc_info_handler[key]
+
+    def assertWaitForShutdown(
+        self, process: Any, cmd_args: Any = None, *, timeout: float = _PATIENCE_S
+    ) -> None:
+        """Wait so many seconds for the end of a process, and fail when it does not come."""
+        is_over = self._wait(
+            lambda event: isinstance(event, ProcessExited), process, cmd_args, timeout
+        )
+        assert is_over, f"Timed out waiting for process '{process}' to finish"
+
+    def assertWaitForStartup(
+        self, process: Any, cmd_args: Any = None, *, timeout: float = _PATIENCE_S
+    ) -> None:
+        """Wait so many seconds for the start of a process, and fail when it does not come."""
+        has_begun = self._wait(lambda _event: True, process, cmd_args, timeout)
+        assert has_begun, f"Timed out waiting for process '{process}' to start"
+
+    def _wait(self, is_it: Any, process: Any, cmd_args: Any, timeout: float) -> bool:
+        def holds() -> bool:
+            known = self._proc_info_handler
+            try:
+                (action,) = resolveProcesses(known, process=process, cmd_args=cmd_args)
+            except NoMatchingProcessException:
+                return False
+            return bool(is_it(known[action]))
+
+        with self._condition:
+            return self._condition.wait_for(holds, timeout)
