@@ -189,6 +189,13 @@ _NODES = (
         help="drives to goals around obstacles",
     ),
     BuiltinNode(
+        "moveit_ros_move_group",
+        "move_group",
+        "gazelle.nodes.move_group:run",
+        light=False,
+        help="plans and executes motions of arms, as MoveIt does",
+    ),
+    BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"
     ),
     BuiltinNode(

@@ -77,10 +77,9 @@ class RequestPlanner:
             MoveGroupError: there is no plan, with MoveIt's code and why.
         """
         began = time.perf_counter()
-        self.maker.group(request.group_name)
+        choice = self.choice(request)
         scene = apply_robot_state(scene, request.start_state, frame_of)
         problem = self.maker.problem(scene, request.group_name, frame_of)
-        choice = self._choice(problem, request)
         try:
             if choice.is_pilz:
                 trajectory = plan_with_pilz(self.maker.config, problem, choice, request)
@@ -94,8 +93,13 @@ class RequestPlanner:
         name = request.group_name
         return Planned(trajectory, scene.positions, scene, name, choice.planner, took_s, notes)
 
-    def _choice(self, problem: GroupProblem, request: Any) -> PlannerChoice:
-        group = problem.group
+    def choice(self, request: Any) -> PlannerChoice:
+        """Return what plans a request.
+
+        Raises:
+            MoveGroupError: there is no such group or pipeline.
+        """
+        group = self.maker.group(request.group_name)
         return choose_planner(
             self.maker.config,
             group.space,

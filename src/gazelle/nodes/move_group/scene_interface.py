@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from gazelle.interfaces import service_type
@@ -18,19 +19,29 @@ _EMPTY = "std_srvs/Empty"
 def offer_scene(context: MoveGroupContext) -> None:
     """Listen to the topics and offer the services."""
     node, monitor = context.node, context.monitor
-    for topic, kind, take in (
+    takers: tuple[tuple[str, str, Callable[[Any], object]], ...] = (
         ("planning_scene", "PlanningScene", monitor.apply),
         ("planning_scene_world", "PlanningSceneWorld", monitor.apply_world),
         ("collision_object", "CollisionObject", monitor.apply_object),
         ("attached_collision_object", "AttachedCollisionObject", monitor.apply_attached),
-    ):
-        node.create_subscription(topic, f"moveit_msgs/msg/{kind}", take, queue_size=1024)
+    )
+    for topic, kind, take in takers:
+        node.create_subscription(
+            topic, f"moveit_msgs/msg/{kind}", _without_value(take), queue_size=1024
+        )
     node.create_service("get_planning_scene", service_type(_GET), lambda r: _get(context, r))
     node.create_service("apply_planning_scene", service_type(_APPLY), lambda r: _apply(context, r))
     node.create_service("clear_octomap", service_type(_EMPTY), _cleared)
     node.create_subscription(
         "trajectory_execution_event", "std_msgs/msg/String", lambda m: _event(context, m)
     )
+
+
+def _without_value(take: Callable[[Any], object]) -> Callable[[Any], None]:
+    def call(message: Any) -> None:
+        take(message)
+
+    return call
 
 
 def _get(context: MoveGroupContext, request: Any) -> Any:
