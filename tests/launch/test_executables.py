@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -176,3 +177,24 @@ def test_console_script_needs_no_executable_file(tmp_path: Path) -> None:
     found, diagnostics = _find("demo", "talk", folder)
     assert found is not None and not list(diagnostics)
     assert found.command[-1] == str(folder / "demo" / "talker.py")
+
+
+def test_console_scripts_of_one_file_call_their_own_functions(tmp_path: Path) -> None:
+    folder = tmp_path / "src" / "pair"
+    (folder / "pair").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package format='3'><name>pair</name></package>")
+    (folder / "pair" / "__init__.py").write_text("")
+    (folder / "pair" / "nodes.py").write_text(
+        "def main():\n    print('main')\n\ndef talk():\n    print('talking')\n"
+    )
+    (folder / "setup.py").write_text(
+        "from setuptools import setup\nsetup(name='pair', entry_points={'console_scripts': "
+        "['talker = pair.nodes:talk', 'listener = pair.nodes:main']})\n"
+    )
+    said = {}
+    for name in ("talker", "listener"):
+        found, _ = _find("pair", name, tmp_path)
+        assert found is not None
+        ran = subprocess.run(found.command, capture_output=True, text=True, check=True)
+        said[name] = ran.stdout.strip()
+    assert said == {"talker": "talking", "listener": "main"}

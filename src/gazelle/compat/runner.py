@@ -1,4 +1,4 @@
-"""``python -m gazelle.compat.runner SCRIPT args…``: a user's node as ``__main__``."""
+"""``python -m gazelle.compat.runner [--entry FUNCTION] SCRIPT args…``: a user's node."""
 
 from __future__ import annotations
 
@@ -27,8 +27,12 @@ def main(words: list[str]) -> int:
     if drop_ins not in sys.path:
         sys.path.insert(1, drop_ins)
     install()
+    function = ""
+    if words[0] == "--entry":
+        # One of several console scripts whose functions are in one file.
+        function, words = words[1], words[2:]
     path = Path(words[0])
-    entry = _entry_point(path)
+    entry = _entry_point(path, function)
     return run_script(path, words) if entry is None else _run_entry_point(*entry, words)
 
 
@@ -50,10 +54,10 @@ def run_script(path: Path, argv: list[str]) -> int:
     return 0
 
 
-def _entry_point(path: Path) -> tuple[Path, str, str] | None:
+def _entry_point(path: Path, wanted: str = "") -> tuple[Path, str, str] | None:
     """Return folder, module and function of a ``console_scripts`` entry that means this file.
 
-    Of several functions in one file it is ``main``, or the first.
+    Of several functions in one file it is `wanted`, ``main``, or the first.
     """
     from gazelle.workspace.entry_points import console_scripts
 
@@ -67,7 +71,8 @@ def _entry_point(path: Path) -> tuple[Path, str, str] | None:
             targets = (target.partition(":") for target in console_scripts(root).values())
             functions = [function.strip() for name, _, function in targets if name == module]
             if functions:
-                return folder, module, "main" if "main" in functions else functions[0]
+                usual = "main" if "main" in functions else functions[0]
+                return folder, module, wanted or usual
     return None
 
 

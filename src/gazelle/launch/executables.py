@@ -108,7 +108,20 @@ def _in_workspace(
     if not may_run and type_name not in console_scripts(found.path):
         message = f"'{path}' is not executable; it runs here, real ROS would not find it"
         diagnostics.report("launch.not-executable", message, span, fix=f"chmod +x {path}")
-    return Executable(script_command(path), folder=path.parent)
+    command = script_command(path)
+    function = _function(found, type_name, path)
+    if function:
+        command = (*command[:-1], "--entry", function, command[-1])
+    return Executable(command, folder=path.parent)
+
+
+def _function(package: Package, type_name: str, path: Path) -> str:
+    """Return the function that a console script calls, empty where its file has but one."""
+    scripts = console_scripts(package.path)
+    module, _, function = scripts.get(type_name, "").partition(":")
+    others = [one for one in scripts.values() if one.partition(":")[0].strip() == module.strip()]
+    is_file = path.stem in {module.strip().rpartition(".")[2], "__init__"}
+    return function.strip() if len(others) > 1 and is_file else ""
 
 
 def _is_python(path: Path) -> bool:
