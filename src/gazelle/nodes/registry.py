@@ -147,6 +147,18 @@ _NODES = (
         )
     ),
     BuiltinNode(
+        "rclcpp_components",
+        "component_container",
+        "gazelle.nodes.component_container:run",
+        light=False,
+        help="runs built-in nodes under the names of components",
+        aliases=tuple(
+            ("rclcpp_components", f"component_container_{kind}")
+            for kind in ("mt", "isolated", "event")
+        ),
+        name="ComponentManager",
+    ),
+    BuiltinNode(
         "ros_gz_sim",
         "create",
         "gazelle.nodes.ros_gz.create:run",
@@ -194,6 +206,33 @@ _NODES = (
         "gazelle.nodes.move_group:run",
         light=False,
         help="plans and executes motions of arms, as MoveIt does",
+    ),
+    *(
+        BuiltinNode(package, name, f"gazelle.nodes.map_server.{target}", light=False, help=about)
+        for package, name, target, about in (
+            ("map_server", "map_server", "server:run", "publishes a map from a file"),
+            ("map_server", "map_saver", "saver:run", "writes the map that is published"),
+            (
+                "nav2_map_server",
+                "map_server",
+                "server_ros2:run",
+                "publishes a map from a file, ROS 2's package",
+            ),
+            (
+                "nav2_map_server",
+                "map_saver_cli",
+                "saver:run_cli",
+                "writes the map that is published, ROS 2's package",
+            ),
+        )
+    ),
+    BuiltinNode(
+        "nav2_map_server",
+        "map_saver_server",
+        "gazelle.nodes.map_server.saver:run_server",
+        light=False,
+        help="writes maps on request",
+        name="map_saver",
     ),
     BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"

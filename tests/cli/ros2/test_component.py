@@ -85,7 +85,7 @@ def test_compiled_components_are_answered_with_the_built_in_node(robot: Node, ru
     )
     code, _, error = run("ros2", "component", "load", "/c", "topic_tools", "topic_tools::RelayNode")
     assert code == 1
-    assert error.startswith("Unable to find container node '/c'\n  there is none here")
+    assert error.startswith("Unable to find container node '/c'\n  there is none; start one")
     assert error.endswith("ros2 run topic_tools relay\n")
 
 

@@ -12,6 +12,7 @@ import yaml
 
 from gazelle.interfaces import message_type, service_type
 from gazelle.launch.ros2 import actions as launch
+from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.conditions import IfCondition
 from gazelle.launch.ros2.event_handlers import OnProcessStart
 from gazelle.launch.ros2.nodes import actions as a
@@ -434,3 +435,22 @@ def ComposableNodeContainer(run: Run, package: Path) -> None:
     ran = run(_container(loaded), container)
     assert _words(ran) == [["--ros-args", "-r", "__node:=box", "-r", "__ns:=/"]]
     assert [one.node_name for one in loaded] == ["one"]
+
+
+def test_container_of_ros_runs_built_in_nodes(run: Run, package: Path) -> None:
+    node = ComposableNode(
+        package="topic_tools", plugin="topic_tools::RelayNode", name="relay", namespace="s"
+    )
+    container = a.ComposableNodeContainer(
+        package="rclcpp_components", executable="component_container_mt", name="box",
+        namespace="", composable_node_descriptions=[node], output="screen",
+    )  # fmt: skip
+    end = launch.TimerAction(period=60.0, actions=[launch.Shutdown()])
+
+    def stop_when_loaded(service: Any) -> None:
+        handler = launch_logging.get_logger("launch_ros.actions.load_composable_nodes")
+        handler.addFilter(lambda record: service.shutdown(force_sync=True) or bool(record))
+
+    text = run(container, end, during=stop_when_loaded).text
+    assert "Loaded node '/s/relay' in container '/box'" in text
+    assert "topic_tools/relay does the work of topic_tools::RelayNode" in text

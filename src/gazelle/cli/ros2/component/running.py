@@ -24,7 +24,7 @@ _KINDS = {
     "_container/unload_node": "composition_interfaces/srv/UnloadNode",
     "_container/list_nodes": "composition_interfaces/srv/ListNodes",
 }
-_NO_CONTAINERS = "\n  there is none here: component_container is compiled code"
+_NO_CONTAINERS = "\n  there is none; start one: ros2 run rclcpp_components component_container"
 _Parser = argparse.ArgumentParser
 
 

@@ -1,0 +1,164 @@
+"""``rclcpp_components/component_container``: built-in nodes under the names of components.
+
+Components are libraries of C++; the container loads none. What it loads is the built-in node that
+does a component's work, such as ``robot_state_publisher`` for
+``robot_state_publisher::RobotStatePublisher``, in a thread of its own.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import re
+import threading
+import traceback
+from dataclasses import dataclass, field
+from typing import Any
+
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph, Node
+from gazelle.graph.parameter_values import value_from_message
+from gazelle.interfaces import service_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
+
+__all__ = ["builtin_of_component", "run"]
+
+_WORD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+_SUFFIXES = ("_node", "_component", "_nodelet")
+# Components whose names say something else than the node that does their work.
+_OTHERS = {
+    "ros_gz_bridge::RosGzBridge": "bridge_node",
+    "ros_gz_sim::GzServer": "gzserver",
+    "tf2_ros::StaticTransformBroadcasterNode": "static_transform_publisher",
+}
+_END_S = 2.0
+
+
+def builtin_of_component(package: str, plugin: str) -> BuiltinNode | None:
+    """Return the built-in node that does the work of a component, None when there is none."""
+    own = plugin.rpartition("::")[2]
+    name = _OTHERS.get(plugin) or _WORD.sub("_", own).lower()
+    bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
+    types = builtin_types(package)
+    found = next((one for one in (name, bare, f"{bare}_node") if one in types), "")
+    return builtin_node(package, found) if found else None
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Offer the services of a container until told to stop."""
+    node = start_node(arguments, graph)
+    container = _Container(node, graph)
+    for name in ("load_node", "unload_node", "list_nodes"):
+        words = "".join(word.capitalize() for word in name.split("_"))
+        kind: Any = service_type(f"composition_interfaces/srv/{words}")
+        node.create_service(f"~/_container/{name}", kind, _answering(kind, container, name))
+    stop.wait()
+    container.end()
+    node.shutdown()
+    return 0
+
+
+def _answering(kind: Any, container: _Container, name: str) -> Any:
+    handler = getattr(container, name)
+
+    def answer(request: Any) -> Any:
+        response = kind.Response()
+        handler(request, response)
+        return response
+
+    return answer
+
+
+@dataclass(slots=True)
+class _Component:
+    """A node that was loaded."""
+
+    full_name: str
+    thread: threading.Thread
+    stop: threading.Event = field(default_factory=threading.Event)
+
+
+class _Container:
+    def __init__(self, node: Node, graph: Graph) -> None:
+        self._node = node
+        self._graph = graph
+        self._numbers = itertools.count(1)
+        self._loaded: dict[int, _Component] = {}
+
+    def load_node(self, request: Any, response: Any) -> None:
+        """Start the built-in node of a component."""
+        package, plugin = request.package_name, request.plugin_name
+        builtin = builtin_of_component(package, plugin)
+        if builtin is None:
+            response.success = False
+            response.error_message = _refusal(package, plugin)
+            self._node.log("error", response.error_message)
+            return
+        space = request.node_namespace or "/"
+        name = request.node_name or builtin.name or builtin.type.partition(".")[0]
+        stop = threading.Event()
+        target = {
+            "node": f"{builtin.package}/{builtin.type}",
+            "argv": _words(request, name),
+            "namespace": space,
+        }
+        thread = threading.Thread(target=self._run, args=(target, stop), name=name, daemon=True)
+        number = next(self._numbers)
+        full = f"{space.rstrip('/')}/{name}"
+        self._loaded[number] = _Component(full, thread, stop)
+        thread.start()
+        self._node.log("info", f"Load Library: none; {target['node']} does the work of {plugin}")
+        response.success, response.unique_id, response.full_node_name = True, number, full
+
+    def unload_node(self, request: Any, response: Any) -> None:
+        """End a node."""
+        found = self._loaded.pop(request.unique_id, None)
+        response.success = found is not None
+        if found is None:
+            response.error_message = f"No node found with unique_id: {request.unique_id}"
+            return
+        found.stop.set()
+        found.thread.join(_END_S)
+
+    def list_nodes(self, _request: Any, response: Any) -> None:
+        """Name the nodes that run."""
+        running = {key: one for key, one in self._loaded.items() if one.thread.is_alive()}
+        response.unique_ids = list(running)
+        response.full_node_names = [one.full_name for one in running.values()]
+
+    def end(self) -> None:
+        """End all nodes."""
+        for one in self._loaded.values():
+            one.stop.set()
+        for one in self._loaded.values():
+            one.thread.join(_END_S)
+
+    def _run(self, target: dict[str, Any], stop: threading.Event) -> None:
+        from gazelle.nodes.host import run_node
+
+        try:
+            run_node(target, self._graph, stop)
+        except GazelleError as error:
+            self._node.log("error", f"[{target['node']}] {error}")
+        except Exception:  # noqa: BLE001 - one node's bug must not take the others along
+            self._node.log("error", traceback.format_exc())
+
+
+def _words(request: Any, name: str) -> list[str]:
+    """Return a request as the command line of a node."""
+    words = ["--ros-args", "-r", f"__node:={name}"]
+    for rule in request.remap_rules:
+        words += ["-r", rule]
+    for one in request.parameters:
+        # JSON is YAML, and keeps texts that look like numbers.
+        words += ["-p", f"{one.name}:={json.dumps(value_from_message(one.value))}"]
+    return words
+
+
+def _refusal(package: str, plugin: str) -> str:
+    text = f"Failed to find class with the requested plugin name '{plugin}' in the loaded library"
+    types = builtin_types(package)
+    known = f"; built-in nodes of package '{package}': {', '.join(types)}" if types else ""
+    return f"{text}: components are compiled code, which is not loaded here{known}"

@@ -1,0 +1,72 @@
+"""component_container loads built-in nodes under the names of components."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from gazelle.graph.parameter_values import value_message
+from gazelle.interfaces import message_type
+from gazelle.nodes.component_container import builtin_of_component
+
+_SERVICES = "composition_interfaces/srv"
+_ROBOT = """<robot name="r"><link name="a"/><link name="7"/><joint name="j" type="fixed">
+<parent link="a"/><child link="7"/></joint></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("package", "plugin", "node"),
+    [
+        ("robot_state_publisher", "robot_state_publisher::RobotStatePublisher", "robot_state_"),
+        ("topic_tools", "topic_tools::RelayNode", "relay"),
+        ("tf2_ros", "tf2_ros::StaticTransformBroadcasterNode", "static_transform_publisher"),
+        ("ros_gz_bridge", "ros_gz_bridge::RosGzBridge", "parameter_bridge"),
+    ],
+)
+def test_names_of_components_are_those_of_nodes(package: str, plugin: str, node: str) -> None:
+    found = builtin_of_component(package, plugin)
+    assert found is not None and found.type.startswith(node)
+
+
+def test_component_is_loaded_listed_and_unloaded(bench: Any) -> None:
+    bench.start("rclcpp_components/component_container", "--ros-args", "-r", "__node:=box")
+    parameter = message_type("rcl_interfaces/msg/Parameter")
+    static = bench.listen("/moved", "tf2_msgs/msg/TFMessage")
+    answer = bench.call(
+        "/box/_container/load_node",
+        f"{_SERVICES}/LoadNode",
+        package_name="robot_state_publisher",
+        plugin_name="robot_state_publisher::RobotStatePublisher",
+        node_name="rsp",
+        node_namespace="/s",
+        remap_rules=["/tf_static:=/moved"],
+        parameters=[
+            parameter(name="robot_description", value=value_message(_ROBOT)),
+            parameter(name="frame_prefix", value=value_message("1")),
+        ],
+    )
+    assert (answer.success, answer.unique_id, answer.full_node_name) == (True, 1, "/s/rsp")
+    bench.eventually(lambda: static)
+    assert static[0].transforms[0].child_frame_id == "17"
+    listed = bench.call("/box/_container/list_nodes", f"{_SERVICES}/ListNodes")
+    assert (list(listed.unique_ids), list(listed.full_node_names)) == ([1], ["/s/rsp"])
+    kind = f"{_SERVICES}/UnloadNode"
+    assert bench.call("/box/_container/unload_node", kind, unique_id=1).success
+    bench.eventually(lambda: "/s/rsp" not in bench.graph.node_names())
+    again = bench.call("/box/_container/unload_node", kind, unique_id=1)
+    assert again.error_message == "No node found with unique_id: 1"
+    assert bench.stop() == [0]
+
+
+def test_compiled_components_are_refused_with_what_there_is(bench: Any) -> None:
+    bench.start("rclcpp_components/component_container_mt", "--ros-args", "-r", "__node:=box")
+    answer = bench.call(
+        "/box/_container/load_node",
+        f"{_SERVICES}/LoadNode",
+        package_name="topic_tools",
+        plugin_name="topic_tools::Blender",
+    )
+    assert not answer.success
+    assert "components are compiled code, which is not loaded here" in answer.error_message
+    assert "built-in nodes of package 'topic_tools': demux, drop, mux" in answer.error_message
