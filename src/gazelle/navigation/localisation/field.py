@@ -1,0 +1,69 @@
+"""A map as localisation looks at it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.grids import OccupancyGrid
+
+__all__ = ["LikelihoodMap"]
+
+
+@dataclass(frozen=True, eq=False)
+class LikelihoodMap:
+    """Free cells and distances to walls.
+
+    Attributes:
+        blocked: int8, 1 for occupied cells, 2 for unknown ones, 0 for free ones.
+        distances_m: float32, to the nearest occupied cell, at most `reach_m`.
+        free: columns and rows of free cells, (n, 2).
+        resolution_m: side of a cell.
+        origin: of cell (0, 0), m.
+        reach_m: longest distance that is told apart.
+    """
+
+    blocked: NDArray[np.int8]
+    distances_m: NDArray[np.float32]
+    free: NDArray[np.int64]
+    resolution_m: float
+    origin: tuple[float, float]
+    reach_m: float
+
+    @classmethod
+    def of_grid(cls, grid: OccupancyGrid, reach_m: float) -> LikelihoodMap:
+        """Look at a map; occupied is 100, free is 0, everything else unknown, as in amcl.
+
+        A map whose frame is turned is looked at without the turn, as amcl does.
+        """
+        from gazelle.navigation.costmap.kernels import squared_distances
+
+        occupied = grid.cells == 100
+        reach = int(np.ceil(reach_m / grid.resolution_m))
+        squares = squared_distances(occupied, reach)
+        distances = np.sqrt(np.minimum(squares, reach * reach)) * grid.resolution_m
+        blocked = np.where(occupied, 1, np.where(grid.cells == 0, 0, 2)).astype(np.int8)
+        rows, columns = np.nonzero(grid.cells == 0)
+        return cls(
+            blocked,
+            np.minimum(distances, reach_m).astype(np.float32),
+            np.column_stack([columns, rows]),
+            grid.resolution_m,
+            (grid.origin[0], grid.origin[1]),
+            reach_m,
+        )
+
+    def random_poses(self, count: int, random: np.random.Generator) -> NDArray[np.float64]:
+        """Return poses anywhere on free ground, (count, 3).
+
+        Raises:
+            ValueError: the map has no free cell.
+        """
+        if not len(self.free):
+            raise ValueError("the map has no free cell, so there is no place for a robot")
+        cells = self.free[random.integers(len(self.free), size=count)]
+        inside = random.random((count, 2))
+        places = (cells + inside) * self.resolution_m + self.origin
+        return np.column_stack([places, random.uniform(-np.pi, np.pi, count)])

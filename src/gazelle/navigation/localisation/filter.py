@@ -1,0 +1,223 @@
+"""Adaptive Monte Carlo localisation (Fox 2001; Thrun and others 2005, chapter 8), as ``amcl``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.grids import OccupancyGrid
+from gazelle.mapping.scans import Scan
+from gazelle.navigation.localisation.clusters import best_cluster, statistics
+from gazelle.navigation.localisation.field import LikelihoodMap
+from gazelle.navigation.localisation.motion import moved
+from gazelle.navigation.localisation.options import AmclOptions
+from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
+
+__all__ = ["Amcl", "Estimate"]
+
+Pose = tuple[float, float, float]
+_TOGETHER_M = 0.5
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Estimate:
+    """Where the robot is.
+
+    Attributes:
+        pose: of the heaviest group of particles, in the map's frame.
+        covariance: of all particles, (3, 3).
+        resampled: the particles were drawn anew.
+    """
+
+    pose: Pose
+    covariance: NDArray[np.float64]
+    resampled: bool
+
+
+class Amcl:
+    """A particle filter in a map. Not safe for several threads at once."""
+
+    def __init__(self, options: AmclOptions, seed: int = 0) -> None:
+        """Begin at the initial pose of the options, without a map.
+
+        Args:
+            options: parameters.
+            seed: of everything random.
+        """
+        self._options = options
+        self._random = np.random.default_rng(seed)
+        self._map: LikelihoodMap | None = None
+        self._model: ScanModel | None = None
+        self._odometry: Pose | None = None
+        self._lasers: set[str] = set()
+        self._pending: set[str] = set()
+        self._particles: NDArray[np.float64] = np.zeros((0, 3))
+        self._weights: NDArray[np.float64] = np.zeros(0)
+        self._forced = False
+        self._updates = 0
+        self._slow = self._fast = 0.0
+        o = options
+        spread = np.diag([o.initial_cov_xx, o.initial_cov_yy, o.initial_cov_aa])
+        self.initialise((o.initial_pose_x, o.initial_pose_y, o.initial_pose_a), spread)
+
+    @property
+    def particles(self) -> NDArray[np.float64]:
+        """Poses, (n, 3)."""
+        return self._particles
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Of the particles, their sum is 1."""
+        return self._weights
+
+    @property
+    def has_map(self) -> bool:
+        """Whether there is a map."""
+        return self._map is not None
+
+    def set_options(self, options: AmclOptions) -> None:
+        """Go on with other parameters; the particles stay."""
+        if options.laser_likelihood_max_dist != self._options.laser_likelihood_max_dist:
+            self._model = None
+        self._options = options
+        if self._map is not None and self._model is not None:
+            self._model = ScanModel(self._map, options)
+
+    def set_map(self, grid: OccupancyGrid) -> None:
+        """Take a map; the particles stay where they are."""
+        self._map = LikelihoodMap.of_grid(grid, self._options.laser_likelihood_max_dist)
+        self._model = ScanModel(self._map, self._options)
+
+    def initialise(self, pose: Pose, covariance: NDArray[np.float64]) -> None:
+        """Spread the particles around a pose.
+
+        Args:
+            pose: in the map's frame.
+            covariance: (3, 3) of x, y (m) and yaw (rad).
+        """
+        count = self._options.max_particles
+        # A covariance that is not positive is taken as far as it is.
+        values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        drawn = self._random.standard_normal((count, 3)) @ root.T
+        self._begin_with(np.asarray(pose) + drawn)
+
+    def spread_everywhere(self) -> None:
+        """Spread the particles over all free ground (service ``global_localization``).
+
+        Raises:
+            ValueError: there is no map, or it has no free cell.
+        """
+        if self._map is None:
+            raise ValueError("there is no map yet")
+        self._begin_with(self._map.random_poses(self._options.max_particles, self._random))
+
+    def request_update(self) -> None:
+        """Let the next scan count although the robot stands (``request_nomotion_update``)."""
+        self._forced = True
+
+    def update(self, odometry: Pose, scan: Scan, laser: str = "") -> Estimate | None:
+        """Take in a scan.
+
+        Args:
+            odometry: the robot in the odometry's frame at the time of the scan.
+            scan: what the lidar saw.
+            laser: name of the lidar, where there are several.
+
+        Returns:
+            Where the robot is, when that changed; None while it has not moved far enough, or
+            before there is a map.
+        """
+        if self._model is None:
+            return None
+        first = self._odometry is None
+        self._lasers.add(laser)
+        if self._odometry is None:
+            self._odometry = odometry
+            self._pending = set(self._lasers)
+            self._updates = 0
+        elif self._moved_enough(odometry):
+            self._pending = set(self._lasers)
+        if laser not in self._pending:
+            return None
+        self._pending.discard(laser)
+        self._forced = False
+        if not first:
+            self._particles = moved(
+                self._particles, self._odometry, odometry, self._options, self._random
+            )
+        self._odometry = odometry
+        self._weigh(scan)
+        self._updates += 1
+        resampled = self._updates % self._options.resample_interval == 0
+        if resampled:
+            self._resample()
+        return self.estimate(resampled=resampled)
+
+    def estimate(self, *, resampled: bool = False) -> Estimate:
+        """Return where the robot is by the particles as they are."""
+        mean, _weight = best_cluster(self._particles, self._weights)
+        _mean, covariance = statistics(self._particles, self._weights)
+        return Estimate((float(mean[0]), float(mean[1]), float(mean[2])), covariance, resampled)
+
+    def _begin_with(self, particles: NDArray[np.float64]) -> None:
+        self._particles = particles
+        self._weights = np.full(len(particles), 1.0 / len(particles))
+        self._slow = self._fast = 0.0
+        self._odometry = None
+
+    def _moved_enough(self, odometry: Pose) -> bool:
+        o, last = self._options, self._odometry
+        assert last is not None
+        turn = abs(math.remainder(odometry[2] - last[2], math.tau))
+        way = max(abs(odometry[0] - last[0]), abs(odometry[1] - last[1]))
+        return self._forced or way > o.update_min_d or turn > o.update_min_a
+
+    def _weigh(self, scan: Scan) -> None:
+        assert self._model is not None
+        o = self._options
+        beams = chosen_beams(scan, o)
+        converged = o.do_beamskip and self._together()
+        likelihoods = self._model.weights(self._particles, beams, converged=converged)
+        weights = self._weights * likelihoods
+        total = float(weights.sum())
+        if not total > 0:
+            self._weights = np.full(len(weights), 1.0 / len(weights))
+            return
+        average = total / len(weights)
+        self._slow += (average - self._slow) * (o.recovery_alpha_slow if self._slow else 1.0)
+        self._fast += (average - self._fast) * (o.recovery_alpha_fast if self._fast else 1.0)
+        self._weights = weights / total
+
+    def _together(self) -> bool:
+        off = np.abs(self._particles[:, :2] - self._particles[:, :2].mean(axis=0))
+        return bool((off <= _TOGETHER_M).all())
+
+    def _resample(self) -> None:
+        from gazelle.navigation.localisation.kernels import resample
+
+        o, weights = self._options, self._weights
+        assert self._map is not None
+        if o.selective_resampling and 1.0 / float((weights**2).sum()) > len(weights) / 2:
+            return
+        elsewhere = max(0.0, 1.0 - self._fast / self._slow) if self._slow > 0 else 0.0
+        count = o.max_particles
+        draws = np.zeros((count, 4))
+        # Any first part of these is spread evenly, which loses fewer good particles by chance.
+        draws[:, 0] = (self._random.permutation(count) + self._random.random(count)) / count
+        if elsewhere > 0 and len(self._map.free):
+            draws[:, 1:] = self._map.random_poses(count, self._random)
+            # Random poses begin a new judgement, as amcl resets its averages.
+            self._slow = self._fast = 0.0
+        else:
+            elsewhere = 0.0
+        cumulative = np.cumsum(weights)
+        cumulative[-1] = 1.0
+        self._particles = resample(
+            self._particles, cumulative, self._random.random(count), draws, elsewhere,
+            min(o.min_particles, count), count, o.kld_err, o.kld_z,
+        )  # fmt: skip
+        self._weights = np.full(len(self._particles), 1.0 / len(self._particles))
