@@ -40,6 +40,13 @@ def test_parameter_file_counts_for_its_node_only(tmp_path) -> None:
     assert read_arguments(words, "sim").params == {"background_r": 7, "a/b": 3}
 
 
+def test_names_with_dots_in_a_parameter_file_are_those_of_branches(tmp_path) -> None:
+    path = tmp_path / "params.yaml"
+    path.write_text("/**: {ros__parameters: {a.b: 1, a: {c.d: 2}}}")
+    words = ["--ros-args", "--params-file", str(path)]
+    assert read_arguments(words, "n").params == {"a/b": 1, "a/c/d": 2}
+
+
 def test_section_may_begin_anew_within_itself() -> None:
     words = ["a", "--ros-args", "-p", "x:=1", "--ros-args", "-r", "__node:=n", "--", "b"]
     found = read_arguments(words, "other")

@@ -142,5 +142,11 @@ def _flat(name: str, value: Any) -> dict[str, Any]:
     return {
         key: one
         for sub, item in value.items()
-        for key, one in _flat(f"{name}/{sub}" if name else str(sub), item).items()
+        for key, one in _flat(_below(name, str(sub)), item).items()
     }
+
+
+def _below(name: str, sub: str) -> str:
+    """Files may write ``a.b: 1`` for ``a: {b: 1}``, as launch files do."""
+    inner = sub.replace(".", "/")
+    return f"{name}/{inner}" if name else inner
