@@ -57,6 +57,7 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"
     ),
     "inertia": Command("gazelle.cli.inertia", "mass properties of bodies; check a robot's"),
+    "slam": Command("gazelle.cli.slam", "make a map and a trajectory of a log or bag"),
     "xacro": Command("gazelle.cli.xacro", "expand a xacro file"),
     "check_urdf": Command("gazelle.cli.check_urdf", "check a robot and print its tree"),
     "urdf_to_graphviz": Command("gazelle.cli.urdf_to_graphviz", "draw a robot's tree"),

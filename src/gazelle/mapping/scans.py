@@ -40,7 +40,8 @@ class Scan:
     @property
     def angles_rad(self) -> NDArray[np.float64]:
         """Directions of the beams in the lidar's own frame, shape (n,)."""
-        return self.angle_min_rad + self.angle_increment_rad * np.arange(len(self.ranges_m))
+        beams = np.arange(len(self.ranges_m), dtype=np.float64)
+        return np.asarray(self.angle_min_rad + self.angle_increment_rad * beams)
 
     @property
     def bearings_rad(self) -> NDArray[np.float64]:

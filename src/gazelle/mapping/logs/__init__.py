@@ -1,0 +1,10 @@
+"""Logs of robots as files: CARMEN's, and numpy archives; trajectories out."""
+
+from __future__ import annotations
+
+from gazelle.mapping.logs.archive import read_archive
+from gazelle.mapping.logs.carmen import read_carmen
+from gazelle.mapping.logs.reading import LogRecord, read_log
+from gazelle.mapping.logs.trajectory import write_carmen, write_tum
+
+__all__ = ["LogRecord", "read_archive", "read_carmen", "read_log", "write_carmen", "write_tum"]

@@ -1,0 +1,38 @@
+"""Writing trajectories."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from pathlib import Path
+
+from gazelle.mapping.logs.record import LogRecord
+from gazelle.mapping.poses import Poses, compose
+
+__all__ = ["write_carmen", "write_tum"]
+
+
+def write_tum(path: Path, stamps_ns: Iterable[int], poses: Poses) -> None:
+    """Write ``time x y z qx qy qz qw`` in every line, as TUM's tools and evo read it."""
+    lines = [
+        f"{stamp / 1e9:.9f} {x:.6f} {y:.6f} 0 0 0 {math.sin(yaw / 2):.9f} {math.cos(yaw / 2):.9f}\n"
+        for stamp, (x, y, yaw) in zip(map(int, stamps_ns), poses.tolist(), strict=True)
+    ]
+    path.write_text("".join(lines))
+
+
+def write_carmen(path: Path, records: Iterable[LogRecord], poses: Poses) -> None:
+    """Write the log anew with other poses: a corrected log of FLASER lines."""
+    lines = []
+    for record, pose in zip(records, poses, strict=True):
+        scan = record.scan
+        lidar = compose(pose, scan.T_base_laser)
+        seen = scan.hits()
+        words = [f"{r:.3f}" if ok else f"{scan.range_max_m + 1:.2f}"
+                 for r, ok in zip(scan.ranges_m.tolist(), seen.tolist(), strict=True)]  # fmt: skip
+        places = [f"{value:.6f}" for value in (*lidar, *pose)]
+        time_s = f"{scan.stamp_ns / 1e9:.6f}"
+        lines.append(
+            " ".join(["FLASER", str(len(words)), *words, *places, time_s, "gazelle", time_s])
+        )
+    path.write_text("\n".join(lines) + "\n")

@@ -1,0 +1,1 @@
+"""Recognising places: candidates, search, consistency."""

@@ -1,0 +1,87 @@
+"""Guesses that two places are one, believed once several agree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.poses import Poses, between, compose
+
+__all__ = ["Hypotheses", "Hypothesis"]
+
+_CLOSE_M = 0.15
+_CLOSE_M_PER_M = 0.02
+_CLOSE_RAD = 0.04
+_CLOSE_RAD_PER_M = 0.002
+_FEWEST = 3
+_FORGOTTEN_M = 30.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hypothesis:
+    """Keyframe `head` is seen from keyframe `tail`.
+
+    Attributes:
+        tail, head: indices, the older one first.
+        relative: ``tail⁻¹ ⊕ head``.
+        information: its inverse covariance in the frame of the tail.
+        score: mean likelihood of the match.
+        reach_m: half side of the window it was found in; wide windows find more false ones.
+    """
+
+    tail: int
+    head: int
+    relative: Poses
+    information: NDArray[np.float64]
+    score: float
+    reach_m: float
+
+
+class Hypotheses:
+    """Those that wait for others that agree with them.
+
+    Two agree when going round (from one tail to its head, along the way to the other head, back to
+    that one's tail and along that way to the first) ends where it began. False ones of a repetitive
+    building agree by chance only over short ways.
+    """
+
+    def __init__(self) -> None:
+        """Start with none."""
+        self._waiting: list[Hypothesis] = []
+
+    def agree(self, new: Hypothesis, poses: Poses, ways_m: NDArray[np.float64]) -> list[Hypothesis]:
+        """Keep a new one; return the set that is believed now, often empty.
+
+        Args:
+            new: the new one.
+            poses: of all keyframes, (n, 3).
+            ways_m: driven until each keyframe, (n,).
+        """
+        now_m = ways_m[new.head]
+        self._waiting = [h for h in self._waiting if now_m - ways_m[h.head] < _FORGOTTEN_M]
+        party = [new]
+        for other in sorted(self._waiting, key=lambda h: -h.score):
+            if all(_agree(other, one, poses, ways_m) for one in party):
+                party.append(other)
+        self._waiting.append(new)
+        heads = ways_m[[one.head for one in party]]
+        span = float(heads.max() - heads.min())
+        reach = max(one.reach_m for one in party)
+        if len(party) < _FEWEST or span < 1.0 + 0.2 * reach:
+            return []
+        believed = {id(one) for one in party}
+        self._waiting = [one for one in self._waiting if id(one) not in believed]
+        return party
+
+
+def _agree(a: Hypothesis, b: Hypothesis, poses: Poses, ways_m: NDArray[np.float64]) -> bool:
+    if a.head == b.head:
+        return False
+    over = compose(a.relative, between(poses[a.head], poses[b.head]))
+    under = compose(between(poses[a.tail], poses[b.tail]), b.relative)
+    error = between(over, under)
+    length = abs(ways_m[a.head] - ways_m[b.head]) + abs(ways_m[a.tail] - ways_m[b.tail])
+    near = np.hypot(error[0], error[1]) < _CLOSE_M + _CLOSE_M_PER_M * length
+    return bool(near and abs(error[2]) < _CLOSE_RAD + _CLOSE_RAD_PER_M * length)

@@ -1,0 +1,76 @@
+"""Which earlier keyframes may be where the robot is now."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.poses import Poses
+
+__all__ = ["Place", "places_near"]
+
+_DRIFT_M = 0.1
+_DRIFT_M_PER_M = 0.02
+_SIGMAS = 3.0
+_NEAREST_M = 4.0
+_MOST_PLACES = 2
+_LOOP_LENGTH_M = 0.1
+_SAME_PASS = 3
+_DRIFT_RAD = 0.1
+_DRIFT_RAD_PER_M = 0.003
+_MOST_WAY_M = 150.0
+
+
+class Place(NamedTuple):
+    """An earlier keyframe.
+
+    Attributes:
+        keyframe: its index.
+        reach_m: how far it may be from where it seems to be.
+        reach_rad: by how much its heading may be off.
+    """
+
+    keyframe: int
+    reach_m: float
+    reach_rad: float
+
+
+def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> list[Place]:
+    """Return the places to look at for the last pose, the likeliest first.
+
+    How far a place may be off grows with the shortest way through the graph, so that it is small
+    for parts of the map that loops already tie together.
+
+    Args:
+        poses: of all keyframes, (n, 3).
+        edges: between them.
+        gap_m: shorter ways are no loops.
+        reach_m: the largest window.
+    """
+    last = len(poses) - 1
+    far = np.hypot(*(poses[:, :2] - poses[last, :2]).T)
+    ways = _ways(edges, len(poses))
+    reach = np.clip(_SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways), 0.3, reach_m)
+    wanted = np.flatnonzero((far < _NEAREST_M + reach) & (ways > gap_m))
+    if not len(wanted):
+        return []
+    passes = np.split(wanted, np.flatnonzero(np.diff(wanted) > _SAME_PASS) + 1)
+    nearest = [int(one[far[one].argmin()]) for one in passes]
+    nearest.sort(key=lambda k: far[k] - reach[k])
+    return [
+        Place(k, float(reach[k]), float(_DRIFT_RAD + _DRIFT_RAD_PER_M * min(ways[k], _MOST_WAY_M)))
+        for k in nearest[:_MOST_PLACES]
+    ]
+
+
+def _ways(edges: Edges, count: int) -> NDArray[np.float64]:
+    """Return the shortest ways through the graph to the last pose, metres."""
+    lengths = np.hypot(edges.relative[:, 0], edges.relative[:, 1]) + 1e-3
+    lengths = np.where(edges.is_loop, _LOOP_LENGTH_M, lengths)
+    graph = csr_matrix((lengths, (edges.tail, edges.head)), shape=(count, count))
+    return np.asarray(dijkstra(graph, directed=False, indices=count - 1))

@@ -1,0 +1,105 @@
+"""Looking whether the robot is where it has been before."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.loops.ambiguity import ambiguous
+from gazelle.mapping.loops.hypotheses import Hypothesis
+from gazelle.mapping.loops.places import Place
+from gazelle.mapping.matching.field import Field
+from gazelle.mapping.matching.match import Prior, refined
+from gazelle.mapping.matching.surfaces import even_points
+from gazelle.mapping.matching.wide import wide_search
+from gazelle.mapping.pose_graph.information import bounded, seen_from
+from gazelle.mapping.poses import Poses, between, transform_points
+from gazelle.mapping.slam.keyframes import Keyframes
+from gazelle.mapping.slam.parameters import SlamParameters
+
+__all__ = ["recognise"]
+
+_PATCH_M = 5.0
+_PATCH_SCANS = 8
+_PATCH_CELL_M = 0.1
+_PATCH_POINTS = 300
+_PLACE_M = 6.0
+_PLACE_SCANS = 10
+_FEWEST_POINTS = 40
+_FIRST_REACH_M = 0.6
+_MUCH_BETTER = 0.08
+
+
+def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) -> Hypothesis | None:
+    """Return where the last keyframe is seen from a place, None when it does not look like it.
+
+    What the last few keyframes see together is matched with what those around the place saw: single
+    scans of a building resemble each other too often.
+    """
+    head = len(keyframes) - 1
+    points = _patch(keyframes, head)
+    if len(points) < _FEWEST_POINTS:
+        return None
+    pose = keyframes.poses[head]
+    reach = float(np.sqrt((points**2).sum(axis=1).max())) + place.reach_m
+    near = _around(keyframes, place.keyframe, head)
+    field = keyframes.field(near, pose, reach)
+    rough = _nearest_match(field.pooled(), points, pose, place, parameters.least_loop)
+    if rough is None:
+        return None
+    found = refined(field, points, rough, Prior(rough, np.zeros((3, 3))))
+    if found.score < parameters.least_loop:
+        return None
+    tail = place.keyframe
+    relative = between(keyframes.poses[tail], found.pose)
+    information = (
+        bounded(found.information)
+        if place.reach_m < 1
+        else ambiguous(field, points, found, place.reach_m)
+    )
+    information = seen_from(keyframes.poses[tail], information)
+    return Hypothesis(tail, head, relative, information, found.score, place.reach_m)
+
+
+def _nearest_match(
+    field: Field, points: NDArray[np.float64], pose: Poses, place: Place, least: float
+) -> Poses | None:
+    """Return the match that needs the smallest window, unless one farther away is much better.
+
+    Corridors look alike wherever one stands in them; then the robot is where it thinks it is.
+    """
+    best: Poses | None = None
+    reach = _FIRST_REACH_M
+    while True:
+        reach = min(reach, place.reach_m)
+        found = wide_search(
+            field, points, pose, reach_m=reach, reach_rad=place.reach_rad, least=least
+        )
+        if found is not None:
+            best, least = found.pose, found.value + _MUCH_BETTER
+        if reach >= place.reach_m or least >= 1.0:
+            return best
+        reach *= 2.0
+
+
+def _patch(keyframes: Keyframes, head: int) -> NDArray[np.float64]:
+    """Return what the last keyframes see, in the frame of the last one."""
+    origin = keyframes.poses[head]
+    first = head
+    while (
+        first > max(0, head - _PATCH_SCANS + 1)
+        and keyframes[head].way_m - keyframes[first - 1].way_m < _PATCH_M
+    ):
+        first -= 1
+    parts = [
+        transform_points(between(origin, keyframes.poses[i]), keyframes[i].points_m)
+        for i in range(first, head + 1)
+    ]
+    return even_points(np.concatenate(parts), _PATCH_CELL_M, _PATCH_POINTS)
+
+
+def _around(keyframes: Keyframes, index: int, head: int) -> list[int]:
+    """Return the keyframes around a place that are not of the present."""
+    way = keyframes[index].way_m
+    low, high = max(0, index - _PLACE_SCANS), min(head - _PATCH_SCANS, index + _PLACE_SCANS + 1)
+    return [i for i in range(low, high) if abs(keyframes[i].way_m - way) < _PLACE_M]

@@ -1,0 +1,1 @@
+"""Scan matching: likelihood fields, correlative search, refinement."""

@@ -1,0 +1,260 @@
+# mypy: ignore-errors
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917
+"""The compiled inner loops of scan matching.
+
+A field is a float32 array (height, width) of values within [0, 1], row 0 lowest y, its cell
+(0, 0) beginning at (x0, y0). Points are float64 arrays (n, 2). Nothing here holds a Python object.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+__all__ = ["best_in_window", "bound_search", "mean_value", "pooled", "refine", "sliding", "stamp"]
+
+
+@njit(cache=True, nogil=True)
+def stamp(field, x0, y0, cell, points, kernels):
+    """Raise the field around every point.
+
+    `kernels`, (s, s, k, k), has an odd square for every s-th part of a cell that a point may lie
+    in, by row and column: whole cells would shift walls by up to half a cell.
+    """
+    height, width = field.shape
+    parts, reach = kernels.shape[0], kernels.shape[2] // 2
+    for i in range(points.shape[0]):
+        gx, gy = (points[i, 0] - x0) / cell, (points[i, 1] - y0) / cell
+        cx, cy = math.floor(gx), math.floor(gy)
+        if cx < reach or cy < reach or cx >= width - reach or cy >= height - reach:
+            continue
+        kernel = kernels[int((gy - cy) * parts), int((gx - cx) * parts)]
+        # What raises the middle by nothing raises little around it.
+        if field[cy, cx] >= kernel[reach, reach]:
+            continue
+        for a in range(-reach, reach + 1):
+            for b in range(-reach, reach + 1):
+                value = kernel[a + reach, b + reach]
+                field[cy + a, cx + b] = max(field[cy + a, cx + b], value)
+
+
+@njit(cache=True, nogil=True)
+def pooled(field):
+    """Return the field with cells twice as large, each the greatest of its four parts."""
+    height, width = field.shape[0] // 2, field.shape[1] // 2
+    out = np.empty((height, width), np.float32)
+    for y in range(height):
+        low, high = field[2 * y], field[2 * y + 1]
+        for x in range(width):
+            a, b = low[2 * x], low[2 * x + 1]
+            c, d = high[2 * x], high[2 * x + 1]
+            left = a if a > c else c
+            right = b if b > d else d
+            out[y, x] = left if left > right else right
+    return out
+
+
+@njit(cache=True, nogil=True)
+def sliding(field, step):
+    """Return the greatest of each cell and those `step` to its right, above and diagonal."""
+    height, width = field.shape
+    out = np.empty_like(field)
+    for y in range(height):
+        up = min(y + step, height - 1)
+        for x in range(width):
+            right = min(x + step, width - 1)
+            out[y, x] = max(field[y, x], field[y, right], field[up, x], field[up, right])
+    return out
+
+
+@njit(cache=True, nogil=True, fastmath=True)
+def best_in_window(field, x0, y0, cell, points, guess, reach_m, step_m, reach_rad, step_rad, prior):
+    """Return the best pose on a lattice around a guess, as (x, y, yaw, mean value there).
+
+    The departure from `prior`, (x, y, yaw, weight per m², weight per rad²), lowers what a pose
+    is worth.
+    """
+    height, width = field.shape
+    n = points.shape[0]
+    n_turns, n_steps = round(reach_rad / step_rad), round(reach_m / step_m)
+    best, best_mean = -1e30, 0.0
+    bx, by, bt = guess[0], guess[1], guess[2]
+    px, py = np.empty(n), np.empty(n)
+    scale = 1.0 / cell
+    for turn in range(-n_turns, n_turns + 1):
+        yaw = guess[2] + turn * step_rad
+        c, s = math.cos(yaw), math.sin(yaw)
+        for i in range(n):
+            px[i] = (c * points[i, 0] - s * points[i, 1] - x0) * scale
+            py[i] = (s * points[i, 0] + c * points[i, 1] - y0) * scale
+        for iy in range(-n_steps, n_steps + 1):
+            y = guess[1] + iy * step_m
+            for ix in range(-n_steps, n_steps + 1):
+                x = guess[0] + ix * step_m
+                total = 0.0
+                for i in range(n):
+                    gx, gy = int(px[i] + x * scale), int(py[i] + y * scale)
+                    if 0 <= gx < width and 0 <= gy < height:
+                        total += field[gy, gx]
+                total /= n
+                ex, ey, et = x - prior[0], y - prior[1], yaw - prior[2]
+                worth = total - prior[3] * (ex * ex + ey * ey) - prior[4] * et * et
+                if worth > best:
+                    best, best_mean, bx, by, bt = worth, total, x, y, yaw
+    return bx, by, bt, best_mean
+
+
+@njit(cache=True, nogil=True, fastmath=True)
+def mean_value(field, x0, y0, cell, points, x, y, yaw):
+    """Return the mean value of the field at points seen from a pose."""
+    height, width = field.shape
+    c, s = math.cos(yaw), math.sin(yaw)
+    total = 0.0
+    for i in range(points.shape[0]):
+        gx = math.floor((c * points[i, 0] - s * points[i, 1] + x - x0) / cell)
+        gy = math.floor((s * points[i, 0] + c * points[i, 1] + y - y0) / cell)
+        if 0 <= gx < width and 0 <= gy < height:
+            total += field[gy, gx]
+    return total / max(1, points.shape[0])
+
+
+@njit(cache=True, nogil=True, fastmath=True)
+def refine(field, x0, y0, cell, points, guess, prior, information, weight, iterations):
+    """Minimise ``weight Σ (1 − M)² + eᵀ Λ e`` by Gauss-Newton (Kohlbrecher et al. 2011).
+
+    M is the field, bilinear between cell centres, e the departure from `prior`, Λ `information`.
+
+    Returns:
+        The pose and the Hessian of the first term, which is what the scan says of the pose.
+    """
+    height, width = field.shape
+    pose = guess.copy()
+    data = np.zeros((3, 3))
+    slope = np.zeros(3)
+    scale = 1.0 / cell
+    for _ in range(iterations):
+        data[:] = 0.0
+        slope[:] = 0.0
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        for i in range(points.shape[0]):
+            rx = c * points[i, 0] - s * points[i, 1]
+            ry = s * points[i, 0] + c * points[i, 1]
+            gx = (rx + pose[0] - x0) * scale - 0.5
+            gy = (ry + pose[1] - y0) * scale - 0.5
+            if gx < 0 or gy < 0 or gx >= width - 1 or gy >= height - 1:
+                continue
+            ix, iy = int(gx), int(gy)
+            fx, fy = gx - ix, gy - iy
+            m00, m10 = field[iy, ix], field[iy, ix + 1]
+            m01, m11 = field[iy + 1, ix], field[iy + 1, ix + 1]
+            low, high = m00 + (m10 - m00) * fx, m01 + (m11 - m01) * fx
+            error = 1.0 - (low + (high - low) * fy)
+            dx = ((m10 - m00) * (1 - fy) + (m11 - m01) * fy) * scale
+            dy = (high - low) * scale
+            dt = -dx * ry + dy * rx
+            data[0, 0] += dx * dx
+            data[0, 1] += dx * dy
+            data[0, 2] += dx * dt
+            data[1, 1] += dy * dy
+            data[1, 2] += dy * dt
+            data[2, 2] += dt * dt
+            slope[0] += dx * error
+            slope[1] += dy * error
+            slope[2] += dt * error
+        data[1, 0], data[2, 0], data[2, 1] = data[0, 1], data[0, 2], data[1, 2]
+        data *= weight
+        away = pose - prior
+        away[2] = (away[2] + math.pi) % (2 * math.pi) - math.pi
+        normal = data + information
+        for k in range(3):
+            normal[k, k] += 1e-3 + 1e-3 * normal[k, k]
+        step = np.linalg.solve(normal, slope * weight - information @ away)
+        length = math.sqrt(step[0] ** 2 + step[1] ** 2)
+        if length > 0.1:
+            step *= 0.1 / length
+        pose += step
+        if length < 1e-4 and abs(step[2]) < 1e-4:
+            break
+    return pose, data
+
+
+@njit(cache=True, nogil=True, fastmath=True)
+def _bound(level, ix, iy, columns, rows):
+    height, width = level.shape
+    total = 0.0
+    for i in range(columns.shape[0]):
+        gx, gy = columns[i] + ix, rows[i] + iy
+        if 0 <= gx < width and 0 <= gy < height:
+            total += level[gy, gx]
+    return total
+
+
+@njit(cache=True, nogil=True)
+def bound_search(levels, cells, offsets, start, least):
+    """Branch and bound over turns and whole-cell shifts (Hess et al. 2016).
+
+    Args:
+        levels: (depth, height, width); level h holds the greatest value of the 2^h × 2^h cells
+            that begin at each cell.
+        cells: int64 (turns, n, 2), column and row of every point for every turn, unshifted.
+        offsets: int64 (m, 2), shifts in cells that the coarsest blocks begin at.
+        start: side of the window from which blocks reach out, in cells: blocks beyond are cut.
+        least: mean value that must be exceeded.
+
+    Returns:
+        (turn, shift in columns, shift in rows, mean value); turn −1 when nothing exceeds it.
+    """
+    depth = levels.shape[0]
+    turns, n = cells.shape[0], cells.shape[1]
+    count = turns * offsets.shape[0]
+    bounds = np.empty(count)
+    for t in range(turns):
+        for k in range(offsets.shape[0]):
+            bounds[t * offsets.shape[0] + k] = _bound(
+                levels[depth - 1], offsets[k, 0], offsets[k, 1], cells[t, :, 0], cells[t, :, 1]
+            )
+    order = np.argsort(-bounds)
+    best, best_turn, best_x, best_y = least * n, -1, 0, 0
+    stack = np.empty((4 * depth + 4, 4), np.int64)
+    worths = np.empty(4 * depth + 4)
+    for place in range(count):
+        index = order[place]
+        if bounds[index] <= best:
+            break
+        turn = index // offsets.shape[0]
+        columns, rows = cells[turn, :, 0], cells[turn, :, 1]
+        stack[0, 0] = depth - 1
+        stack[0, 1] = offsets[index % offsets.shape[0], 0]
+        stack[0, 2] = offsets[index % offsets.shape[0], 1]
+        worths[0] = bounds[index]
+        top = 1
+        while top > 0:
+            top -= 1
+            if worths[top] <= best:
+                continue
+            h, ox, oy = stack[top, 0], stack[top, 1], stack[top, 2]
+            if h == 0:
+                best, best_turn, best_x, best_y = worths[top], turn, ox, oy
+                continue
+            half = 1 << (h - 1)
+            first = top
+            for a in range(2):
+                for b in range(2):
+                    x, y = ox + a * half, oy + b * half
+                    if x > start or y > start:
+                        continue
+                    worth = _bound(levels[h - 1], x, y, columns, rows)
+                    if worth <= best:
+                        continue
+                    # The best child is searched first: children stay sorted on the stack.
+                    at = top
+                    while at > first and worths[at - 1] > worth:
+                        worths[at] = worths[at - 1]
+                        stack[at] = stack[at - 1]
+                        at -= 1
+                    worths[at] = worth
+                    stack[at, 0], stack[at, 1], stack[at, 2] = h - 1, x, y
+                    top += 1
+    return best_turn, best_x, best_y, best / n

@@ -1,0 +1,69 @@
+"""What a scan says of surfaces: points evenly spread, and the lines between neighbouring beams."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.scans import Scan
+
+__all__ = ["dense_surface", "even_points"]
+
+_SAME_SURFACE_M = 0.3
+_STRAIGHT_GAP_M = 1.2
+_STRAIGHT_M = 0.05
+
+
+def even_points(points_m: NDArray[np.float64], cell_m: float, most: int) -> NDArray[np.float64]:
+    """Return at most one point per cell, and at most so many in all, shape (m, 2).
+
+    Near walls meet most beams; without this they would outvote what is far.
+    """
+    if not len(points_m):
+        return points_m
+    keys = np.floor(points_m / cell_m).astype(np.int64)
+    _, first = np.unique(keys[:, 0] * 1_000_003 + keys[:, 1], return_index=True)
+    kept = points_m[np.sort(first)]
+    if len(kept) > most:
+        kept = kept[np.linspace(0, len(kept) - 1, most).astype(int)]
+    return np.ascontiguousarray(kept)
+
+
+def dense_surface(scan: Scan, max_range_m: float, spacing_m: float) -> NDArray[np.float64]:
+    """Return what the beams met and the surfaces between neighbouring beams, shape (m, 2).
+
+    Beams that graze a wall meet it at points far from each other, at the same places in every
+    scan from along the wall: matching would stick to them. Points nearer than 0.3 m are one
+    surface; up to 1.2 m if they continue a straight line.
+    """
+    keep = scan.hits(max_range_m)
+    points = scan.points(max_range_m)
+    if len(points) < 3:
+        return points
+    beams = np.flatnonzero(keep)
+    neighbours = np.diff(beams) == 1
+    steps = np.diff(points, axis=0)
+    gaps = np.hypot(steps[:, 0], steps[:, 1])
+    straight = _straight(steps, gaps, neighbours)
+    joined = neighbours & ((gaps < _SAME_SURFACE_M) | ((gaps < _STRAIGHT_GAP_M) & straight))
+    counts = np.where(joined, np.floor(gaps / spacing_m).astype(int), 0)
+    segment = np.repeat(np.arange(len(steps)), counts)
+    place = np.arange(len(segment)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
+    between = points[segment] + steps[segment] * (place / (counts[segment] + 1))[:, None]
+    return np.concatenate([points, between])
+
+
+def _straight(
+    steps: NDArray[np.float64], gaps: NDArray[np.float64], neighbours: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Which gaps continue the line of the gap before or after them."""
+    cross = np.abs(steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0])
+    forward = (steps[:-1] * steps[1:]).sum(axis=1) > 0
+    longer = np.maximum(np.maximum(gaps[:-1], gaps[1:]), 1e-9)
+    # Distance of the middle point's neighbours from the line of the longer step.
+    bent = cross / longer
+    pair = forward & (bent < _STRAIGHT_M) & neighbours[:-1] & neighbours[1:]
+    out = np.zeros(len(gaps), dtype=bool)
+    out[:-1] |= pair
+    out[1:] |= pair
+    return out

@@ -1,0 +1,1 @@
+"""Graphs of poses: edges and least squares."""

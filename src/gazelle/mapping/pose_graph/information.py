@@ -1,0 +1,30 @@
+"""How much is known of a relation, as inverse covariances in the plane."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.poses import Poses
+
+__all__ = ["bounded", "seen_from"]
+
+_LEAST_SIGMA = np.diag([0.02**2, 0.02**2, 0.006**2])
+_FAINT = np.diag([1e-2, 1e-2, 1e-1])
+
+
+def bounded(information: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return it with standard deviations of at least 2 cm and 0.35°.
+
+    Points of one scan err together (in time, in the lidar's mounting, on glass), so that thousands
+    of them are no better.
+    """
+    covariance = np.linalg.inv(information + _FAINT)
+    return np.linalg.inv(covariance + _LEAST_SIGMA)
+
+
+def seen_from(pose: Poses, information: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return information about x, y, yaw of the map as information in the frame of a pose."""
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(turn.T @ information @ turn)

@@ -1,0 +1,137 @@
+"""Least squares over a graph of poses in the plane.
+
+Gauss-Newton with a sparse factorisation (Grisetti et al., "A tutorial on graph-based SLAM", 2010);
+loop closures count by Huber's loss, so that a wrong one pulls and does not tear; once the others
+agree, those that still contradict fade by dynamic covariance scaling (Agarwal et al., 2013).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.poses import Poses, wrap_angle
+
+__all__ = ["Residuals", "optimise", "residuals"]
+
+_ANCHOR = 1e6
+_DAMPING = 1e-6
+_CONVERGED = 1e-4
+# From the second half of at least so many iterations on, loop closures that are still this far
+# off (squared standard deviations) lose their influence.
+_SETTLED = 10
+_TORN_SQUARED = 30.0
+
+
+class Residuals(NamedTuple):
+    """How far poses are from what edges say.
+
+    Attributes:
+        error: (m, 3), metres and radians, in the frame of the tail.
+        squared: ``eᵀ Λ e``, (m,).
+    """
+
+    error: NDArray[np.float64]
+    squared: NDArray[np.float64]
+
+
+def residuals(poses: Poses, edges: Edges) -> Residuals:
+    """Return how far poses, shape (n, 3), are from what edges say."""
+    error = _errors(poses, edges)
+    return Residuals(error, np.einsum("mi,mij,mj->m", error, edges.information, error))
+
+
+def optimise(poses: Poses, edges: Edges, *, iterations: int = 10, huber: float = 3.0) -> Poses:
+    """Return the poses, shape (n, 3), that fit the edges best; the first one stays.
+
+    Args:
+        poses: where they are now.
+        edges: what is known of them; every pose should be reached by some.
+        iterations: at most so many.
+        huber: from how many standard deviations on a loop closure counts linearly.
+    """
+    poses = poses.copy()
+    if not len(edges.tail):
+        return poses
+    places = _Places.of(edges, len(poses))
+    for iteration in range(iterations):
+        tears = 2 * iteration >= max(iterations, _SETTLED)
+        step = _step(poses, edges, places, huber, tears=tears)
+        poses += step
+        poses[:, 2] = wrap_angle(poses[:, 2])
+        if np.abs(step).max() < _CONVERGED and (tears or iterations < _SETTLED):
+            break
+    return poses
+
+
+class _Places(NamedTuple):
+    """Where the blocks of edges stand in the matrix: rows, columns, both (16 · m · 9 / 4,)."""
+
+    rows: NDArray[np.int64]
+    columns: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, edges: Edges, count: int) -> _Places:
+        tail, head, three = edges.tail, edges.head, np.arange(3)
+        row = np.concatenate([tail, tail, head, head])[:, None, None] * 3
+        column = np.concatenate([tail, head, tail, head])[:, None, None] * 3
+        shape = (len(row), 3, 3)
+        rows = np.broadcast_to(row + three[:, None], shape).ravel()
+        columns = np.broadcast_to(column + three[None, :], shape).ravel()
+        diagonal = np.arange(3 * count)
+        return cls(np.concatenate([rows, diagonal]), np.concatenate([columns, diagonal]))
+
+
+def _step(poses: Poses, edges: Edges, places: _Places, huber: float, *, tears: bool) -> Poses:
+    found = residuals(poses, edges)
+    far = edges.is_loop & (found.squared > huber**2)
+    weight = np.where(far, huber / np.sqrt(np.maximum(found.squared, 1e-12)), 1.0)
+    if tears:
+        scaled = 2 * _TORN_SQUARED / (_TORN_SQUARED + found.squared)
+        weight = np.where(edges.is_loop, weight * np.minimum(1.0, scaled) ** 2, weight)
+    of_tail, of_head = _jacobians(poses, edges)
+    weighted = edges.information * weight[:, None, None]
+    tail_part = of_tail.transpose(0, 2, 1) @ weighted
+    head_part = of_head.transpose(0, 2, 1) @ weighted
+    blocks = (tail_part @ of_tail, tail_part @ of_head, head_part @ of_tail, head_part @ of_head)
+    size = 3 * len(poses)
+    diagonal = np.full(size, _DAMPING)
+    diagonal[:3] = _ANCHOR
+    values = np.concatenate([np.concatenate(blocks).ravel(), diagonal])
+    matrix = csc_matrix((values, places), shape=(size, size))
+    slope = np.zeros_like(poses)
+    np.add.at(slope, edges.tail, np.einsum("mij,mj->mi", tail_part, found.error))
+    np.add.at(slope, edges.head, np.einsum("mij,mj->mi", head_part, found.error))
+    options = {"SymmetricMode": True}
+    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return np.asarray(factors.solve(-slope.ravel())).reshape(-1, 3)
+
+
+def _errors(poses: Poses, edges: Edges) -> NDArray[np.float64]:
+    a, b = poses[edges.tail], poses[edges.head]
+    cos, sin = np.cos(a[:, 2]), np.sin(a[:, 2])
+    dx, dy = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
+    error = np.empty((len(a), 3))
+    error[:, 0] = cos * dx + sin * dy - edges.relative[:, 0]
+    error[:, 1] = cos * dy - sin * dx - edges.relative[:, 1]
+    error[:, 2] = wrap_angle(b[:, 2] - a[:, 2] - edges.relative[:, 2])
+    return error
+
+
+def _jacobians(poses: Poses, edges: Edges) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    a, b = poses[edges.tail], poses[edges.head]
+    cos, sin = np.cos(a[:, 2]), np.sin(a[:, 2])
+    dx, dy = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
+    of_tail, of_head = np.zeros((len(a), 3, 3)), np.zeros((len(a), 3, 3))
+    of_tail[:, 0, 0], of_tail[:, 0, 1], of_tail[:, 0, 2] = -cos, -sin, cos * dy - sin * dx
+    of_tail[:, 1, 0], of_tail[:, 1, 1], of_tail[:, 1, 2] = sin, -cos, -cos * dx - sin * dy
+    of_tail[:, 2, 2] = -1.0
+    of_head[:, 0, 0], of_head[:, 0, 1] = cos, sin
+    of_head[:, 1, 0], of_head[:, 1, 1] = -sin, cos
+    of_head[:, 2, 2] = 1.0
+    return of_tail, of_head

@@ -1,0 +1,72 @@
+"""Moving the map so that places seen again coincide."""
+
+from __future__ import annotations
+
+from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
+from gazelle.mapping.loops.places import places_near
+from gazelle.mapping.loops.recognise import recognise
+from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.optimise import optimise, residuals
+from gazelle.mapping.slam.keyframes import Keyframes
+from gazelle.mapping.slam.parameters import SlamParameters
+
+__all__ = ["LoopCloser"]
+
+_STEP_M = 0.5
+_ITERATIONS = 5
+# Squared standard deviations by which one step of the drive may be bent.
+_TORN = 60.0
+# In windows so small a place is recognised without the agreement of others.
+_SURE_REACH_M = 1.0
+
+
+class LoopCloser:
+    """Recognises places and ties them together.
+
+    Attributes:
+        closed: how many loop closures hold.
+        refused: how many were found that would have torn the map.
+    """
+
+    def __init__(self, keyframes: Keyframes, parameters: SlamParameters) -> None:
+        """Look among keyframes."""
+        self.closed = 0
+        self.refused = 0
+        self._keyframes = keyframes
+        self._parameters = parameters
+        self._hypotheses = Hypotheses()
+        self._looked_m = 0.0
+
+    def close(self, edges: Edges) -> Edges | None:
+        """Look around the last keyframe; move the map and return new edges if it is known there."""
+        way_m = self._keyframes[-1].way_m
+        if way_m - self._looked_m < _STEP_M:
+            return None
+        self._looked_m = way_m
+        believed = self._believed(edges)
+        if not believed:
+            return None
+        tied = edges
+        for one in believed:
+            tied = tied.with_edge(one.tail, one.head, one.relative, one.information, is_loop=True)
+        poses = optimise(self._keyframes.poses, tied, iterations=_ITERATIONS)
+        bent = residuals(poses, tied).squared[~tied.is_loop]
+        if bent.max(initial=0.0) > _TORN:
+            self.refused += len(believed)
+            return None
+        self.closed += len(believed)
+        self._keyframes.poses = poses
+        return tied
+
+    def _believed(self, edges: Edges) -> list[Hypothesis]:
+        told, poses = self._parameters, self._keyframes.poses
+        believed: list[Hypothesis] = []
+        for place in places_near(poses, edges, gap_m=told.loop_gap_m, reach_m=told.loop_reach_m):
+            found = recognise(self._keyframes, place, told)
+            if found is None:
+                continue
+            if found.reach_m <= _SURE_REACH_M:
+                believed.append(found)
+            else:
+                believed += self._hypotheses.agree(found, poses, self._keyframes.ways_m)
+        return believed

@@ -1,0 +1,198 @@
+"""SLAM: scans and odometry in, a trajectory and a map out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.mapping.grids import OccupancyGrid
+from gazelle.mapping.matching.match import Match
+from gazelle.mapping.pose_graph.edges import Edges, no_edges
+from gazelle.mapping.pose_graph.information import bounded, seen_from
+from gazelle.mapping.pose_graph.optimise import optimise
+from gazelle.mapping.poses import Poses, between, compose
+from gazelle.mapping.scans import Scan
+from gazelle.mapping.slam.closing import LoopCloser
+from gazelle.mapping.slam.drawing import draw
+from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
+from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.polish import polished
+from gazelle.mapping.slam.track import Track
+from gazelle.mapping.slam.tracking import FEWEST_POINTS, Tracker, motion_information
+
+__all__ = ["Slam", "SlamResult", "Update", "slam"]
+
+_GIVE_UP = 15
+_LAST_ITERATIONS = 20
+_POLISHES = 2
+
+
+class Update(NamedTuple):
+    """What a scan changed.
+
+    Attributes:
+        pose: of the robot in the map's frame.
+        is_keyframe: the scan was kept.
+        is_matched: it fits the map; otherwise the pose is odometry's.
+        has_closed: the map was moved because a place was recognised.
+    """
+
+    pose: Poses
+    is_keyframe: bool
+    is_matched: bool
+    has_closed: bool
+
+
+class SlamResult(NamedTuple):
+    """A map and how the robot moved in it.
+
+    Attributes:
+        stamps_ns: of all scans, int64 (n,).
+        trajectory: poses of the robot at these times, (n, 3), in the map's frame.
+        grid: the map; the robot began at its origin.
+        loops: how many loop closures hold.
+    """
+
+    stamps_ns: np.ndarray[tuple[int], np.dtype[np.int64]]
+    trajectory: Poses
+    grid: OccupancyGrid
+    loops: int
+
+
+def slam(
+    records: Iterable[tuple[Scan, ArrayLike]],
+    parameters: SlamParameters | None = None,
+    *,
+    resolution_m: float = 0.05,
+) -> SlamResult:
+    """Map a log.
+
+    Args:
+        records: scans in the order of time, each with the pose that odometry gave at that time,
+            (x_m, y_m, yaw_rad) in odometry's frame.
+        parameters: of SLAM.
+        resolution_m: side of the map's cells.
+    """
+    engine = Slam(parameters)
+    for scan, odometry in records:
+        engine.add(scan, odometry)
+    engine.finish()
+    return engine.result(resolution_m)
+
+
+class Slam:
+    """Builds a map from scans with odometry, scan by scan.
+
+    Every scan is matched with the last kept ones; kept scans are the nodes of a graph of poses;
+    places that are recognised tie it together. No randomness: the same records give the same map.
+
+    Attributes:
+        parameters: as given.
+        keyframes: the kept scans.
+        edges: what is known of their poses.
+    """
+
+    def __init__(self, parameters: SlamParameters | None = None) -> None:
+        """Start with no map; the first scan will be at the map's origin."""
+        self.parameters = parameters or SlamParameters()
+        self.keyframes = Keyframes(self.parameters)
+        self.edges: Edges = no_edges()
+        self._tracker = Tracker(self.keyframes, self.parameters)
+        self._closer = LoopCloser(self.keyframes, self.parameters)
+        self._track = Track(self.keyframes)
+        self._odometry = np.zeros(3)
+        self._pose = np.zeros(3)
+        self._way_m = 0.0
+
+    @property
+    def pose(self) -> Poses:
+        """Where the robot is, in the map's frame."""
+        return self._pose.copy()
+
+    @property
+    def loops(self) -> int:
+        """How many loop closures hold."""
+        return self._closer.closed
+
+    def add(self, scan: Scan, odometry: ArrayLike) -> Update:
+        """Take one scan.
+
+        Args:
+            scan: not older than the last one.
+            odometry: the robot's pose by odometry at that time, in odometry's frame.
+
+        Raises:
+            ValueError: the pose is not finite.
+        """
+        odometry = np.asarray(odometry, dtype=float)
+        if not np.isfinite(odometry).all():
+            raise ValueError(f"odometry is {odometry.tolist()}, not three finite numbers")
+        motion = between(self._odometry, odometry) if len(self.keyframes) else np.zeros(3)
+        self._odometry = odometry
+        self._way_m += math.hypot(motion[0], motion[1])
+        frame = keyframe_of(scan, self.parameters, self._way_m)
+        if not len(self.keyframes):
+            return self._first(frame)
+        was_lost = self._tracker.lost > 0
+        expected = compose(self._pose, motion)
+        found = self._tracker.locate(frame, expected, motion)
+        self._pose = expected if found is None else found.pose
+        is_kept = self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
+        has_closed = is_kept and self._keep(frame, found)
+        self._track.add(scan.stamp_ns, self._pose)
+        if found is None and len(frame.points_m) >= FEWEST_POINTS:
+            self._track.note_lost(frame, odometry)
+        elif was_lost and found is not None:
+            self._track.find_lost(self._tracker, self._pose, odometry)
+        return Update(self.pose, is_kept, found is not None, has_closed)
+
+    def finish(self) -> None:
+        """Use all that is known: call it once, when no more scans come."""
+        keyframes = self.keyframes
+        keyframes.poses = optimise(keyframes.poses, self.edges, iterations=_LAST_ITERATIONS)
+        for _ in range(_POLISHES if self.parameters.polish else 0):
+            keyframes.poses = polished(keyframes, self.edges, self.parameters)
+
+    def trajectory(self) -> Poses:
+        """Return the poses of all scans in the map's frame, (n, 3), as they are known now."""
+        return self._track.poses()
+
+    def grid(self, resolution_m: float = 0.05) -> OccupancyGrid:
+        """Draw the map as it is known now."""
+        return draw(self.keyframes, resolution_m)
+
+    def result(self, resolution_m: float = 0.05) -> SlamResult:
+        """Return map and trajectory as they are known now."""
+        stamps = np.array(self._track.stamps_ns, dtype=np.int64)
+        return SlamResult(stamps, self.trajectory(), self.grid(resolution_m), self.loops)
+
+    def _first(self, frame: Keyframe) -> Update:
+        self.keyframes.append(frame, np.zeros(3))
+        self._track.add(frame.scan.stamp_ns, np.zeros(3))
+        return Update(np.zeros(3), True, True, False)
+
+    def _is_new(self) -> bool:
+        away = between(self.keyframes.poses[-1], self._pose)
+        is_far = math.hypot(away[0], away[1]) >= self.parameters.keyframe_m
+        return is_far or bool(abs(away[2]) >= self.parameters.keyframe_rad)
+
+    def _keep(self, frame: Keyframe, found: Match | None) -> bool:
+        """Keep a scan; return whether a place was recognised, which moves the map."""
+        tail = len(self.keyframes) - 1
+        before = self.keyframes.poses[tail].copy()
+        relative = between(before, self._pose)
+        information = motion_information(relative, self.parameters)
+        if found is not None:
+            information = bounded(seen_from(before, found.information) + information)
+        head = self.keyframes.append(frame, self._pose)
+        self.edges = self.edges.with_edge(tail, head, relative, information, is_loop=False)
+        self._tracker.forget()
+        tied = self._closer.close(self.edges) if self.parameters.loop_closing else None
+        if tied is None:
+            return False
+        self.edges, self._pose = tied, self.keyframes.poses[head].copy()
+        return True

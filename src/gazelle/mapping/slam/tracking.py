@@ -1,0 +1,154 @@
+"""Where the next scan is: odometry says roughly, the last kept scans say precisely."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.matching.field import Field
+from gazelle.mapping.matching.match import Match, Prior, match, refined
+from gazelle.mapping.matching.wide import wide_search
+from gazelle.mapping.poses import Poses
+from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
+from gazelle.mapping.slam.parameters import SlamParameters
+
+__all__ = ["FEWEST_POINTS", "Tracker", "motion_information"]
+
+FEWEST_POINTS = 20
+"""Scans that meet less say nothing of where they are."""
+
+_STILL_M = 0.05
+_STILL_RAD = 0.03
+_GOOD_SCORE = 0.6
+_SUSPICIOUS = 0.8
+_FORGET = 0.05
+_BETTER = 0.1
+_BELIEVED = 0.85
+_UNBELIEVED = 0.45
+_WIDE_M = 1.0
+_WIDE_RAD = 1.2
+_LOST_M = 2.0
+_LOST_M_PER_SCAN = 1.0
+_LOST_MOST_M = 6.0
+_LOST_SCANS = 80
+_INSIDE = 0.9
+
+
+def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.float64]:
+    """Return the inverse covariance, (3, 3), of a motion by odometry; x and y err alike."""
+    way, turn = math.hypot(motion[0], motion[1]), abs(motion[2])
+    sigma_m = _STILL_M + parameters.odometry_m_per_m * way + 0.02 * turn
+    sigma_rad = (
+        _STILL_RAD + parameters.odometry_rad_per_rad * turn + parameters.odometry_rad_per_m * way
+    )
+    return np.diag([sigma_m**-2, sigma_m**-2, sigma_rad**-2])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Submap:
+    field: Field
+    coarse: Field
+
+
+class Tracker:
+    """Matches scans with the last kept ones.
+
+    Attributes:
+        lost: how many scans in a row fitted nowhere.
+    """
+
+    def __init__(self, keyframes: Keyframes, parameters: SlamParameters) -> None:
+        """Follow the robot among keyframes."""
+        self._keyframes = keyframes
+        self._parameters = parameters
+        self._submap: _Submap | None = None
+        self._usual_score = 0.8
+        self.lost = 0
+
+    def forget(self) -> None:
+        """Keyframes were added or moved."""
+        self._submap = None
+
+    def locate(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
+        """Return where a scan is, None when it fits nowhere near.
+
+        Args:
+            frame: the scan.
+            expected: pose by odometry.
+            motion: how far odometry went since the last scan.
+        """
+        if len(frame.points_m) < FEWEST_POINTS:
+            return None
+        found = self.relocate(frame, expected) if self.lost else None
+        found = found or self._followed(frame, expected, motion)
+        if found is None:
+            self.lost += 1
+            return None
+        self._usual_score += _FORGET * (found.score - self._usual_score)
+        self.lost = 0
+        return found
+
+    def _followed(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
+        submap = self._current(expected, frame.reach_m)
+        prior = Prior(expected, motion_information(motion, self._parameters))
+        if math.hypot(motion[0], motion[1]) < _STILL_M and abs(motion[2]) < _STILL_RAD:
+            near = refined(submap.field, frame.points_m, expected, prior)
+            if near.score > _GOOD_SCORE:
+                return near
+        told = self._parameters
+        sigma_m, sigma_rad = (float(prior.information[i, i]) ** -0.5 for i in (0, 2))
+        reach_m, reach_rad = max(told.window_m, 3 * sigma_m), max(told.window_rad, 3 * sigma_rad)
+        found = match(
+            submap.field, frame.points_m, prior,
+            reach_m=reach_m, reach_rad=reach_rad, coarse=submap.coarse,
+        )  # fmt: skip
+        if found.score < _SUSPICIOUS * self._usual_score:
+            # Wheels slip and clocks differ.
+            wide = max(_WIDE_M, reach_m), max(_WIDE_RAD, 2 * reach_rad)
+            least = found.score + _BETTER
+            found = self._anywhere(submap, frame, expected, wide, least) or found
+        least = max(told.least_match, _UNBELIEVED * self._usual_score)
+        return found if found.score > least else None
+
+    def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
+        """Return where a lost robot is, among all that was seen around where it may be."""
+        reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN)
+        far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
+        near = np.argsort(far)[:_LOST_SCANS]
+        field = self._keyframes.field(near.tolist(), expected, frame.reach_m + reach)
+        submap = _Submap(field, field.pooled())
+        return self._anywhere(submap, frame, expected, (reach, math.pi), 0.0)
+
+    def _anywhere(
+        self,
+        submap: _Submap,
+        frame: Keyframe,
+        expected: Poses,
+        reach: tuple[float, float],
+        least: float,
+    ) -> Match | None:
+        """Return a match of a wide window if it is about as good as matches usually are."""
+        least = max(least, _BELIEVED * self._usual_score)
+        turn = min(math.pi, reach[1])
+        rough = wide_search(
+            submap.coarse, frame.points_m, expected, reach_m=reach[0], reach_rad=turn, least=least
+        )
+        if rough is None:
+            return None
+        pose = rough.pose
+        found = refined(submap.field, frame.points_m, pose, Prior(pose, np.zeros((3, 3))))
+        # What fits best at the edge of the window fits better outside of it.
+        inside = math.dist(found.pose[:2], expected[:2]) < _INSIDE * reach[0]
+        return found if inside and found.score > least else None
+
+    def _current(self, expected: Poses, reach_m: float) -> _Submap:
+        if self._submap is None:
+            count = len(self._keyframes)
+            recent = range(max(0, count - self._parameters.submap_scans), count)
+            reach = min(self._parameters.max_range_m, reach_m + 2.0)
+            field = self._keyframes.field(recent, expected, reach)
+            self._submap = _Submap(field, field.pooled())
+        return self._submap

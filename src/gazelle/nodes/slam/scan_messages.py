@@ -1,0 +1,174 @@
+"""Scans of messages, placed by tf: waiting for transforms, saying what is missing."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gazelle.geometry import Pose
+from gazelle.graph.tf import ExtrapolationError, TransformBuffer, TransformError
+from gazelle.mapping.poses import Poses
+from gazelle.mapping.scans import Scan
+
+__all__ = ["PlacedScan", "ScanQueue", "plane_pose", "scan_of", "stamp_ns_of"]
+
+_TILTED = 0.1
+
+
+class PlacedScan(NamedTuple):
+    """A scan and where odometry saw the robot.
+
+    Attributes:
+        scan: with the lidar's mounting.
+        odometry: pose of the robot in odometry's frame.
+    """
+
+    scan: Scan
+    odometry: Poses
+
+
+def stamp_ns_of(message: Any) -> int:
+    """Return the time of a message with a header."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+
+
+def plane_pose(pose: Pose) -> tuple[float, float, float]:
+    """Return x, y, yaw of a pose, seen from above."""
+    x, y, z, w = pose.quat_xyzw
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return float(pose.position_m[0]), float(pose.position_m[1]), yaw
+
+
+def scan_of(message: Any, T_base_laser: Pose, max_range_m: float = math.inf) -> Scan:
+    """Return the record of a ``LaserScan``.
+
+    Args:
+        message: NaN and infinity in it are beams that say nothing.
+        T_base_laser: the lidar on the robot.
+        max_range_m: ranges from there on say nothing.
+
+    Raises:
+        ValueError: the message contradicts itself, or the lidar does not scan the ground plane.
+    """
+    step = float(message.angle_increment)
+    if not (math.isfinite(step) and step != 0 and math.isfinite(message.angle_min)):
+        raise ValueError(
+            f"angle_min is {message.angle_min}, angle_increment {step}: beams have no directions"
+        )
+    up = T_base_laser.rotate((0.0, 0.0, 1.0))[2]
+    if abs(up) < 1 - _TILTED:
+        tilt = math.degrees(math.acos(min(1.0, abs(up))))
+        raise ValueError(f"the lidar is tilted by {tilt:.0f}°: only flat scans can be mapped")
+    limit = min(float(message.range_max), max_range_m)
+    ranges = np.asarray(message.ranges, dtype=np.float32)
+    ranges = np.where(ranges >= limit, np.inf, ranges).astype(np.float32)
+    # Upside down, yaw seen from above turns the other way round.
+    ahead = T_base_laser.rotate((1.0, 0.0, 0.0))
+    mount = (*T_base_laser.position_m[:2], math.atan2(ahead[1], ahead[0]))
+    return Scan(
+        stamp_ns_of(message), float(message.angle_min), step, ranges,
+        max(0.0, float(message.range_min)), limit, mount, upside_down=up < 0,
+    )  # fmt: skip
+
+
+class ScanQueue:
+    """Holds scans until tf knows where they were taken.
+
+    Attributes:
+        dropped: how many scans were given up.
+    """
+
+    def __init__(
+        self,
+        buffer: TransformBuffer,
+        frames: tuple[str, str],
+        say: Callable[[str], None],
+        *,
+        size: int = 30,
+        max_range_m: float = math.inf,
+    ) -> None:
+        """Wait for nothing yet.
+
+        Args:
+            buffer: tf.
+            frames: odometry's frame and the robot's.
+            say: told why scans are dropped.
+            size: so many scans wait at most.
+            max_range_m: ranges from there on say nothing.
+        """
+        self.dropped = 0
+        self._buffer = buffer
+        self._odom, self._base = frames
+        self._say = say
+        self._max_range_m = max_range_m
+        self._size = size
+        self._waiting: deque[Any] = deque()
+
+    def add(self, message: Any) -> list[PlacedScan]:
+        """Take a message; return the scans that can be placed now, in order."""
+        self._waiting.append(message)
+        ready = self.ready()
+        while len(self._waiting) > self._size:
+            self._drop(self._waiting.popleft())
+        return ready
+
+    def ready(self) -> list[PlacedScan]:
+        """Return the scans that can be placed now, in order."""
+        placed = []
+        while self._waiting:
+            try:
+                one = self._place(self._waiting[0])
+            except ExtrapolationError as error:
+                # What lies before all that tf knows never comes.
+                if "past" not in str(error):
+                    break
+                self._drop(self._waiting.popleft())
+                continue
+            except TransformError:
+                break
+            except ValueError as error:
+                self.dropped += 1
+                self._say(f"a scan is left out: {error}")
+                self._waiting.popleft()
+                continue
+            self._waiting.popleft()
+            placed.append(one)
+        return placed
+
+    def give_up(self) -> None:
+        """Drop what still waits."""
+        while self._waiting:
+            self._drop(self._waiting.popleft())
+
+    def clear(self) -> None:
+        """Forget what waits."""
+        self._waiting.clear()
+
+    def _place(self, message: Any) -> PlacedScan:
+        frame, stamp = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
+        mount = self._buffer.lookup_transform(self._base, frame, stamp).pose
+        robot = self._buffer.lookup_transform(self._odom, self._base, stamp).pose
+        scan = scan_of(message, mount, self._max_range_m)
+        odometry = np.array(plane_pose(robot))
+        if not np.isfinite(odometry).all():
+            raise ValueError(f"tf from {self._odom} to {self._base} is not finite")
+        return PlacedScan(scan, odometry)
+
+    def _drop(self, message: Any) -> None:
+        self.dropped += 1
+        frame, stamp = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
+        try:
+            self._buffer.lookup_transform(self._odom, frame, stamp)
+            why = f"no transform from {frame} to {self._base}"
+        except TransformError as error:
+            why = str(error)
+        self._say(
+            f"a scan in frame '{frame}' is dropped, as tf does not say where it was taken: {why}\n"
+            f"  fix: publish the transforms {self._odom} → {self._base} → {frame}; "
+            "`rosrun tf view_frames` draws what there is"
+        )
