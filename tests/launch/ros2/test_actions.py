@@ -232,6 +232,14 @@ def OpaqueCoroutine(run: Run) -> None:
         x="1",
     )
     assert seen == [("1", "a"), ("", "b")]
+
+    async def wrong() -> None:
+        raise ValueError("of the coroutine")
+
+    busy = a.TimerAction(period=0.2, actions=[a.LogInfo(msg="never")])
+    ran = run(a.OpaqueCoroutine(coroutine=wrong, ignore_context=True), busy, a.LogInfo(msg="a"))
+    assert (ran.code, _said(ran)) == (1, ["a"])
+    assert "Caught exception in launch (see debug for traceback): of the coroutine" in ran.text
     with pytest.raises(TypeError, match="OpaqueCoroutine expected a coroutine function"):
         a.OpaqueCoroutine(coroutine=print)  # type: ignore[arg-type]
 
@@ -275,8 +283,10 @@ def TimerAction(run: Run) -> None:
     cancelled = a.TimerAction(period=60.0, actions=[a.LogInfo(msg="never")])
     cancel = a.OpaqueFunction(function=lambda _context: cancelled.cancel())
     assert _said(run(cancelled, cancel)) == []
-    with pytest.raises(TypeError, match="'TimerAction' expected 'period' to be one of"):
+    with pytest.raises(TypeError, match="'TimerAction' expected 'period' to be .* write 8.0"):
         a.TimerAction(period=8, actions=[])
+    with pytest.raises(TypeError, match="'TimerAction' expected 'actions' to be one of"):
+        a.TimerAction(period=8.0, actions=None)  # type: ignore[arg-type]
 
 
 @_row

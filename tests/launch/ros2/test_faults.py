@@ -91,6 +91,11 @@ def include(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Include:
             r"has to be pairs of names and values: write \{…\}.items\(\)",
         ),
         (
+            "SetLaunchConfiguration('sim', True)",
+            "ros2_launch.exception",
+            "when only 'str' or 'launch.Substitution' were expected. Write 'true'",
+        ),
+        (
             "IncludeLaunchDescription([ThisLaunchFileDir(), '/faulty.lanch.py'])",
             "ros2_launch.file-missing",
             r"No such file or directory: .*faulty.lanch.py'; did you mean 'faulty.launch.py'",
@@ -228,6 +233,7 @@ def test_files_that_include_each_other_are_told(include: Include) -> None:
     [
         ("cmd=['xacr']", "the program 'xacr' is not on the PATH", "did you mean 'xacro'"),
         ("cmd=['echo hello']", "'echo hello' is no program", "cmd=['echo', 'hello'], or shell"),
+        ("cmd='echo hello'", "was given as one text, which is taken letter", "cmd=['echo', 'hel"),
         ("cmd=['true'], cwd='/nowhere'", "its folder '/nowhere' does not exist", "correct"),
         ("cmd=['/']", "'/' cannot be started: ", "correct"),
     ],

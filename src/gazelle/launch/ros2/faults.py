@@ -15,6 +15,7 @@ from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
 __all__ = ["diagnose", "not_started", "with_diagnostic"]
 
 _ATTRIBUTE = "_gazelle_diagnostic"
+_LONGEST_LETTERS = 3
 # What an error of the launch itself says, and the code of it.
 _PHRASES = {
     "Required launch argument": "ros2_launch.argument-missing",
@@ -66,6 +67,9 @@ def not_started(
     elif " " in program.strip() and shutil.which(program.split()[0]):
         message = f"'{program}' is no program: cmd is a list of words, and this is one word"
         fix = f"cmd={program.split()!r}, or shell=True"
+    elif len(cmd) > _LONGEST_LETTERS and all(len(word) == 1 for word in cmd):
+        message = f"'{''.join(cmd)}' was given as one text, which is taken letter by letter"
+        fix = f"cmd={''.join(cmd).split()!r}"
     elif isinstance(error, FileNotFoundError):
         message = f"the program '{program}' is not on the PATH"
         fix = did_you_mean(program, ROS_COMMANDS)

@@ -120,6 +120,7 @@ class LaunchService:
 
     async def __advance(self, shutdown_when_idle: bool) -> bool:
         """Handle the next event, or await what takes time; False when all is done."""
+        self.__raise_from(self.__take_done())
         is_idle = self.__is_idle()
         if is_idle and self.__shutting_down:
             return False
@@ -143,8 +144,16 @@ class LaunchService:
         finally:
             if not waiting.done():
                 waiting.cancel()
-        self.__raise_from(future for future in done if future is not waiting)
         return True
+
+    def __take_done(self) -> list[asyncio.Future[Any]]:
+        """Forget the futures that are done, and return them."""
+        futures = [future for _entity, future in self.__pairs]
+        done = [one for one in (*futures, *self.context._completion_futures) if one.done()]
+        self.__pairs = [pair for pair in self.__pairs if not pair[1].done()]
+        waited_for = self.context._completion_futures
+        self.context._completion_futures = [one for one in waited_for if not one.done()]
+        return done
 
     def __raise_from(self, done: Iterable[asyncio.Future[Any]]) -> None:
         """Raise the first error of what has ended, and log the others."""
@@ -159,9 +168,6 @@ class LaunchService:
             raise errors[0]
 
     def __is_idle(self) -> bool:
-        self.__pairs = [pair for pair in self.__pairs if not pair[1].done()]
-        futures = self.context._completion_futures
-        self.context._completion_futures = [one for one in futures if not one.done()]
         return (
             not self.__pairs
             and not self.context._completion_futures

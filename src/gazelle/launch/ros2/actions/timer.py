@@ -46,6 +46,12 @@ class TimerAction(Action):
     ) -> None:
         super().__init__(**kwargs)
         allowed = (str, Substitution, Iterable, float)
+        if isinstance(period, int):
+            # Refused in ROS 2 too, which says less about it.
+            raise TypeError(
+                f"'TimerAction' expected 'period' to be a float, but got '{period}': "
+                f"write {period}.0"
+            )
         ensure_argument_type(period, allowed, "period", "TimerAction")
         ensure_argument_type(actions, (Iterable,), "actions", "TimerAction")
         if isinstance(period, str):

@@ -24,7 +24,7 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
     Raises:
         TypeError: something is neither text nor substitution.
     """
-    if isinstance(subs, str | Substitution):
+    if isinstance(subs, str | Substitution) or not isinstance(subs, Iterable):
         return [_substitution(subs)]
     return [_substitution(item) for item in subs]
 
@@ -34,9 +34,11 @@ def _substitution(item: Any) -> Substitution:
         return item
     if isinstance(item, str):
         return TextSubstitution(text=item)
+    text = str(item).lower() if isinstance(item, bool) else str(item)
+    hint = f" Write '{text}'." if isinstance(item, bool | int | float) else ""
     raise TypeError(
         f"Failed to normalize given item of type '{type(item)}', "
-        "when only 'str' or 'launch.Substitution' were expected."
+        f"when only 'str' or 'launch.Substitution' were expected.{hint}"
     )
 
 
