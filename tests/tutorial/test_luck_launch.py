@@ -139,5 +139,5 @@ def test_mistake_in_the_documents_file_is_shown_at_its_line(
     assert launched.wait() == 1
     assert f"gazebo_moveit.launch.py:{number}" in launched.text
     assert "package 'luck_gazbo' not found" in launched.text
-    assert "did you mean 'luck_gazebo'?" in launched.text
+    assert "did you mean 'luck_gazebo'" in launched.text
     assert "site-packages" not in launched.text and "/gazelle/" not in launched.text
