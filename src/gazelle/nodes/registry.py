@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from gazelle.nodes.slam.names import SLAM_NAMES
 from gazelle.nodes.view_names import VIEWS
 
 if TYPE_CHECKING:
@@ -108,6 +109,14 @@ _NODES = (
         light=True,
         help="lists, loads, starts, stops and unloads controllers",
         aliases=(("pr2_controller_manager", "pr2_controller_manager"),),
+    ),
+    BuiltinNode(
+        "controller_manager",
+        "ros2_control_node",
+        "gazelle.nodes.ros2_control_node:run",
+        light=False,
+        help="runs controllers on mock hardware, without a simulation",
+        name="controller_manager",
     ),
     BuiltinNode(
         "controller_manager",
@@ -235,6 +244,68 @@ _NODES = (
         name="map_saver",
     ),
     BuiltinNode(
+        "amcl",
+        "amcl",
+        "gazelle.nodes.amcl.node:run",
+        light=False,
+        help="finds the robot in a map",
+    ),
+    BuiltinNode(
+        "nav2_amcl",
+        "amcl",
+        "gazelle.nodes.amcl.node:run_ros2",
+        light=False,
+        help="finds the robot in a map, ROS 2's package",
+    ),
+    *(
+        BuiltinNode(
+            package,
+            name,
+            f"gazelle.nodes.nav2.{target}:run",
+            light=False,
+            help=about,
+            aliases=aliases,
+        )
+        for package, name, target, about, aliases in (
+            ("nav2_planner", "planner_server", "planner_server", "plans paths (Nav2)", ()),
+            (
+                "nav2_controller",
+                "controller_server",
+                "controller_server",
+                "follows paths (Nav2)",
+                (),
+            ),
+            (
+                "nav2_behaviors",
+                "behavior_server",
+                "behavior_server",
+                "spins, backs up, waits (Nav2)",
+                (("nav2_recoveries", "recoveries_server"),),
+            ),
+            (
+                "nav2_bt_navigator",
+                "bt_navigator",
+                "bt_navigator",
+                "drives to poses by behaviour trees (Nav2)",
+                (),
+            ),
+            (
+                "nav2_waypoint_follower",
+                "waypoint_follower",
+                "waypoint_follower",
+                "drives to one pose after another (Nav2)",
+                (),
+            ),
+            (
+                "nav2_lifecycle_manager",
+                "lifecycle_manager",
+                "lifecycle_manager",
+                "brings managed nodes up and down (Nav2)",
+                (),
+            ),
+        )
+    ),
+    BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"
     ),
     BuiltinNode(
@@ -278,6 +349,18 @@ _NODES = (
             ("mux", "publishes one of several topics, which services select"),
             ("demux", "publishes a topic as one of several, which services select"),
         )
+    ),
+    *(
+        BuiltinNode(
+            package,
+            names[0],
+            f"gazelle.nodes.slam.node:{target}",
+            light=False,
+            help=about,
+            aliases=tuple((package, name) for name in names[1:]),
+            name=name,
+        )
+        for package, names, target, about, name in SLAM_NAMES
     ),
     BuiltinNode(
         "turtlesim",

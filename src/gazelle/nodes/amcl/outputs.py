@@ -1,0 +1,78 @@
+"""What amcl publishes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.geometry import Pose
+from gazelle.graph.tf import StampedPose, TransformBroadcaster
+from gazelle.interfaces import message_type
+from gazelle.navigation.localisation import Estimate
+from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node
+
+__all__ = ["Outputs"]
+
+
+class Outputs:
+    """``amcl_pose``, ``particlecloud`` or ``particle_cloud``, and the transform."""
+
+    def __init__(self, node: Node, frame_id: str, odom_frame: str, generation: int) -> None:
+        """Offer the topics."""
+        self._frame_id, self._odom_frame, self._generation = frame_id, odom_frame, generation
+        pose = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
+        self._poses = node.create_publisher("amcl_pose", pose, latch=True, queue_size=2)
+        kind = "nav2_msgs/msg/ParticleCloud" if generation == 2 else "geometry_msgs/msg/PoseArray"
+        topic = "particle_cloud" if generation == 2 else "particlecloud"
+        self._cloud = node.create_publisher(topic, message_type(kind), latch=True, queue_size=2)
+        self._tf = TransformBroadcaster(node)
+
+    def pose(self, estimate: Estimate, stamp_ns: int) -> None:
+        """Publish where the robot is."""
+        message: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")()
+        set_stamp(message, stamp_ns, self._frame_id)
+        fill_pose(message.pose.pose, estimate.pose)
+        covariance = np.zeros((6, 6))
+        covariance[:2, :2] = estimate.covariance[:2, :2]
+        covariance[5, 5] = estimate.covariance[2, 2]
+        message.pose.covariance = covariance.ravel().tolist()
+        self._poses.publish(message)
+
+    def cloud(
+        self, particles: NDArray[np.float64], weights: NDArray[np.float64], now_ns: int
+    ) -> None:
+        """Publish the particles while somebody listens."""
+        if not self._cloud.matched:
+            return
+        poses = []
+        kind = message_type("geometry_msgs/msg/Pose")
+        for x, y, yaw in particles.tolist():
+            pose: Any = kind()
+            pose.position.x, pose.position.y = x, y
+            pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+            poses.append(pose)
+        message: Any
+        if self._generation == 2:
+            particle = message_type("nav2_msgs/msg/Particle")
+            message = message_type("nav2_msgs/msg/ParticleCloud")()
+            message.particles = [
+                particle(pose=pose, weight=float(weight))
+                for pose, weight in zip(poses, weights, strict=True)
+            ]
+        else:
+            message = message_type("geometry_msgs/msg/PoseArray")()
+            message.poses = poses
+        set_stamp(message, now_ns, self._frame_id)
+        self._cloud.publish(message)
+
+    def transform(self, T_map_odom: PlanePose, stamp_ns: int) -> None:
+        """Publish the transform from map to odometry."""
+        x, y, yaw = T_map_odom
+        pose = Pose.from_xyz_rpy((x, y, 0.0), (0.0, 0.0, yaw))
+        self._tf.send(StampedPose(self._frame_id, self._odom_frame, stamp_ns, pose))

@@ -1,0 +1,60 @@
+"""Where the simulator has put the robot, as a hint for who forgot the initial pose."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+from gazelle.nodes.navigation.frames import PlanePose, plane_of, pose_of_message
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node
+
+__all__ = ["SpawnHint"]
+
+_FAR_M, _FAR_RAD = 0.3, math.radians(20)
+_STATES = "/gazebo/model_states"
+
+
+class SpawnHint:
+    """Tells once where a simulated robot stands when that is not where amcl begins."""
+
+    def __init__(self, node: Node, begins: PlanePose) -> None:
+        """Listen to the simulator, if there is one."""
+        self._node, self._begins = node, begins
+        self._subscription: Any = node.create_subscription(
+            _STATES, "gazebo_msgs/msg/ModelStates", self._on_states, queue_size=1
+        )
+
+    def close(self) -> None:
+        """Listen no more."""
+        subscription, self._subscription = self._subscription, None
+        if subscription is not None:
+            subscription.unregister()
+
+    def _on_states(self, message: Any) -> None:
+        index = self._robot(list(message.name))
+        if self._subscription is None or index is None:
+            return
+        self.close()
+        x, y, yaw = plane_of(pose_of_message(message.pose[index]))
+        bx, by, byaw = self._begins
+        turn = abs(math.remainder(yaw - byaw, math.tau))
+        if math.hypot(x - bx, y - by) < _FAR_M and turn < _FAR_RAD:
+            return
+        self._node.log(
+            "warn",
+            f"nobody gave an initial pose, so amcl begins at ({bx:.2f}, {by:.2f}, {byaw:.2f}); the "
+            f"simulator has '{message.name[index]}' at ({x:.2f}, {y:.2f}, {yaw:.2f}). If the map's "
+            "frame is the world's: set the parameters initial_pose_x, initial_pose_y and "
+            "initial_pose_a to that, or give it with RViz's 2D Pose Estimate",
+        )
+
+    def _robot(self, names: list[str]) -> int | None:
+        """Return which model is the robot: the one the description names, if there is one."""
+        text = str(self._node.parameters.get("/robot_description", "") or "")
+        found = re.search(r"<robot\b[^>]*\bname\s*=\s*[\"']([^\"']+)", text)
+        if found and found[1] in names:
+            return names.index(found[1])
+        return None

@@ -1,0 +1,95 @@
+"""The parameters of amcl: those of the filter and those of the node."""
+
+from __future__ import annotations
+
+from gazelle.navigation.localisation import AmclOptions
+from gazelle.nodes.navigation.table import Row, Table, refused, table_of
+
+__all__ = ["amcl_table"]
+
+_LIVE = (
+    "min_particles",
+    "max_particles",
+    "kld_err",
+    "kld_z",
+    "update_min_d",
+    "update_min_a",
+    "resample_interval",
+    "recovery_alpha_slow",
+    "recovery_alpha_fast",
+    "do_beamskip",
+    "beam_skip_distance",
+    "beam_skip_threshold",
+    "laser_min_range",
+    "laser_max_range",
+    "laser_max_beams",
+    "laser_z_hit",
+    "laser_z_short",
+    "laser_z_max",
+    "laser_z_rand",
+    "laser_sigma_hit",
+    "laser_lambda_short",
+    "laser_likelihood_max_dist",
+    "laser_model_type",
+    "odom_model_type",
+    "odom_alpha1",
+    "odom_alpha2",
+    "odom_alpha3",
+    "odom_alpha4",
+    "odom_alpha5",
+)
+
+_SHARED = (
+    Row("odom_frame_id", "text", "odom", "frame of odometry"),
+    Row("global_frame_id", "text", "map", "frame of the map"),
+    Row("tf_broadcast", "flag", True, "publish the transform from map to odometry"),
+    Row("first_map_only", "flag", False, "maps after the first one are not looked at"),
+    Row(
+        "save_pose_rate",
+        "number",
+        0.5,
+        "how often the pose is kept as the parameters "
+        "initial_pose_* for the next start; −1 for never",
+        "Hz",
+    ),
+)
+_ROS1 = (
+    Row("base_frame_id", "text", "base_link", "frame of the robot"),
+    Row("transform_tolerance", "number", 0.1, "how far ahead the transform is dated", "s", 0),
+    Row("use_map_topic", "flag", False, "take maps from the topic map; else ask static_map once"),
+    Row(
+        "force_update_after_initialpose",
+        "flag",
+        False,
+        "the first scan after initialpose counts although the robot stands",
+    ),
+    Row("force_update_after_set_map", "flag", False, "the same after set_map"),
+)
+_ROS2 = (
+    Row("base_frame_id", "text", "base_footprint", "frame of the robot"),
+    Row("transform_tolerance", "number", 1.0, "how far ahead the transform is dated", "s", 0),
+    Row("scan_topic", "text", "scan", "topic of the scans"),
+    Row("map_topic", "text", "map", "topic of the map"),
+    Row("set_initial_pose", "flag", False, "begin at initial_pose; else wait for initialpose"),
+    Row("initial_pose.x", "number", 0.0, "where the robot is at the start", "m"),
+    Row("initial_pose.y", "number", 0.0, "where the robot is at the start", "m"),
+    Row("initial_pose.yaw", "number", 0.0, "where it looks at the start", "rad"),
+)
+
+
+def amcl_table(generation: int) -> Table:
+    """Return the table of ``amcl`` (1) or ``nav2_amcl`` (2)."""
+    defaults = AmclOptions.NAV2_DEFAULTS if generation == 2 else {}
+    types = ("nav2_amcl/amcl",) if generation == 2 else ("amcl/amcl",)
+    summary = "Finds the robot in a map by its lidar, with a particle filter."
+    own = table_of(AmclOptions, "amcl", summary, types, defaults=defaults, live=_LIVE)
+    rows = (*_SHARED, *(_ROS2 if generation == 2 else _ROS1))
+    idle = (
+        *refused("the cloud is published at every update", "gui_publish_rate"),
+        *refused("services are not introspected", "service_introspection_mode"),
+        *refused("random poses come from all free cells", "freespace_downsampling"),
+        *refused("set the parameters themselves", "restore_defaults"),
+        *refused("the ground is flat", "initial_pose.z"),
+        *refused("activating goes on with the particles", "always_reset_initial_pose"),
+    )
+    return own.plus((*rows, *idle))

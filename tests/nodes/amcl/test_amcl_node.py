@@ -1,0 +1,182 @@
+"""amcl on a graph."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.geometry import Pose
+from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformBroadcaster
+from gazelle.interfaces import message_type
+from gazelle.mapping.grids import OccupancyGrid
+from gazelle.navigation.localisation import AmclOptions
+from gazelle.nodes.amcl.scans import scan_of_message
+from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.navigation.settings import Settings
+
+_TRUE = (1.2, 2.0, 0.4)
+_LASER = (0.1, 0.0, 0.0)
+
+
+def _room() -> OccupancyGrid:
+    """4 m × 3 m with a box in a corner, so that no direction looks like another."""
+    cells = np.zeros((60, 80), np.int8)
+    cells[[0, -1]] = 100
+    cells[:, [0, -1]] = 100
+    cells[40:50, 55:70] = 100
+    return OccupancyGrid(cells, 0.05)
+
+
+def _scan(pose: tuple[float, float, float], stamp_ns: int) -> Any:
+    """What a lidar 10 cm before the robot's centre sees."""
+    from gazelle.navigation.localisation.kernels import cast_ray
+
+    message = message_type("sensor_msgs/msg/LaserScan")()
+    message.header.frame_id = "base_scan"
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    message.angle_increment = math.tau / 180
+    message.angle_max = math.tau
+    message.range_min, message.range_max = 0.1, 3.5
+    x, y = pose[0] + 0.1 * math.cos(pose[2]), pose[1] + 0.1 * math.sin(pose[2])
+    ranges = [
+        0.05 * cast_ray(_room().cells, x / 0.05, y / 0.05, pose[2] + k * math.tau / 180, 1e3)
+        for k in range(180)
+    ]
+    message.ranges = [value if value < 3.5 else math.inf for value in ranges]
+    message.ranges[7] = math.nan
+    return message
+
+
+class _Robot:
+    """Publishes a map, transforms and scans as a robot would."""
+
+    def __init__(self, bench: Any) -> None:
+        node = bench.node
+        self.now_ns = 1_000_000_000
+        grid = message_type("nav_msgs/msg/OccupancyGrid")
+        self.maps = node.create_publisher("/map", grid, latch=True)
+        self.maps.publish(message_of_grid(_room(), "map", 0))
+        self.scans = node.create_publisher("/scan", message_type("sensor_msgs/msg/LaserScan"))
+        self.tf = TransformBroadcaster(node)
+        self.fixed = StaticTransformBroadcaster(node)
+        laser = Pose.from_xyz_rpy(_LASER, (0.0, 0.0, 0.0))
+        self.fixed.send(StampedPose("base_footprint", "base_scan", 0, laser))
+
+    def look(self, bench: Any, frame: str = "base_scan") -> None:
+        """Stand at odometry's (0, 0, 0) and send a scan."""
+        self.now_ns += 100_000_000
+        self.tf.send(StampedPose("odom", "base_footprint", self.now_ns, Pose()))
+        message = _scan(_TRUE, self.now_ns)
+        message.header.frame_id = frame
+        self.scans.publish(message)
+
+
+def _initial(offset: float = 0.2) -> Any:
+    message = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")()
+    message.header.frame_id = "map"
+    message.pose.pose.position.x, message.pose.pose.position.y = _TRUE[0] + offset, _TRUE[1]
+    message.pose.pose.orientation.z = math.sin(_TRUE[2] / 2)
+    message.pose.pose.orientation.w = math.cos(_TRUE[2] / 2)
+    covariance = [0.0] * 36
+    covariance[0] = covariance[7] = 0.1
+    covariance[35] = 0.05
+    message.pose.covariance = covariance
+    return message
+
+
+def _near(pose: Any) -> bool:
+    p = pose.pose.pose.position
+    return math.hypot(p.x - _TRUE[0], p.y - _TRUE[1]) < 0.12
+
+
+def test_amcl_finds_the_robot_and_sends_the_transform(bench: Any) -> None:
+    robot = _Robot(bench)
+    words = ["_base_frame_id:=base_footprint", "_use_map_topic:=true", "_laser_max_range:=3.5"]
+    bench.start("amcl/amcl", *words, "_resample_interval:=1", "_max_particles:=800")
+    poses = bench.listen("/amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped")
+    clouds = bench.listen("/particlecloud", "geometry_msgs/msg/PoseArray")
+    moves: list[Any] = []
+    bench.node.create_subscription(
+        "/tf",
+        "tf2_msgs/msg/TFMessage",
+        lambda message: moves.extend(t for t in message.transforms if t.child_frame_id == "odom"),
+    )
+    kind = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
+    given = bench.node.create_publisher("/initialpose", kind)
+    bench.eventually(lambda: given.matched and robot.scans.matched)
+    given.publish(_initial())
+
+    def found() -> bool:
+        bench.call("/request_nomotion_update", "std_srvs/srv/Empty")
+        robot.look(bench)
+        return bool(poses) and _near(poses[-1])
+
+    bench.eventually(found)
+    assert poses[-1].header.frame_id == "map"
+    bench.eventually(lambda: moves and clouds)
+    x, y = moves[-1].transform.translation.x, moves[-1].transform.translation.y
+    assert math.hypot(x - _TRUE[0], y - _TRUE[1]) < 0.2
+    assert moves[-1].header.frame_id == "map"
+    stamp = moves[-1].header.stamp
+    assert stamp.sec * 1_000_000_000 + stamp.nanosec > 1_100_000_000
+    bench.call("/global_localization", "std_srvs/srv/Empty")
+    robot.look(bench)
+    bench.eventually(lambda: np.ptp([pose.position.x for pose in clouds[-1].poses]) > 2.0)
+    assert bench.stop() == [0]
+
+
+def test_scans_in_unknown_frames_are_told_and_the_node_stays(bench: Any, capfd: Any) -> None:
+    robot = _Robot(bench)
+    bench.start("amcl/amcl", "_base_frame_id:=base_footprint", "_use_map_topic:=true")
+    bench.eventually(lambda: robot.scans.matched)
+    said: list[str] = []
+
+    def told() -> bool:
+        robot.look(bench, frame="lidar_link")
+        said.extend(capfd.readouterr())
+        return "a scan in frame 'lidar_link' is left out" in "".join(said)
+
+    bench.eventually(told)
+    assert bench.stop() == [0]
+
+
+def test_lidars_that_hang_upside_down_are_seen() -> None:
+    message = _scan(_TRUE, 0)
+    upright = scan_of_message(message, Pose.from_xyz_rpy((0.1, 0, 0.2), (0, 0, 0.3)))
+    hanging = scan_of_message(message, Pose.from_xyz_rpy((0.1, 0, 0.2), (math.pi, 0, 0)))
+    assert (upright.upside_down, hanging.upside_down) == (False, True)
+    assert upright.T_base_laser == pytest.approx((0.1, 0.0, 0.3))
+
+
+def test_wrong_parameters_are_told_all_at_once() -> None:
+    from gazelle.nodes.amcl.node import _checked
+
+    found = Diagnostics()
+    tree = {"laser_model_type": "likelyhood_field", "odom_model_type": "diferential",
+            "min_particles": 900, "max_particles": 100, "update_mind": 0.1,
+            "gui_publish_rate": 10}  # fmt: skip
+    settings = Settings(amcl_table(1), tree, "/amcl", found)
+    settings.report_unknown()
+    options = _checked(settings, settings.fill(AmclOptions), 1)
+    assert (options.laser_model_type, options.odom_model_type) == ("likelihood_field", "diff")
+    assert options.max_particles == 900
+    text = "\n".join(map(str, found))
+    assert "Unknown laser model type 'likelyhood_field'" in text
+    assert "did you mean 'likelihood_field'" in text
+    assert "min_particles to be greater than max particles" in text
+    assert "'update_mind' is not one of amcl" in text
+    assert "'gui_publish_rate' (10) has no effect here" in text
+
+
+def test_nav2s_names_and_defaults_are_known() -> None:
+    found = Diagnostics()
+    settings = Settings(amcl_table(2), {"alpha1": 0.5, "max_beams": 20}, "/amcl", found)
+    options = settings.fill(AmclOptions)
+    assert (options.odom_alpha1, options.laser_max_beams) == (0.5, 20)
+    assert (options.max_particles, options.laser_z_hit) == (2000, 0.5)
+    assert options.odom_model_type == "nav2_amcl::DifferentialMotionModel"
