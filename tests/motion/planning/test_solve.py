@@ -27,7 +27,13 @@ _HAS_OMPL = importlib.util.find_spec("ompl") is not None
 def test_every_planner_of_moveit_plans_past_circles(planner: str) -> None:
     settings = PlannerSettings(max_iterations=150)
     path = plan(
-        space_of(2), _SLALOM, _LEFT, [_RIGHT], planner=planner, settings=settings, time_limit_s=3.0
+        space_of(2),
+        _SLALOM,
+        _LEFT,
+        [_RIGHT],
+        planner=planner,
+        settings=settings,
+        time_limit_s=100.0,
     )
     assert path.waypoints[0] == pytest.approx(_LEFT)
     assert path.waypoints[-1] == pytest.approx(_RIGHT)
@@ -107,7 +113,15 @@ def test_turning_paths_have_no_jumps(planner: str) -> None:
     space = space_of(2, continuous=True)
     settings = PlannerSettings(max_iterations=300)
     goal = np.array([-2.2, 2.0])
-    path = plan(space, torus, np.array([2.2, 2.0]), [goal], planner=planner, settings=settings)
+    path = plan(
+        space,
+        torus,
+        np.array([2.2, 2.0]),
+        [goal],
+        planner=planner,
+        settings=settings,
+        time_limit_s=100.0,
+    )
     assert first_fault(space, torus, path.waypoints, FINE_STEP) == ""
     turns = (path.waypoints[-1] - goal) / math.tau
     assert turns == pytest.approx(np.round(turns), abs=1e-9)
@@ -157,7 +171,7 @@ def test_goals_are_drawn_where_the_first_cannot_be_reached() -> None:
     def source(rng: np.random.Generator) -> FloatArray | None:
         return offered.pop(0) if offered else None
 
-    path = plan(space_of(2), ring, np.array([-2.0, 0.0]), source, time_limit_s=20.0)
+    path = plan(space_of(2), ring, np.array([-2.0, 0.0]), source, time_limit_s=100.0)
     assert path.waypoints[-1] == pytest.approx([-1.0, 2.0])
 
 

@@ -46,7 +46,7 @@ _KNOWN = frozenset(
     hybridize max_hybrid_paths num_planners planners shortcut termination_condition
     multi_query_planning_enabled store_planner_data load_planner_data
     planner_data_path enforce_constrained_state_space
-    constrained_planning_state_space temp_change_factor min_temperature
+    constrained_planning_state_space frountier_node_ratio temp_change_factor min_temperature
     init_temperature frountier_threshold frountierNodeRatio frontier_threshold
     frontier_node_ratio k_constant cost_threshold cost_propagation max_states_failed
     degree max_degree min_degree max_pts_per_leaf estimated_dimension

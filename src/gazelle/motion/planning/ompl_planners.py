@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import time
 from functools import cache, partial
 from types import ModuleType
 from typing import Any
@@ -92,7 +91,7 @@ def _solve(class_name: str, problem: Problem) -> Waypoints | None:
     _configure(base, space, planner, problem)
     planner.setProblemDefinition(definition)
     planner.setup()
-    planner.solve(max(0.0, problem.deadline - time.perf_counter()))
+    planner.solve(base.PlannerTerminationCondition(problem.is_over))
     if not definition.hasExactSolution():
         return None
     path = definition.getSolutionPath()

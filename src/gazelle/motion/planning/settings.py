@@ -28,7 +28,7 @@ class PlannerSettings:
     range: float = 0.0
     goal_bias: float = 0.05
     max_nearest_neighbors: int = 10
-    step: float = 0.05
+    step: float = 0.1
     max_goal_samples: int = 10
     max_iterations: int = 2000
     minimum_waypoint_count: int = 2

@@ -153,8 +153,8 @@ def _find_goals(
 
 def _solved(problem: Problem, chosen: Chosen, began: float, time_limit_s: float) -> Path:
     """Search, shorten and check; search again with finer steps where the check finds a fault."""
-    fault = ""
-    searching = simplifying = checking = 0.0
+    finish = _Finish(problem)
+    searching = 0.0
     while not problem.is_over():
         mark = time.perf_counter()
         raw = chosen.solve(problem)
@@ -162,28 +162,55 @@ def _solved(problem: Problem, chosen: Chosen, began: float, time_limit_s: float)
         if raw is None:
             break
         timed_out = problem.is_over()
-        mark = time.perf_counter()
-        short = shortcut(problem, raw) if problem.settings.simplify else raw
-        simplifying += time.perf_counter() - mark
-        mark = time.perf_counter()
-        for waypoints in [short] if short is raw else [short, raw]:
-            fault = first_fault(problem.space, problem.validity, np.array(waypoints))
-            if not fault:
-                checking += time.perf_counter() - mark
-                rows = _at_least(waypoints, problem.settings.minimum_waypoint_count)
-                notes = (chosen.note,) if chosen.note else ()
-                names = problem.space.names
-                times = (searching, simplifying, checking)
-                return Path(names, rows, chosen.name, *times, notes=notes, timed_out=timed_out)
-        checking += time.perf_counter() - mark
+        waypoints = finish.shortened(raw)
+        if waypoints is not None:
+            rows = _at_least(waypoints, problem.settings.minimum_waypoint_count)
+            notes = (chosen.note,) if chosen.note else ()
+            times = (searching, finish.simplifying_s, finish.checking_s)
+            return Path(problem.space.names, rows, chosen.name, *times, notes, timed_out)
         problem.step = max(FINE_STEP, problem.step * _FINER)
     why = f"{chosen.name} found no path within {time_limit_s:g} s"
-    if fault:
-        why += f" that stands the check every {FINE_STEP} rad: {fault}"
+    if finish.fault:
+        why += f" that stands the check every {FINE_STEP} rad: {finish.fault}"
     elif time.perf_counter() < began + time_limit_s:
         why = f"{chosen.name} gave up before {time_limit_s:g} s were over"
         raise PlanningError(ErrorCode.PLANNING_FAILED, why)
     raise PlanningError(ErrorCode.TIMED_OUT, why)
+
+
+class _Finish:
+    """Shortens paths and checks them finely; knows how long that took."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self.simplifying_s = 0.0
+        self.checking_s = 0.0
+        self.fault = ""
+
+    def shortened(self, raw: Waypoints) -> Waypoints | None:
+        """Return a short path that stands the check, None where `raw` does not."""
+        problem = self._problem
+        if not problem.settings.simplify:
+            return raw if self._stands(raw) else None
+        while True:
+            mark = time.perf_counter()
+            short = shortcut(problem, raw)
+            self.simplifying_s += time.perf_counter() - mark
+            if self._stands(short):
+                return short
+            # Shortcuts went through something thin: take them again with finer steps.
+            if not self._stands(raw):
+                return None
+            if problem.step <= FINE_STEP:
+                return raw
+            problem.step = max(FINE_STEP, problem.step * _FINER)
+
+    def _stands(self, waypoints: Waypoints) -> bool:
+        mark = time.perf_counter()
+        fault = first_fault(self._problem.space, self._problem.validity, np.array(waypoints))
+        self.checking_s += time.perf_counter() - mark
+        self.fault = fault or self.fault
+        return not fault
 
 
 def _at_least(waypoints: Waypoints, count: int) -> FloatArray:
