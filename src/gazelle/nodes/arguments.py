@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
 from gazelle.graph.names import join, parse_command_line
@@ -32,6 +33,7 @@ class NodeArguments:
         ready: called by a node that stays, once it has done what others may wait for.
         log_level: least level that is logged (``--log-level``), empty for the default.
         has_ros_args: the command line was ROS 2's, with ``--ros-args``.
+        parameter_files: of ``--params-file``; they may have parameters of other nodes too.
     """
 
     name: str
@@ -44,6 +46,7 @@ class NodeArguments:
     ready: Callable[[], None] = _nobody_waits
     log_level: str = ""
     has_ros_args: bool = False
+    parameter_files: tuple[Path, ...] = ()
 
     @property
     def generation(self) -> Literal[1, 2]:
@@ -79,4 +82,5 @@ def read_arguments(
         ready=ready,
         log_level=ros2.log_level,
         has_ros_args=ros2.found,
+        parameter_files=tuple(ros2.parameter_files),
     )
