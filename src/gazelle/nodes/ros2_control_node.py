@@ -1,0 +1,177 @@
+"""``controller_manager/ros2_control_node``: controllers without a simulation, on mock hardware.
+
+MoveIt's demo launch files start it. Of hardware it has ``mock_components/GenericSystem``; drivers
+of real robots are compiled code, and Gazebo's systems live in a world.
+
+Parameters: ``update_rate`` (100 Hz), ``robot_description`` (else the topics ``robot_description``
+and ``~/robot_description``), and those of the controllers in the same files.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from gazelle.control.controller_manager import ControllerManager
+from gazelle.control.hardware.gazebo_system import SystemOptions
+from gazelle.control.hardware.ros2_robot import build_ros2_robot
+from gazelle.control.hardware.ros2_tags import read_hardware_tags
+from gazelle.control.sources.files import FileSource
+from gazelle.description.model import Model
+from gazelle.diagnostics import Diagnostics, Severity, render
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private_number, start_node
+from gazelle.nodes.tree import DESCRIPTION, read_description
+from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.control_ports import make_ports, offer_manager
+from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.plugins.context import Resources
+from gazelle.workspace import Workspace
+
+__all__ = ["run"]
+
+_RATE_HZ = 100.0
+_LOOK_S = 0.1
+_MOCK = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Run a controller manager until told to stop."""
+    node = start_node(arguments, graph)
+    try:
+        text = _description(node, stop)
+        if text is None:
+            return 0
+        return _control(node, arguments, read_description(text), stop)
+    except LaunchError as error:
+        node.log("fatal", str(error))
+        return 1
+    finally:
+        node.shutdown()
+
+
+def _description(node: Node, stop: threading.Event) -> str | None:
+    """Return the robot's text; None when told to stop before it came."""
+    name = node.resolve_name(f"~{DESCRIPTION}")
+    if node.parameters.has(name):
+        return str(node.parameters.get(name))
+    node.log("info", "Waiting for data on 'robot_description' topic to finish initialization")
+    found: list[str] = []
+    came = threading.Event()
+
+    def take(message: Any) -> None:
+        found.append(str(message.data))
+        came.set()
+
+    kind = message_type("std_msgs/msg/String")
+    topics = (DESCRIPTION, f"~{DESCRIPTION}")
+    listening = [node.create_subscription(topic, kind, take) for topic in topics]
+    while not stop.is_set() and not came.wait(_LOOK_S):
+        continue
+    for one in listening:
+        one.unregister()
+    return found[0] if found else None
+
+
+@dataclass(slots=True)
+class _Clock:
+    """What stands for the physics: time that goes by."""
+
+    node: Node
+    step_ns: int = 1_000_000
+
+    @property
+    def time_ns(self) -> int:
+        """The node's time."""
+        return self.node.clock.now_ns()
+
+
+@dataclass(slots=True)
+class _Host:
+    """What controllers' ports need of a world, without one."""
+
+    engine: Any
+    node: Node
+    diagnostics: Diagnostics
+    workspace: Workspace
+    commands: CommandQueue = field(default_factory=CommandQueue)
+    controls: ControlRegistry = field(default_factory=ControlRegistry)
+    lockstep: bool = False
+
+
+def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading.Event) -> int:
+    host: Any = _Host(_Clock(node), node, Diagnostics(), Workspace.discover())
+    name = node.name.rpartition("/")[2]
+    rate_hz = private_number(node, arguments, "update_rate", _RATE_HZ)
+    given = {key.replace("/", "."): value for key, value in arguments.params.items()}
+    source = FileSource(
+        arguments.parameter_files,
+        node.namespace,
+        host.diagnostics,
+        manager=name,
+        overrides={name: given},
+    )
+    robot = build_ros2_robot(
+        host, _with_mocks_only(model, host.diagnostics), SystemOptions(False, True, 0.0, rate_hz)
+    )
+    manager = ControllerManager(
+        robot,
+        namespace=node.namespace,
+        make_ports=lambda one: make_ports(host, Resources(host), node.namespace, one, 2),
+        source=source,
+        diagnostics=host.diagnostics,
+        update_rate_hz=rate_hz,
+        workspace=host.workspace,
+        clock=node.clock.now_ns,
+    )
+    resources = Resources(host)
+    offer_manager(manager, host, resources, name=name)
+    render([one for one in host.diagnostics if one.severity >= Severity.WARNING])
+    node.log("info", f"update rate is {rate_hz:g} Hz")
+    _loop(manager, host, 1.0 / rate_hz, stop)
+    resources.close()
+    return 0
+
+
+def _with_mocks_only(model: Model, diagnostics: Diagnostics) -> Model:
+    """Return the model without hardware that needs a world; each is reported."""
+    unwanted: set[str] = set()
+    for tag in read_hardware_tags(model, Diagnostics()):
+        if tag.plugin.replace("::", "/") not in _MOCK:
+            unwanted.add(tag.name)
+            text = f"hardware '{tag.name}' has class '{tag.plugin}', which ros2_control_node has"
+            text += " not: Gazebo's run in a world, drivers of real robots are compiled code"
+            fix = f"<plugin>{_MOCK[0]}</plugin>"
+            diagnostics.report("control.hardware-plugin", text, tag.span, fix=fix)
+    kept = tuple(one for one in model.ros2_controls if one.name not in unwanted)
+    return replace(model, ros2_controls=kept)
+
+
+def _loop(manager: ControllerManager, host: Any, period_s: float, stop: threading.Event) -> None:
+    """Update the manager at its rate; requests are done between two updates."""
+    commands: CommandQueue = host.commands
+    last_ns = host.engine.time_ns
+    due_s = time.monotonic()
+    commands.own()
+    try:
+        while not stop.is_set():
+            left_s = due_s - time.monotonic()
+            if left_s > 0 and commands.wait(min(left_s, _LOOK_S)):
+                commands.clear_wake()
+                commands.apply()
+                continue
+            if left_s > 0:
+                continue
+            commands.apply()
+            now_ns = host.engine.time_ns
+            if now_ns != last_ns:
+                manager.update(now_ns, max(0, now_ns - last_ns))
+            last_ns = now_ns
+            due_s = max(due_s + period_s, time.monotonic())
+    finally:
+        commands.disown()

@@ -1,0 +1,84 @@
+"""ros2_control_node: controllers on mock hardware, without a world."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gazelle.graph.actions import ActionClient
+from gazelle.interfaces import action_type, message_type
+
+_NODE = "controller_manager/ros2_control_node"
+_ROBOT = """<robot name="r"><link name="a"/><link name="b"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+  <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+<ros2_control name="arm" type="system"><hardware><plugin>{plugin}</plugin></hardware>
+  <joint name="j"><command_interface name="position"/>
+    <state_interface name="position"><param name="initial_value">0.25</param></state_interface>
+    <state_interface name="velocity"/></joint></ros2_control></robot>"""
+_PARAMETERS = """
+controller_manager:
+  ros__parameters:
+    update_rate: 200
+    states: {type: joint_state_broadcaster/JointStateBroadcaster}
+    arm: {type: joint_trajectory_controller/JointTrajectoryController}
+arm:
+  ros__parameters:
+    joints: [j]
+    command_interfaces: [position]
+    state_interfaces: [position, velocity]
+"""
+
+
+def _publish(bench: Any, plugin: str) -> Any:
+    kind: Any = message_type("std_msgs/msg/String")
+    publisher = bench.node.create_publisher("/robot_description", kind, latch=True)
+    publisher.publish(kind(data=_ROBOT.format(plugin=plugin)))
+    return publisher
+
+
+def test_mock_arm_follows_a_trajectory(bench: Any, tmp_path: Path) -> None:
+    file = tmp_path / "controllers.yaml"
+    file.write_text(_PARAMETERS)
+    _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", "--params-file", str(file))
+    states = bench.listen("/joint_states", "sensor_msgs/msg/JointState")
+    bench.start("controller_manager/spawner", "states", "arm", "--ros-args")
+    bench.eventually(lambda: states)
+    assert list(states[0].position) == [0.25]
+    # Its stamps are those of the wall, which other nodes go by.
+    assert abs(states[0].header.stamp.sec - bench.node.clock.now_ns() // 10**9) < 60
+    kind = action_type("control_msgs/FollowJointTrajectory")
+    client = ActionClient(bench.node, "/arm/follow_joint_trajectory", kind)
+    assert client.wait_for_server(30.0)
+    point = {"positions": [1.0], "time_from_start": {"sec": 0, "nanosec": 200_000_000}}
+    goal = client.send_goal({"trajectory": {"joint_names": ["j"], "points": [point]}})
+    assert goal.wait(30.0)
+    assert goal.status.name == "SUCCEEDED"
+    bench.eventually(lambda: states[-1].position[0] == pytest.approx(1.0))
+    hardware = bench.call(
+        "/controller_manager/list_hardware_components",
+        "controller_manager_msgs/srv/ListHardwareComponents",
+    )
+    assert [one.name for one in hardware.component] == ["arm"]
+    assert bench.stop() == [0, 0]
+
+
+def test_hardware_of_a_world_is_refused(bench: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    _publish(bench, "gazebo_ros2_control/GazeboSystem")
+    bench.start(_NODE, "--ros-args")
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    kind = "controller_manager_msgs/srv/ListHardwareComponents"
+    assert not bench.call("/controller_manager/list_hardware_components", kind).component
+    assert bench.stop() == [0]
+    text = capsys.readouterr().err
+    assert "hardware 'arm' has class 'gazebo_ros2_control/GazeboSystem', which ros2_contr" in text
+    assert "mock_components/GenericSystem" in text
+
+
+def test_robot_that_is_none_ends_the_node(bench: Any) -> None:
+    words = ["--ros-args", "-p", "robot_description:='<robot'"]
+    bench.start(_NODE, *words)
+    assert bench.wait() == [1]
