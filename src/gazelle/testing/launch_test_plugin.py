@@ -50,7 +50,13 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> Any:
     """Return a collector of its own for a launch test's file."""
-    if not _is_ours() or _FUNCTION not in _text(module_path):
+    if not _is_ours():
+        return None
+    text = _text(module_path)
+    if "launch_pytest" in text:
+        _let_launch_be_found()
+        _bring_launch_pytest(parent.config)
+    if _FUNCTION not in text:
         return None
     _let_launch_be_found()
     module = pytest.Module.from_parent(parent, path=module_path)
@@ -151,6 +157,13 @@ def _text(path: Path) -> str:
 def _is_ours() -> bool:
     spec = importlib.util.find_spec("launch_testing")
     return spec is None or str(Path(__file__).parents[1]) in str(spec.origin)
+
+
+def _bring_launch_pytest(config: pytest.Config) -> None:
+    from gazelle.testing import launch_pytest_plugin
+
+    if not config.pluginmanager.is_registered(launch_pytest_plugin):
+        config.pluginmanager.register(launch_pytest_plugin, "launch_pytest")
 
 
 def _let_launch_be_found() -> None:

@@ -283,7 +283,7 @@ def TimerAction(run: Run) -> None:
     cancelled = a.TimerAction(period=60.0, actions=[a.LogInfo(msg="never")])
     cancel = a.OpaqueFunction(function=lambda _context: cancelled.cancel())
     assert _said(run(cancelled, cancel)) == []
-    with pytest.raises(TypeError, match="'TimerAction' expected 'period' to be .* write 8.0"):
+    with pytest.raises(TypeError, match=r"'TimerAction' expected 'period' to be .* write 8\.0"):
         a.TimerAction(period=8, actions=[])
     with pytest.raises(TypeError, match="'TimerAction' expected 'actions' to be one of"):
         a.TimerAction(period=8.0, actions=None)  # type: ignore[arg-type]
