@@ -1,1 +1,19 @@
 """Arms: inverse kinematics, collision checking, motion planning, time parameterisation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gazelle.motion.planner import Goal, PlannedMotion, Planner
+
+__all__ = ["Goal", "PlannedMotion", "Planner"]
+
+
+def __getattr__(name: str) -> Any:
+    """Load the planner only when it is asked for: it brings MuJoCo and compiled kernels."""
+    if name not in __all__:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    from gazelle.motion import planner
+
+    return getattr(planner, name)

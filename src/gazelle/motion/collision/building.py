@@ -94,9 +94,9 @@ class _Builder:
     def add_links(self) -> None:
         solids = link_solids(self._scene.robot, self._diagnostics)
         for joint in self._scene.robot.joints:
-            parent = self._bodies[joint.parent] if joint.parent else self._spec.worldbody
+            above = self._bodies.get(f"link {joint.parent}", self._spec.worldbody)
             pose = joint.T_parent_joint @ joint.T_joint_child
-            body = self._body(parent, joint.child, pose)
+            body = self._body(above, f"link {joint.child}", pose)
             _add_motion(body, joint)
             owner = Owner(joint.child, "link", joint.child)
             margin = self._scene.padding_m.get(joint.child, 0.0)
@@ -105,7 +105,8 @@ class _Builder:
     def add_attached(self) -> None:
         for attached in self._scene.attached.values():
             pose = attached.body.T_frame_object
-            body = self._body(self._bodies[attached.link], f"attached {attached.name}", pose)
+            above = self._bodies[f"link {attached.link}"]
+            body = self._body(above, f"attached {attached.name}", pose)
             solids = object_solids(attached.body, self._diagnostics)
             self._add(body, Owner(attached.name, "attached object", attached.link), solids)
 

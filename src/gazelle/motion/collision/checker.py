@@ -83,7 +83,7 @@ class CollisionChecker:
     def copy(self) -> CollisionChecker:
         """Return a checker of the same scene that another thread may use."""
         other = copy.copy(self)
-        other._prepare()
+        other._set_up_data()
         return other
 
     def follow(self, scene: PlanningScene) -> CollisionChecker:
@@ -156,17 +156,20 @@ class CollisionChecker:
         return nearest
 
     def _prepare(self) -> None:
+        self._kinematics, self._collision = mujoco.mj_kinematics, mujoco.mj_collision
+        self._set_up_variables(self._built)
+        self._set_up_data()
+        self._constant = tuple(self._constant_contacts(self._active()))
+
+    def _set_up_data(self) -> None:
         built, scene = self._built, self.scene
         self._data = mujoco.MjData(self._model)
-        self._kinematics, self._collision = mujoco.mj_kinematics, mujoco.mj_collision
-        self._set_up_variables(built)
         for name, number in built.mocaps.items():
             pose = scene.objects[name].T_frame_object
             self._data.mocap_pos[number] = pose.position_m
             self._data.mocap_quat[number] = pose.quat_wxyz
         self._data.qpos[built.addresses] = scene.positions
         self._kinematics(self._model, self._data)
-        self._constant = tuple(self._constant_contacts(self._active()))
 
     def _set_up_variables(self, built: CollisionModel) -> None:
         robot, group = self.scene.robot, self.group

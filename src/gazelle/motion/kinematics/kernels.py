@@ -27,9 +27,11 @@ _LEAST_DAMPING = 1e-5
 _LARGEST_STEP = 1.0
 _PATIENCE = 6
 _ENOUGH_PROGRESS = 0.8
+_POLISH = 2
+_EXACT = 1e-9
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _turn(axis, angle, out):
     """Rodrigues' formula for a unit axis."""
     s, c = math.sin(angle), math.cos(angle)
@@ -46,7 +48,7 @@ def _turn(axis, angle, out):
     out[2, 2] = c + z * z * k
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _from_quaternion(x, y, z, w, out):
     n = math.sqrt(x * x + y * y + z * z + w * w)
     if n < 1e-12:
@@ -63,21 +65,21 @@ def _from_quaternion(x, y, z, w, out):
     out[2, 2] = 1 - 2 * (x * x + y * y)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _times(a, b, out):
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _moved(R, p, v):
     """Add R v to p."""
     for i in range(3):
         p[i] += R[i, 0] * v[0] + R[i, 1] * v[1] + R[i, 2] * v[2]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
     """Write rotation and position of every link; a planar joint is kind 4, a floating one 5."""
     M = np.empty((3, 3))
@@ -118,7 +120,7 @@ def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
         R[i] = S
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q, R, p, F, o):
     """Write the tip's rotation and position, and the frame of every step before its motion."""
     M = np.empty((3, 3))
@@ -159,7 +161,7 @@ def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q
     R[:] = S
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def chain_jacobian(kinds, axes, dofs, factors, F, o, p, J):
     """Write the Jacobian, linear rows first; a quaternion's columns are turns about x, y, z."""
     J[:] = 0.0
@@ -191,7 +193,7 @@ def chain_jacobian(kinds, axes, dofs, factors, F, o, p, J):
                 J[3 + k, d + k] += 1.0
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _error(R, p, target_R, target_p, e):
     """Write what is missing, in the robot's frame: metres and a rotation vector."""
     for k in range(3):
@@ -220,7 +222,7 @@ def _error(R, p, target_R, target_p, e):
             e[3 + i] = math.pi * (0.5 * (D[i, k] + (1.0 if i == k else 0.0))) / n
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _solved(H, g, n, x):
     """Solve H x = g by Cholesky in place; H is symmetric and positive definite."""
     for j in range(n):
@@ -246,7 +248,7 @@ def _solved(H, g, n, x):
         x[i] = t / H[i, i]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _turn_quaternion(q, at, dx, d, scale, F):
     """Turn a quaternion by a rotation vector given in the robot's frame."""
     v = np.empty(3)
@@ -267,7 +269,7 @@ def _turn_quaternion(q, at, dx, d, scale, F):
         q[at + k] /= n
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def solve(
     A, a, kinds, axes, variables, factors, offsets, dofs, tool_R, tool_p,
     lower, upper, dof_variables, target_R, target_p, seeds, weight, eps_m, eps_rad, steps, out,
@@ -284,10 +286,11 @@ def solve(
     H, g, dx = np.empty((nv, nv)), np.empty(nv), np.zeros(nv)
     H0 = np.empty((nv, nv))
     free = np.ones(nv, dtype=np.bool_)
+    best = np.empty(seeds.shape[1])
     for s in range(len(seeds)):
         q = seeds[s].copy()
-        mark, since = np.inf, 0
-        for _ in range(steps):
+        mark, since, polished = np.inf, 0, 0
+        for _ in range(steps + _POLISH):
             chain_pose(
                 A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q, R, p, F, o
             )
@@ -295,8 +298,16 @@ def solve(
             far = math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
             turned = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
             if far <= eps_m and (weight == 0.0 or turned <= eps_rad):
-                out[:] = q
+                # Close by, two more steps give many more digits.
+                polished += 1
+                if polished > _POLISH or far + weight * turned < _EXACT:
+                    out[:] = q
+                    return s
+            elif polished:
+                out[:] = best
                 return s
+            if polished:
+                best[:] = q
             E = 0.5 * (far * far + weight * weight * turned * turned)
             if _ENOUGH_PROGRESS * mark > E:
                 mark, since = E, 0
@@ -349,4 +360,7 @@ def solve(
             for i in range(ns):
                 if kinds[i] == QUATERNION:
                     _turn_quaternion(q, variables[i], dx, dofs[i], scale, F[i])
+        if polished:
+            out[:] = best
+            return s
     return -1

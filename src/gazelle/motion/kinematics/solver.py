@@ -52,11 +52,15 @@ class Solver:
         self.settings = settings or KinematicsSettings()
         self.positions = robot.default_positions() if positions is None else positions
         self.tip_link = tip_link or next(iter(self.settings.tips), "") or self.group.tip_link
+        self._outside = np.ones(len(robot.variables), dtype=np.bool_)
+        self._outside[self.group.indices] = False
         self._chains: dict[tuple[str, bytes], Chain] = {}
         self._check_link(self.tip_link or self.group.tip_links[0])
 
     def at(self, positions: FloatArray) -> Solver:
         """Return the same solver with the joints outside the group elsewhere."""
+        if np.array_equal(positions[self._outside], self.positions[self._outside]):
+            return self
         return Solver(
             self.robot,
             self.group,
