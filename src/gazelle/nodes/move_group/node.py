@@ -98,7 +98,7 @@ def _context(
     robot = RobotModel.from_config(config, diagnostics=diagnostics)
     node.log("info", f"Loading robot model '{robot.name}'...")
     context = make_context(node, config, robot, parameters, generation=arguments.generation)
-    context.maker.checker(context.monitor.scene)
+    context.maker.warm_up(context.monitor.scene)
     offer_scene(context)
     offer_kinematics(context)
     offer_planning(context)

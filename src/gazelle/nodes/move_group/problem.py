@@ -117,6 +117,16 @@ class ProblemMaker:
             self._checkers[group] = made
             return made.copy()
 
+    def warm_up(self, scene: PlanningScene) -> None:
+        """Build collision models and compile kernels, so that no request has to wait for them."""
+        self.checker(scene)
+        for group in self.robot.groups.values():
+            self.checker(scene, group.name)
+            if group.tip_link:
+                solver, q = self._solver(group), group.take(scene.positions)
+                solver.ik(solver.fk(q), seed_q=q, attempts=1)
+                solver.jacobian(q)
+
     def _solver(self, group: JointGroup) -> Solver:
         with self._lock:
             if group.name not in self._solvers:
