@@ -11,7 +11,12 @@ from typing import Any
 import pytest
 
 from gazelle.launch.ros2.actions import ExecuteProcess
-from gazelle.launch.ros2.events.process import ProcessExited, ProcessStarted, ProcessStdout
+from gazelle.launch.ros2.events.process import (
+    ProcessExited,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdout,
+)
 from gazelle.launch.ros2.testing import (
     ActiveIoHandler,
     ActiveProcInfoHandler,
@@ -120,6 +125,24 @@ def test_output_is_waited_for_in_another_thread() -> None:
         output.assertWaitFor("bye", process=talk, stream="stdout", timeout=0.01)
     with pytest.raises(lookup.NoMatchingProcessException):
         output.waitFor("bye", process="other", timeout=0.01)
+
+
+def test_streams_are_told_apart() -> None:
+    output, talk = ActiveIoHandler(), _process("talk")
+    output.append(_event(ProcessStdout, talk, text=b"\x1b[1mout\x1b[0m put\n"))
+    output.append(_event(ProcessStderr, talk, text=b"err\n"))
+    asserts.assertInStdout(output, "out put", "talk")
+    asserts.assertInStdout(output, "OUT", "talk", output_filter=str.upper)
+    asserts.assertInStderr(output, re.compile("e(r+)"), talk)
+    asserts.assertInStream(output, "err", talk, stream=asserts.assertDefaultStream())
+    with pytest.raises(AssertionError, match="Did not find 'out' in output for any of the match"):
+        asserts.assertInStderr(output, "out", talk)
+    with pytest.raises(ValueError, match="must be 'stdout' or 'stderr'"):
+        asserts.assertInStream(output, "x", talk, stream="log")
+    with asserts.assertSequentialStdout(output, talk) as checker:
+        checker.assertInText("put")
+        with pytest.raises(AssertionError, match=r"'out' not found in sequence.*\n.*put\nerr"):
+            checker.assertInText("out")
 
 
 def test_ends_are_waited_for_in_another_thread() -> None:
