@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap import CostGrid, Footprint, SourceOptions, StaticLayer, Window
+from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.assembling import Assembly
 from gazelle.nodes.navigation.frames import Frames, PlanePose, plane_of, stamp_ns_of
 from gazelle.nodes.navigation.publishing import CostmapPublisher
@@ -43,13 +43,25 @@ class LiveCostmap:
         frames: Frames,
         assembly: Assembly,
         publisher: CostmapPublisher,
+        *,
+        topics_in: str = "",
     ) -> None:
-        """Listen; nothing is updated before `start` or `update`."""
+        """Listen; nothing is updated before `start` or `update`.
+
+        Args:
+            node: the owner.
+            frames: tf.
+            assembly: layers and parameters.
+            publisher: topics of the costmap itself.
+            topics_in: namespace of maps and sensors, the node's own when empty.
+        """
         self.assembly = assembly
         self.frames = frames
         self.lock = threading.RLock()
         self.rests = False
         self._node = node
+        self._topics_in = topics_in.rstrip("/")
+        self._within = bool(topics_in)
         self._publisher = publisher
         self._waiting: dict[tuple[str, str], deque[Any]] = {}
         self._map_frame = ""
@@ -91,6 +103,11 @@ class LiveCostmap:
         with self.lock:
             grid = self.grid
             return CostGrid(grid.costs.copy(), grid.resolution_m, grid.origin)
+
+    def raw_message(self) -> Any:
+        """Return the costs as a ``nav2_msgs/Costmap``."""
+        with self.lock:
+            return self._publisher.raw_message(self.grid, self._node.clock.now_ns())
 
     def pose(self) -> PlanePose | None:
         """Return where the robot is in the costmap's frame; why not is said."""
@@ -213,31 +230,30 @@ class LiveCostmap:
                     self._subscribe(f"{topic}_updates", kind, self._on_map_update)
 
     def _subscribe(self, topic: str, kind: str, callback: Callable[[Any], None]) -> None:
-        made = self._node.create_subscription(topic, kind, callback, queue_size=_WAITING)
+        name = self._topic(topic)
+        made = self._node.create_subscription(name, kind, callback, queue_size=_WAITING)
         self._subscriptions.append(made)
+
+    def _topic(self, name: str) -> str:
+        """Return a topic's name; Nav2's costmaps look for relative ones beside their servers."""
+        is_relative = self._within and not name.startswith(("/", "~"))
+        return f"{self._topics_in}/{name}" if is_relative else name
 
     def _keeper(self, key: tuple[str, str]) -> Callable[[Any], None]:
         return self._waiting[key].append
 
     def _on_map(self, message: Any) -> None:
         info = message.info
-        cells = np.asarray(message.data, np.int8)
-        if cells.size != info.width * info.height or not cells.size:
-            text = f"a map of {info.width} × {info.height} cells has {cells.size}; it is left out"
-            self._node.log("error", f"{self.name}: {text}")
-            return
-        yaw = plane_of(_pose_of(info.origin))[2]
-        origin = (float(info.origin.position.x), float(info.origin.position.y), 0.0)
-        if abs(yaw) > 1e-6:
-            text = f"the map's origin is turned by {yaw:.3f} rad; costmaps ignore that, as ROS's do"
-            self._node.log("warn", f"{self.name}: {text}")
         try:
-            grid = OccupancyGrid(
-                cells.reshape(int(info.height), int(info.width)), float(info.resolution), origin
-            )
+            grid = grid_of_message(message)
         except ValueError as error:
             self._node.log("error", f"{self.name}: the map is left out: {error}")
             return
+        x, y, yaw = grid.origin
+        if abs(yaw) > 1e-6:
+            text = f"the map's origin is turned by {yaw:.3f} rad; costmaps ignore that, as ROS's do"
+            self._node.log("warn", f"{self.name}: {text}")
+            grid = replace(grid, origin=(x, y, 0.0))
         with self.lock:
             self._map_frame = str(message.header.frame_id).removeprefix("/") or self.global_frame
             self.assembly.costmap.set_static_map(grid)
@@ -255,7 +271,7 @@ class LiveCostmap:
         if not any(one.options.enabled for one in statics):
             return (0.0, 0.0, 0.0)
         if not self._map_frame:
-            topic = statics[0].options.map_topic or "map"
+            topic = self._topic(statics[0].options.map_topic or "map")
             text = f"{self.name}: waits for a map on topic {self._node.resolve_name(topic)}"
             self.frames.say("warn", f"{text}; map_server or SLAM publishes one")
             return None
@@ -344,9 +360,3 @@ class LiveCostmap:
                 if layer.name == name:
                     known = {k: v for k, v in values.items() if hasattr(layer.options, k)}
                     layer.options = replace(layer.options, **known)
-
-
-def _pose_of(message: Any) -> Pose:
-    from gazelle.nodes.navigation.frames import pose_of_message
-
-    return pose_of_message(message)

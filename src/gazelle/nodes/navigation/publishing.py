@@ -63,7 +63,7 @@ class CostmapPublisher:
         elif changed is not None and not changed.empty and self._updates.matched:
             self._updates.publish(self._update_message(grid, changed, now_ns))
         if self._raw is not None and (changed is not None or is_new) and self._raw.matched:
-            self._raw.publish(self._raw_message(grid, now_ns))
+            self._raw.publish(self.raw_message(grid, now_ns))
 
     def publish_footprint(self, corners: NDArray[np.float64], now_ns: int) -> None:
         """Tell the robot's outline in the costmap's frame."""
@@ -102,9 +102,9 @@ class CostmapPublisher:
         message.data = occupancy_of_costs(grid.costs[window.cells]).ravel()
         return message
 
-    def _raw_message(self, grid: CostGrid, now_ns: int) -> Any:
-        assert self._raw is not None
-        message = self._raw.message_class()
+    def raw_message(self, grid: CostGrid, now_ns: int) -> Any:
+        """Return costs as they are (``nav2_msgs/Costmap``)."""
+        message: Any = message_type("nav2_msgs/msg/Costmap")()
         set_stamp(message, now_ns, self._frame_id)
         data = message.metadata
         data.update_time = message.header.stamp

@@ -136,6 +136,10 @@ class Settings:
         """Return the settings of a subtree."""
         return Settings(table, self.group(key), f"{self.name}/{key}", self._diagnostics)
 
+    def with_table(self, table: Table, tree: Mapping[str, Any], name: str) -> Settings:
+        """Return settings of something below, with a table and values of its own."""
+        return Settings(table, tree, f"{self.name}/{name}", self._diagnostics)
+
     def fill(self, options: type[_T], **others: Any) -> _T:
         """Return an instance of the option class that the table was made of.
 

@@ -21,6 +21,7 @@ class SingleGoal:
 
     Attributes:
         current: the goal that is worked on, None without one.
+        name: of the action.
     """
 
     def __init__(
@@ -28,6 +29,7 @@ class SingleGoal:
     ) -> None:
         """Offer the action."""
         self.current: ServerGoal | None = None
+        self.name = name
         self._next: ServerGoal | None = None
         self._changed = threading.Condition()
         self._generation = generation

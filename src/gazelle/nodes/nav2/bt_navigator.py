@@ -1,0 +1,324 @@
+"""``nav2_bt_navigator bt_navigator``: drives to poses by behaviour trees."""
+
+from __future__ import annotations
+
+import threading
+import time
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph, Node
+from gazelle.graph.actions import ServerGoal
+from gazelle.interfaces import action_type, message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.nav2.graph_world import GraphWorld
+from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.tables import BT_NAVIGATOR
+from gazelle.nodes.nav2.trees.blackboard import Blackboard
+from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, parse_trees, read_trees
+from gazelle.nodes.nav2.trees.messages import path_length_m, plane_pose
+from gazelle.nodes.nav2.trees.node import Status, TreeNode
+from gazelle.nodes.navigation.frames import Frames, fill_pose, set_stamp
+from gazelle.nodes.navigation.odometry import Odometry
+from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.navigation.single_goal import SingleGoal
+
+__all__ = ["run"]
+
+_WAIT_S = 0.2
+_NANO = 1_000_000_000
+_OWN = {"NavigateToPose": "navigate_to_pose.xml",
+        "NavigateThroughPoses": "navigate_through_poses.xml"}  # fmt: skip
+_PARAMETERS = {
+    "NavigateToPose": ("default_nav_to_pose_bt_xml", "default_bt_xml_filename"),
+    "NavigateThroughPoses": ("default_nav_through_poses_bt_xml",),
+}
+_ACTIONS = {"NavigateToPose": "navigate_to_pose", "NavigateThroughPoses": "navigate_through_poses"}
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Navigate until told to stop."""
+    node, tree = start(arguments, graph)
+    navigator = _Navigator(node, tree)
+    serve(arguments, node, stop, {
+        "configure": navigator.configure, "activate": navigator.activate,
+        "deactivate": navigator.deactivate, "cleanup": navigator.deactivate,
+    })  # fmt: skip
+    navigator.deactivate()
+    node.shutdown()
+    return 0
+
+
+class _Navigator:
+    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
+        self._node, self._tree = node, tree
+        self._parameters = offer_parameters(node, tree)
+        self._settings = Settings(BT_NAVIGATOR, tree, node.name, Diagnostics())
+        self._frames = Frames(node)
+        self._world: GraphWorld | None = None
+        self._files: dict[str, TreeFile] = {}
+        self._actions: dict[str, SingleGoal] = {}
+        self._ending = threading.Event()
+        self._busy = threading.Lock()
+        kind = message_type("nav2_msgs/msg/BehaviorTreeLog")
+        self._log_out = node.create_publisher("behavior_tree_log", kind)
+        pose = "geometry_msgs/msg/PoseStamped"
+        node.create_subscription("goal_pose", pose, self._on_goal_pose)
+
+    def configure(self) -> bool:
+        diagnostics = Diagnostics()
+        settings = Settings(BT_NAVIGATOR, self._tree, self._node.name, diagnostics)
+        self._settings = settings
+        settings.report_unknown(*settings.texts("navigators"))
+        self._world = GraphWorld(
+            self._node,
+            self._frames,
+            Odometry(self._node, settings.text("odom_topic")),
+            global_frame=settings.text("global_frame"),
+            base_frame=settings.text("robot_base_frame"),
+            # Localisation in simulators is seldom faster than 10 Hz.
+            tolerance_s=max(settings.number("transform_tolerance"), 1.0),
+        )
+        for kind, keys in _PARAMETERS.items():
+            path = next((text for key in keys if (text := settings.text(key))), "")
+            found = self._file(kind, path, diagnostics)
+            if found is not None:
+                self._files[kind] = found
+        return log_findings(self._node, diagnostics) and len(self._files) == len(_PARAMETERS)
+
+    def activate(self) -> bool:
+        self._ending.clear()
+        for kind, name in _ACTIONS.items():
+            action = SingleGoal(self._node, name, f"nav2_msgs/{kind}", generation=2)
+            self._actions[kind] = action
+            work = threading.Thread(target=self._work, args=(action, kind), name=name, daemon=True)
+            work.start()
+        return True
+
+    def deactivate(self) -> bool:
+        self._ending.set()
+        for action in self._actions.values():
+            action.close()
+        self._actions.clear()
+        return True
+
+    def _file(self, kind: str, path: str, diagnostics: Diagnostics) -> TreeFile | None:
+        """Return the trees of a file; without one, or for Nav2's own, those that Gazelle has."""
+        if path and Path(path).is_file():
+            return read_trees(Path(path), diagnostics)
+        if path and not Path(path).name.startswith("navigate_"):
+            text = f"{self._node.name}: the behaviour tree '{path}' does not exist"
+            diagnostics.report("navigation.tree-structure", text, fix="give the path of an XML")
+            return None
+        if path:
+            text = f"{Path(path).name} is Nav2's own file; Gazelle's tree of the same nodes runs"
+            self._node.log("info", text)
+        own = files("gazelle.nodes.nav2.trees") / "default" / _OWN[kind]
+        return parse_trees(own.read_text(encoding="utf-8"), _OWN[kind], diagnostics)
+
+    def _work(self, action: SingleGoal, kind: str) -> None:
+        while not self._ending.is_set() and not self._node.closed:
+            if not action.wait(_WAIT_S):
+                continue
+            # One navigator at a time, as in Nav2.
+            with self._busy:
+                goal = action.take()
+                if goal is not None:
+                    self._navigate(action, kind, goal)
+
+    def _navigate(self, action: SingleGoal, kind: str, goal: ServerGoal) -> None:
+        """Run a goal's tree to its end."""
+        result = action.result_class()
+        try:
+            trip = self._trip(kind, goal)
+        except GazelleError as error:
+            self._node.log("error", str(error))
+            action.abort(_failed(result, str(error)), str(error))
+            return
+        self._node.log("info", f"Begin navigating {trip.words}")
+        period_s = self._settings.number("bt_loop_duration") / 1000
+        while True:
+            began = time.monotonic()
+            if action.has_new and not action.is_cancelled:
+                newer = action.take()
+                if newer is not None and not self._changed(trip, kind, newer):
+                    trip.tree.halt()
+                    self._navigate(action, kind, newer)
+                    return
+            if action.is_cancelled or self._ending.is_set():
+                trip.tree.halt()
+                action.cancel(result, "Goal canceled")
+                return
+            try:
+                status = trip.tree.execute()
+            except GazelleError as error:
+                trip.tree.halt()
+                action.abort(_failed(result, str(error)), str(error))
+                self._node.log("error", str(error))
+                return
+            trip.tell()
+            self._feedback(action, trip)
+            if status not in (Status.RUNNING, Status.IDLE):
+                self._finish(action, trip, status, result)
+                return
+            self._ending.wait(max(period_s - (time.monotonic() - began), 0.0))
+
+    def _finish(self, action: SingleGoal, trip: _Trip, status: Status, result: Any) -> None:
+        trip.tree.halt()
+        if status is Status.FAILURE:
+            board = trip.blackboard
+            for key in ("follow_path_error_code", "compute_path_error_code"):
+                code = int(board.get(key, 0) or 0)
+                if code and hasattr(result, "error_code"):
+                    result.error_code = code
+            text = f"Goal failed{': ' + trip.why if trip.why else ''}"
+            self._node.log("error", text)
+            action.abort(_failed(result, text), text)
+        else:
+            self._node.log("info", "Goal succeeded")
+            action.succeed(result)
+
+    def _trip(self, kind: str, goal: ServerGoal) -> _Trip:
+        """Return tree and blackboard of a goal."""
+        assert self._world is not None
+        file = self._files[kind]
+        if goal.request.behavior_tree:
+            diagnostics = Diagnostics()
+            found = self._file(kind, str(goal.request.behavior_tree), diagnostics)
+            diagnostics.raise_if_errors()
+            file = found or file
+        trip = _Trip(self._world, self._log_out)
+        trip.blackboard.set("goal_reached_tol", self._settings.number("goal_reached_tol"))
+        trip.tree = build_tree(file, trip.blackboard, trip)
+        trip.listen(trip.tree)
+        self._set_goals(trip, kind, goal)
+        return trip
+
+    def _changed(self, trip: _Trip, kind: str, goal: ServerGoal) -> bool:
+        """Let the tree that runs go on to a newer goal; False when it asks for another tree."""
+        if goal.request.behavior_tree:
+            return False
+        try:
+            self._set_goals(trip, kind, goal)
+        except GazelleError as error:
+            self._node.log("error", f"the newer goal is left out: {error}")
+        return True
+
+    def _set_goals(self, trip: _Trip, kind: str, goal: ServerGoal) -> None:
+        request = goal.request
+        given = [request.pose] if kind == "NavigateToPose" else list(_poses(request))
+        if not given:
+            raise GazelleError("no poses to go through are given")
+        found = [self._frames.message_in(one, self._settings.text("global_frame")) for one in given]
+        for one in found:
+            if isinstance(one, str):
+                raise GazelleError(f"the goal cannot be used: {one}")
+        if kind == "NavigateToPose":
+            trip.blackboard.set("goal", found[0])
+            at = plane_pose(found[0].pose)
+            trip.words = f"from current location to ({at.x_m:.2f}, {at.y_m:.2f})"
+        else:
+            trip.blackboard.set("goals", found)
+            trip.words = f"through {len(found)} poses"
+        trip.blackboard.set("number_recoveries", 0)
+
+    def _feedback(self, action: SingleGoal, trip: _Trip) -> None:
+        goal = action.current
+        if goal is None or not goal.is_feedback_wanted:
+            return
+        made: Any = action_type(f"nav2_msgs/{_kind_of(action.name)}").Feedback()
+        assert self._world is not None
+        pose = self._world.pose()
+        if pose is not None:
+            set_stamp(made.current_pose, self._world.now_ns(), self._settings.text("global_frame"))
+            fill_pose(made.current_pose.pose, (pose.x_m, pose.y_m, pose.yaw_rad))
+        took_ns = max(self._world.now_ns() - trip.began_ns, 0)
+        made.navigation_time.sec, made.navigation_time.nanosec = divmod(took_ns, _NANO)
+        made.number_of_recoveries = int(trip.blackboard.get("number_recoveries", 0))
+        path = trip.blackboard.get("path")
+        if path is not None:
+            made.distance_remaining = path_length_m(path)
+            speed = self._world.speed_m_s()
+            if speed > 0.01:
+                left_ns = int(made.distance_remaining / speed * _NANO)
+                left = made.estimated_time_remaining
+                left.sec, left.nanosec = divmod(left_ns, _NANO)
+        if hasattr(made, "number_of_poses_remaining"):
+            made.number_of_poses_remaining = len(trip.blackboard.get("goals") or ())
+        goal.publish_feedback(made)
+
+    def _on_goal_pose(self, message: Any) -> None:
+        action = self._actions.get("NavigateToPose")
+        if action is not None:
+            action.submit(action.goal_class(pose=message))
+
+
+class _Trip:
+    """One goal's tree; it is the tree's world, and remembers why something failed.
+
+    Attributes:
+        why: what failed last.
+    """
+
+    tree: TreeNode
+
+    def __init__(self, world: GraphWorld, log_out: Any) -> None:
+        self.blackboard = Blackboard()
+        self.why = ""
+        self.words = ""
+        self.began_ns = world.now_ns()
+        self._world = world
+        self._log_out = log_out
+        self._changes: list[Any] = []
+
+    def __getattr__(self, name: str) -> Any:
+        # Everything that is not told apart here is the graph's.
+        return getattr(self._world, name)
+
+    def log(self, level: str, text: str) -> None:
+        """Keep why leaves fail, and say it."""
+        self.why = text
+        self._world.log("info" if level == "debug" else level, text)
+
+    def listen(self, node: TreeNode) -> None:
+        """Hear of each change of a status in the tree."""
+        node.on_change = self._on_change
+        for child in node.children:
+            self.listen(child)
+
+    def tell(self) -> None:
+        """Publish the changes since the last call."""
+        changes, self._changes = self._changes, []
+        if changes and self._log_out.matched:
+            message = self._log_out.message_class(event_log=changes)
+            now_ns = self._world.now_ns()
+            message.timestamp.sec, message.timestamp.nanosec = divmod(now_ns, _NANO)
+            self._log_out.publish(message)
+
+    def _on_change(self, node: TreeNode, before: Status) -> None:
+        if self._log_out.matched:
+            kind = message_type("nav2_msgs/msg/BehaviorTreeStatusChange")
+            change: Any = kind(
+                node_name=node.name,
+                previous_status=before.value,
+                current_status=node.status.value,
+            )
+            change.timestamp.sec, change.timestamp.nanosec = divmod(self._world.now_ns(), _NANO)
+            self._changes.append(change)
+
+
+def _poses(request: Any) -> Any:
+    return request.poses.goals if hasattr(request.poses, "goals") else request.poses
+
+
+def _kind_of(action: str) -> str:
+    return next(kind for kind, name in _ACTIONS.items() if name == action)
+
+
+def _failed(result: Any, text: str) -> Any:
+    if hasattr(result, "error_msg"):
+        result.error_msg = text
+    return result

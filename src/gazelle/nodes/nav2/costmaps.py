@@ -1,0 +1,80 @@
+"""The costmap nodes of Nav2's planner and controller servers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import service_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
+from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.publishing import CostmapPublisher
+
+__all__ = ["Nav2Costmap"]
+
+
+class Nav2Costmap:
+    """``/local_costmap/local_costmap`` or its global sister, with topics and services.
+
+    Attributes:
+        node: the costmap's own.
+        live: the costmap.
+    """
+
+    def __init__(
+        self, name: str, arguments: NodeArguments, graph: Graph, diagnostics: Diagnostics
+    ) -> None:
+        """Make node and costmap; it is updated from `LiveCostmap.start` on."""
+        space = f"{arguments.namespace.rstrip('/')}/{name}"
+        self.node: Node = graph.create_node(name, namespace=space, remappings=arguments.remappings)
+        tree = tree_of_node(arguments, self.node.name)
+        if name == "local_costmap":
+            tree.setdefault("global_frame", "odom")
+        made = assemble(tree, self.node.name, diagnostics, generation=2)
+        frame = made.costmap.options.global_frame.removeprefix("/")
+        publisher = CostmapPublisher(
+            self.node, space, frame, raw=True, footprint="published_footprint"
+        )
+        self.live = LiveCostmap(
+            self.node, Frames(self.node), made, publisher, topics_in=arguments.namespace
+        )
+        self._parameters = offer_parameters(self.node, tree)
+        self._offer(name, space)
+
+    def close(self) -> None:
+        """Take everything off the graph."""
+        self.live.close()
+        self._parameters.close()
+        self.node.shutdown()
+
+    def _offer(self, name: str, space: str) -> None:
+        for word, kind, handler in (
+            ("clear_entirely", "ClearEntireCostmap", self._on_clear_all),
+            ("clear_around", "ClearCostmapAroundRobot", self._on_clear_around),
+            ("clear_except", "ClearCostmapExceptRegion", self._on_clear_except),
+        ):
+            service = service_type(f"nav2_msgs/srv/{kind}")
+            self.node.create_service(f"{space}/{word}_{name}", service, handler)
+        service = service_type("nav2_msgs/srv/GetCostmap")
+        self.node.create_service(f"{space}/get_costmap", service, self._on_get)
+
+    def _on_clear_all(self, _request: Any) -> Any:
+        self.live.reset()
+        return service_type("nav2_msgs/srv/ClearEntireCostmap").Response()
+
+    def _on_clear_around(self, request: Any) -> Any:
+        self.live.clear_around(float(request.reset_distance), inside=True)
+        return service_type("nav2_msgs/srv/ClearCostmapAroundRobot").Response()
+
+    def _on_clear_except(self, request: Any) -> Any:
+        self.live.clear_around(float(request.reset_distance))
+        return service_type("nav2_msgs/srv/ClearCostmapExceptRegion").Response()
+
+    def _on_get(self, _request: Any) -> Any:
+        response = service_type("nav2_msgs/srv/GetCostmap").Response()
+        response.map = self.live.raw_message()
+        return response

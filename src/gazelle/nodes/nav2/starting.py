@@ -1,0 +1,77 @@
+"""Starting Nav2's nodes: parameters, simulated time, the states of a managed node."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.graph import Graph, Node
+from gazelle.graph.node_parameters import NodeParameters
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.lifecycle import Lifecycle
+from gazelle.nodes.navigation.settings import flat, nested
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.ros2_words import file_params
+
+__all__ = ["log_findings", "offer_parameters", "serve", "start", "tree_of_node"]
+
+_POLL_S = 0.2
+_LEVELS = {10: "info", 20: "warn", 30: "error"}
+
+
+def start(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[str, Any]]:
+    """Make the graph node; returns it and its parameters, nested."""
+    node = start_node(arguments, graph)
+    tree = nested(arguments.params)
+    if tree.get("use_sim_time") in (True, "true", "True"):
+        node.clock.use(True)
+    return node, tree
+
+
+def tree_of_node(arguments: NodeArguments, full_name: str) -> dict[str, Any]:
+    """Return the parameters of another node of the same process, nested."""
+    return nested(file_params(arguments.parameter_files, full_name))
+
+
+def offer_parameters(
+    node: Node,
+    tree: Mapping[str, Any],
+    changed: Callable[[dict[str, Any]], str] = lambda changes: "",
+) -> NodeParameters:
+    """Offer a node's parameters to ``ros2 param``; `changed` may refuse with a reason."""
+    values = {key: value for key, value in flat(tree) if value is not None}
+    return NodeParameters(
+        node, node.name, values, changed, allow_undeclared=True, now_ns=node.clock.now_ns
+    )
+
+
+def serve(
+    arguments: NodeArguments,
+    node: Node,
+    stop: threading.Event,
+    callbacks: dict[str, Callable[[], bool]],
+) -> Lifecycle:
+    """Be a managed node until told to stop, or until it is finalized.
+
+    Args:
+        arguments: of the node.
+        node: on the graph.
+        stop: told to stop.
+        callbacks: see `Lifecycle`.
+    """
+    lifecycle = Lifecycle(node, callbacks)
+    arguments.ready()
+    while not (stop.wait(_POLL_S) or lifecycle.finalized or node.closed):
+        pass
+    if not node.closed and lifecycle.active:
+        lifecycle.change("deactivate")
+    return lifecycle
+
+
+def log_findings(node: Node, diagnostics: Diagnostics) -> bool:
+    """Say what was found; tell whether there was no error."""
+    for item in diagnostics:
+        node.log(_LEVELS[int(item.severity)], str(item))
+    return not diagnostics.errors
