@@ -127,6 +127,27 @@ def test_path_in_place_of_a_package_is_run(run: Run, package: Path) -> None:
     assert _words(run(a.Node(executable=path, output="screen"))) == [["--ros-args"]]
 
 
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"pkg": "demo"}, "unexpected keyword argument 'pkg'; did you mean 'package'?"),
+        ({"outputs": "screen"}, "unexpected keyword argument 'outputs'; did you mean 'output'?"),
+        ({"parameters": "p.yaml"}, r"a list, but got 'p.yaml' .*write parameters=\['p.yaml'\]"),
+        ({"parameters": {"a": 1}}, r"write parameters=\[{…}\]"),
+        ({"remappings": ["a:=b"]}, r"write remappings=\[\('a', 'b'\)\]"),
+    ],
+)
+def test_arguments_of_another_kind_are_corrected(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        a.Node(executable="show", **options)
+
+
+def test_text_in_place_of_arguments_is_told(run: Run, package: Path) -> None:
+    ran = run(launch.OpaqueFunction(function=lambda _context: [_show(arguments="-d x")]))
+    assert "each character becomes a word, as in ROS 2; write arguments=['-d', 'x']" in ran.text
+    assert _words(ran) == [["-", "d", "", "", "x", "--ros-args"]]
+
+
 def test_second_node_of_a_name_is_told(run: Run, package: Path) -> None:
     ran = run(*(_show(name="n", namespace="/s") for _ in range(2)))
     assert "there are now at least 2 nodes with the name /s/n created within" in ran.text

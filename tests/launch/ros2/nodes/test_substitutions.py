@@ -294,7 +294,7 @@ def normalize_parameter_dict(context: LaunchContext, package: Path) -> None:
     }  # fmt: skip
     with pytest.raises(TypeError, match="expected dict"):
         normal([1])  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="Unexpected type for parameter value None"):
+    with pytest.raises(TypeError, match="'a' has an unexpected type for parameter value None"):
         normal({"a": None})
 
 

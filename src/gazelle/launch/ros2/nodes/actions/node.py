@@ -13,6 +13,7 @@ from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
+from gazelle.launch.ros2.nodes.actions.node_keywords import check_keywords, check_lists
 from gazelle.launch.ros2.nodes.actions.node_markup import node_arguments
 from gazelle.launch.ros2.nodes.actions.older_names import newer_names
 from gazelle.launch.ros2.nodes.executable import NodeExecutable
@@ -32,7 +33,6 @@ from gazelle.launch.ros2.nodes.utilities import (
 )
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 from gazelle.launch.ros2.utilities import (
-    ensure_argument_type,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
@@ -95,8 +95,8 @@ class Node(ExecuteProcess):
         given, kwargs = newer_names(type(self).__name__, given, kwargs, _OLD_NAMES)
         if given["executable"] is None:
             raise TypeError("Node() missing 1 required keyword-only argument: 'executable'")
-        if parameters is not None:
-            ensure_argument_type(parameters, (list, tuple), "parameters", "Node")
+        check_keywords(type(self), kwargs)
+        check_lists(parameters=parameters, remappings=remappings, arguments=arguments)
         own = [*(arguments or ())]
         if ros_arguments is not None:
             own += ["--ros-args", *ros_arguments]

@@ -71,11 +71,11 @@ def normalize_parameter_dict(
         if isinstance(value, Mapping):
             found |= normalize_parameter_dict(value, _prefix=name)
         else:
-            found[tuple(name)] = _normalized_value(value)
+            found[tuple(name)] = _normalized_value(value, key)
     return found
 
 
-def _normalized_value(value: Any) -> Any:
+def _normalized_value(value: Any, name: Any) -> Any:
     if isinstance(value, str):
         return tuple(normalize_to_list_of_substitutions(_as_yaml(value)))
     if isinstance(value, Substitution):
@@ -84,7 +84,10 @@ def _normalized_value(value: Any) -> Any:
         return value
     if isinstance(value, Sequence):
         return _normalized_list(value)
-    raise TypeError(f"Unexpected type for parameter value {value!r}")
+    raise TypeError(
+        f"parameter {name!r} has an unexpected type for parameter value {value!r}; allowed are "
+        "bool, int, float, str, bytes, substitutions and lists of them"
+    )
 
 
 def _normalized_list(values: Sequence[Any]) -> tuple[Any, ...]:

@@ -1,0 +1,79 @@
+"""Arguments of nodes that people get wrong."""
+
+from __future__ import annotations
+
+import inspect
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from gazelle.diagnostics import did_you_mean
+from gazelle.launch.ros2 import logging as launch_logging
+from gazelle.launch.ros2.descriptions import Executable
+from gazelle.launch.ros2.substitution import Substitution
+
+__all__ = ["check_keywords", "check_lists"]
+
+# Names of XML, of roslaunch and of haste.
+_MEANT = {
+    "args": "arguments",
+    "exec": "executable",
+    "node": "executable",
+    "ns": "namespace",
+    "param": "parameters",
+    "params": "parameters",
+    "pkg": "package",
+    "remap": "remappings",
+    "remaps": "remappings",
+    "type": "executable",
+}
+
+
+def check_keywords(kind: type, kwargs: Mapping[str, Any]) -> None:
+    """See that a class, or one that it is made of, takes some arguments.
+
+    Raises:
+        TypeError: one is unknown; the message names what it may have been meant for.
+    """
+    classes = [*kind.__mro__, Executable]
+    known = {
+        name
+        for one in classes
+        if "__init__" in vars(one)
+        for name in inspect.signature(vars(one)["__init__"]).parameters
+    }
+    for name in kwargs:
+        if name not in known:
+            usual = f"did you mean '{_MEANT[name]}'?" if name in _MEANT else ""
+            hint = usual or did_you_mean(name, sorted(known - {"self", "kwargs"}))
+            text = f"{kind.__name__}() got an unexpected keyword argument '{name}'"
+            raise TypeError(f"{text}; {hint}" if hint else text)
+
+
+def check_lists(*, parameters: Any, remappings: Any, arguments: Any) -> None:
+    """See that lists are lists; of arguments a text is taken for its characters, as in ROS 2.
+
+    Raises:
+        TypeError: parameters or remaps are none; the message says what to write.
+    """
+    if parameters is not None and not isinstance(parameters, list | tuple):
+        raise TypeError(
+            f"'Node' expected 'parameters' to be a list, but got {parameters!r} of type "
+            f"'{type(parameters).__name__}'; write parameters=[{_short(parameters)}]"
+        )
+    for one in () if isinstance(remappings, Substitution) else remappings or ():
+        if not isinstance(one, tuple):
+            ends = one.partition(":=") if isinstance(one, str) else ("from", "", "to")
+            raise TypeError(
+                f"Expected 'remap_rule' to be a tuple, but got {one!r}; write "
+                f"remappings=[({ends[0]!r}, {ends[2]!r})]"
+            )
+    if isinstance(arguments, str) and len(arguments) > 1:
+        launch_logging.get_logger("launch_ros.actions.node").warning(
+            f"arguments of a Node is the text {arguments!r}: each character becomes a word, as in "
+            f"ROS 2; write arguments={shlex.split(arguments)!r}"
+        )
+
+
+def _short(value: Any) -> str:
+    return "{…}" if isinstance(value, Mapping) else repr(value)
