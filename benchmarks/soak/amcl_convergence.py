@@ -69,7 +69,7 @@ def error_of_run(seed: int, updates: int = 40, options: AmclOptions = TURTLEBOT3
     x, y = grid.cell_to_world(column, row)
     true, odometry = np.array([x, y, rng.uniform(-3, 3)]), np.zeros(3)
     side, angle = rng.uniform(-math.pi, math.pi), rng.choice([-1, 1]) * math.radians(30)
-    said = true + (0.5 * math.cos(side), 0.5 * math.sin(side), angle)
+    said = true + np.array([0.5 * math.cos(side), 0.5 * math.sin(side), angle])
     filter_ = Amcl(options, seed)
     filter_.set_map(grid)
     filter_.initialise(tuple(said), np.diag([0.25, 0.25, (math.pi / 12) ** 2]))

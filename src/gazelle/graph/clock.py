@@ -103,7 +103,8 @@ class Clock:
         """Count on a node no more; another one takes the subscription over."""
         with self._switching:
             self._nodes = [one for one in self._nodes if one is not node]
-            if self._owner is node:
+            if self._owner is node and self._subscription is not None:
+                self._subscription.unregister()
                 self._owner = self._subscription = None
             self.refresh()
 

@@ -64,7 +64,7 @@ class Connection:
     async def run(self) -> None:
         """Serve the page until it goes."""
         writer = asyncio.create_task(self._write())
-        self._studio.pages.add(self)
+        self._studio.enter(self)
         for greeting in self._studio.hello():
             self.post(json_text(greeting))
         try:
@@ -75,7 +75,7 @@ class Connection:
             pass  # it went without a word, as pages that are reloaded do
         finally:
             self._closed = True
-            self._studio.pages.discard(self)
+            self._studio.leave(self)
             writer.cancel()
             for one in self._channels.values():
                 one.channel.shut()

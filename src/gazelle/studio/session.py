@@ -36,7 +36,8 @@ class Studio:
         """Join as a node of a name of its own; the graph stays open when Studio is closed."""
         self.graph = graph
         self.node = graph.create_node("_studio", anonymous=True, rosout=False, is_ros2=True)
-        graph.clock.follow(self.node)
+        # A simulator says the time at every step, and without a page nobody wants to know.
+        graph.clock.leave(self.node)
         self.taps = Taps(self.node)
         self.workers = Workers(_WORKERS)
         self.pages: set[Connection] = set()
@@ -59,6 +60,20 @@ class Studio:
             "panels": [name for name, _ in waiting],
         }
         return [first, *(_show(name, params) for name, params in waiting if params)]
+
+    def enter(self, page: Connection) -> None:
+        """A page has come; while there is one, time is followed."""
+        with self._lock:
+            if not self.pages:
+                self.graph.clock.follow(self.node)
+            self.pages.add(page)
+
+    def leave(self, page: Connection) -> None:
+        """A page has gone; calling it twice does nothing."""
+        with self._lock:
+            if page in self.pages and len(self.pages) == 1:
+                self.graph.clock.leave(self.node)
+            self.pages.discard(page)
 
     def show(self, panel: str, params: dict[str, Any] | None = None) -> None:
         """Ask for a panel: on the pages that are open, else on the first that opens."""

@@ -19,7 +19,7 @@ export class DisplayRow {
   private readonly enabled = h('input', { type: 'checkbox' });
   private readonly name = h('span', { class: 'display-name' });
   private readonly body = h('div', { class: 'display-body', role: 'group' });
-  private readonly status = h('div', { class: 'display-status' });
+  private readonly status = h('div', { class: 'display-statuses' });
   private readonly open = new Set<string>();
 
   constructor(readonly display: Display, private readonly host: RowHost, expanded: boolean) {

@@ -67,6 +67,16 @@ export class Dock {
     });
   }
 
+  /** Width of the dock, pixels. */
+  get width(): number {
+    return this.api.width;
+  }
+
+  /** Whether a panel of a kind is open. */
+  has(kind: string): boolean {
+    return this.panelOf(kind) !== undefined;
+  }
+
   /** Opens a panel at the right of what is looked at; further ones go into tabs there. */
   showBeside(name: string, params: JsonObject = {}): void {
     const tabs = this.api.getGroup(this.besides);

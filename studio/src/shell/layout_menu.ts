@@ -10,6 +10,9 @@ import type { LayoutStore } from './layout_store';
 import { companionsOf, NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
 import type { Toasts } from './toasts';
 
+/** From here on two trees have room beside two views. */
+const ROOMY_PX = 1700;
+
 /** The layouts of the page. */
 export class Layouts {
   private commands: readonly string[] = [];
@@ -64,7 +67,11 @@ export class Layouts {
 
   private showBeside(kind: string, params: JsonObject): void {
     this.dock.showBeside(kind, params);
-    for (const place of companionsOf(kind)) if (!this.dock.openIn(place.kind, {})) this.dock.show(place.kind, {}, place);
+    for (const place of companionsOf(kind)) {
+      if (this.dock.openIn(place.kind, {})) continue;
+      const trees = this.dock.has('entities') && this.dock.width < ROOMY_PX;
+      this.dock.show(place.kind, {}, trees ? { kind: place.kind, beside: 'entities', direction: 'within' } : place);
+    }
   }
 
   private reset(): void {

@@ -152,6 +152,8 @@ def test_gazebo_s_window_shows_museum_and_robot_and_rviz_comes_beside(
     seen.panel("displays").get_by_role("treeitem", name="RobotModel").wait_for()
     assert seen.panel("rviz").is_visible()
     assert seen.panel("gazebo").is_visible()
+    width = seen.panel("rviz").bounding_box()["width"]
+    assert width > 400, "the view has room beside Gazebo's window"
     seen.shot("with_rviz")
 
 

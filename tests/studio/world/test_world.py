@@ -124,6 +124,12 @@ def test_bad_insert_is_told(server: WorldServer, page: Any, source: Any, words: 
         page.call("world.insert", source=source)
 
 
+def test_findings_in_a_dropped_file_name_the_file(server: WorldServer, page: Any) -> None:
+    text = "<sdf version='1.6'>\n  <model name='ghost'/>\n</sdf>"
+    with pytest.raises(AssertionError, match=r"ghost\.sdf:2:3: model 'ghost' has no link"):
+        page.call("world.insert", source={"text": text, "file": "ghost.sdf"})
+
+
 def test_models_of_the_paths_have_pictures(
     page: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

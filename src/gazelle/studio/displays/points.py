@@ -20,7 +20,16 @@ from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["BUDGET", "KIND_PACKED_POINTS", "KIND_POINTS", "Points", "budget_of", "open_points", "points_frame", "points_of"]
+__all__ = [
+    "BUDGET",
+    "KIND_PACKED_POINTS",
+    "KIND_POINTS",
+    "Points",
+    "budget_of",
+    "open_points",
+    "points_frame",
+    "points_of",
+]
 
 KIND_POINTS = 20
 KIND_PACKED_POINTS = 29

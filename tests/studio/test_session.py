@@ -1,0 +1,40 @@
+"""What a Studio does only while somebody looks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tests.studio.conftest import eventually
+from tests.studio.page import Page
+
+from gazelle.graph import Graph
+from gazelle.studio import Server, Studio
+
+
+def test_time_is_followed_only_while_a_page_is_open(graph: Graph) -> None:
+    graph.parameters.set("/use_sim_time", True)
+    try:
+        with Server(Studio(graph), port=0) as server:
+            assert graph.subscription_count("/clock") == 0
+            one, other = Page(server.port), Page(server.port)
+            eventually(lambda: graph.subscription_count("/clock") == 1)
+            one.close()
+            eventually(lambda: len(server.studio.pages) == 1)
+            assert graph.subscription_count("/clock") == 1
+            other.close()
+            eventually(lambda: graph.subscription_count("/clock") == 0)
+    finally:
+        graph.parameters.delete("/use_sim_time")
+
+
+def test_a_page_that_comes_again_follows_time_again(
+    graph: Graph, connected: Callable[..., Page], server: Server
+) -> None:
+    graph.parameters.set("/use_sim_time", True)
+    try:
+        connected().close()
+        eventually(lambda: not server.studio.pages)
+        connected()
+        eventually(lambda: graph.subscription_count("/clock") == 1)
+    finally:
+        graph.parameters.delete("/use_sim_time")
