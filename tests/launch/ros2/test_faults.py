@@ -124,6 +124,30 @@ def test_python_errors_show_the_users_line(
     assert "Traceback" not in text
 
 
+@pytest.mark.parametrize(
+    ("entities", "message"),
+    [
+        (
+            "(LogInfo(msg='x'),)",
+            "its item 1 is of type tuple (a comma behind an action makes a tuple",
+        ),
+        ("LogInfo(msg='x'), LogInfo", "its item 2 is the class LogInfo (write () behind a class)"),
+        ("[LogInfo(msg='x')]", "its item 1 is of type list (write * before a list)"),
+        ("None", "its item 1 is of type NoneType (a function may lack its return)"),
+        ("3", "its item 1 is of type int"),
+    ],
+)
+def test_what_is_no_action_is_refused_where_it_stands(
+    entities: str, message: str, include: Include
+) -> None:
+    code, found, _text = include("faulty.launch.py", _HEAD.format(entities))
+    (diagnostic,) = found
+    assert code == 1
+    assert message in diagnostic.message
+    assert diagnostic.span is not None
+    assert (Path(diagnostic.span.file).name, diagnostic.span.line) == ("faulty.launch.py", 6)
+
+
 def test_a_syntax_error_is_shown_with_its_column(include: Include) -> None:
     code, found, text = include("faulty.launch.py", "def generate_launch_description(:\n    pass\n")
     (diagnostic,) = found
@@ -265,6 +289,15 @@ def test_an_error_ends_the_processes(include: Include) -> None:
     code, found, text = include("faulty.launch.py", _HEAD.format(entity))
     assert (code, [one.code for one in found]) == (1, ["ros2_launch.exception"])
     assert "sending signal 'SIGINT' to process[sleep" in text
+
+
+def test_a_handler_that_fails_does_not_keep_processes_alive(include: Include) -> None:
+    handler = "OnShutdown(on_shutdown=lambda *_: nope)"
+    entity = f"ExecuteProcess(cmd=['sleep', '60']), RegisterEventHandler({handler}), Shutdown()"
+    source = "from launch.event_handlers import OnShutdown\n"
+    code, found, text = include("faulty.launch.py", source + _HEAD.format(entity))
+    assert (code, [one.code for one in found]) == (1, ["ros2_launch.exception"])
+    assert "process has died [pid" in text
 
 
 def test_the_traceback_is_in_the_debug_log(include: Include, capsys: Any) -> None:

@@ -32,6 +32,9 @@ class LaunchDescription(LaunchDescriptionEntity):
         deprecated_reason: str | None = None,
     ) -> None:
         self.entities = list(initial_entities or ())
+        for number, item in enumerate(self.entities, start=1):
+            if not isinstance(item, LaunchDescriptionEntity):
+                raise TypeError(_no_entity(number, item))
         self.deprecated_reason = deprecated_reason
 
     @property
@@ -88,6 +91,21 @@ class LaunchDescription(LaunchDescriptionEntity):
                 argument._conditionally_included = conditional or argument.condition is not None
                 found[argument.name] = argument, includes
         return list(found.values())
+
+
+def _no_entity(number: int, item: Any) -> str:
+    hints: dict[type, str] = {
+        tuple: "a comma behind an action makes a tuple of it",
+        list: "write * before a list",
+        type(None): "a function may lack its return",
+        type: "write () behind a class",
+    }
+    hint = hints.get(type(item), "")
+    kind = (
+        f"the class {item.__name__}" if isinstance(item, type) else f"of type {type(item).__name__}"
+    )
+    text = f"a LaunchDescription holds actions, but its item {number} is {kind}"
+    return f"{text} ({hint})" if hint else text
 
 
 def _declared(

@@ -16,8 +16,11 @@ from gazelle.diagnostics import SourceSpan
 __all__ = ["calling_place", "keep_place", "kept_place", "raising_place", "written_at"]
 
 _OURS = str(Path(__file__).parents[2])
-_NOT_THE_USERS = tuple(
-    {_OURS, sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"), "<frozen"}
+# Also the folder of commands such as gazelle.
+_NOT_THE_USERS = (
+    _OURS,
+    *(sysconfig.get_path(name) for name in ("stdlib", "purelib", "scripts")),
+    "<frozen",
 )
 _ATTRIBUTE = "_gazelle_place"
 _element: ContextVar[SourceSpan | None] = ContextVar("element", default=None)

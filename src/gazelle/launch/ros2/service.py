@@ -9,7 +9,7 @@ import logging
 import signal
 import threading
 import traceback
-from collections.abc import Coroutine, Iterable, Iterator
+from collections.abc import Coroutine, Iterable, Iterator, Sequence
 from typing import Any
 
 from gazelle.launch.ros2 import logging as launch_logging
@@ -17,6 +17,7 @@ from gazelle.launch.ros2.context import LaunchContext
 from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.event import Event
+from gazelle.launch.ros2.event_handler import BaseEventHandler
 from gazelle.launch.ros2.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from gazelle.launch.ros2.events import IncludeLaunchDescription, Shutdown
 from gazelle.launch.ros2.faults import diagnose
@@ -157,11 +158,10 @@ class LaunchService:
 
     def __raise_from(self, done: Iterable[asyncio.Future[Any]]) -> None:
         """Raise the first error of what has ended, and log the others."""
-        errors = [
-            error
-            for error in (future.exception() for future in done if not future.cancelled())
-            if error is not None
-        ]
+        found = [future.exception() for future in done if not future.cancelled()]
+        self.__raise_first([error for error in found if error is not None])
+
+    def __raise_first(self, errors: Sequence[BaseException]) -> None:
         for error in errors[1:]:
             self.__logger.error(error)
         if errors:
@@ -175,20 +175,28 @@ class LaunchService:
         )
 
     def __process_event(self, event: Event) -> None:
-        context = self.context
         self.__logger.debug(f"processing event: '{event}'")
-        for handler in tuple(context._event_handlers):
-            if not handler.matches(event):
-                continue
-            self.__logger.debug(f"processing event: '{event}' ✓ '{handler}'")
-            context._push_locals()
+        errors: list[Exception] = []
+        for handler in tuple(self.context._event_handlers):
             try:
-                found: Any = handler.handle(event, context)
-                entities = found if isinstance(found, collections.abc.Iterable) else [found]
-                for entity in entities:
-                    self.__visit(entity)
-            finally:
-                context._pop_locals()
+                self.__let_handle(handler, event)
+            except Exception as error:  # noqa: BLE001 - raised when the others have been told
+                # A handler that fails must not keep processes from hearing of their end.
+                errors.append(error)
+        self.__raise_first(errors)
+
+    def __let_handle(self, handler: BaseEventHandler, event: Event) -> None:
+        if not handler.matches(event):
+            return
+        self.__logger.debug(f"processing event: '{event}' ✓ '{handler}'")
+        self.context._push_locals()
+        try:
+            found: Any = handler.handle(event, self.context)
+            entities = found if isinstance(found, collections.abc.Iterable) else [found]
+            for entity in entities:
+                self.__visit(entity)
+        finally:
+            self.context._pop_locals()
 
     def __visit(self, entity: Any) -> None:
         if entity is None:

@@ -14,6 +14,7 @@ from gazelle.launch.ros2.context import LaunchContext
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
+from gazelle.launch.ros2.place import keep_place
 from gazelle.launch.ros2.source import LaunchDescriptionSource
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 from gazelle.launch.ros2.utilities import (
@@ -111,7 +112,10 @@ class IncludeLaunchDescription(Action):
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
-                raise RuntimeError(f"{message}; {hint}" if hint else message)
+                error = RuntimeError(f"{message}; {hint}" if hint else message)
+                # Of the command line's own include no line is the user's.
+                keep_place(error, self.place or argument.place)
+                raise error
 
     def _argument_names(self, context: LaunchContext) -> list[str]:
         return [
