@@ -9,7 +9,7 @@ from gazelle.interfaces import service_type
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.planning_scene_messages import Components
 
-__all__ = ["offer_scene"]
+__all__ = ["offer_scene", "offer_scene_topics"]
 
 _GET = "moveit_msgs/GetPlanningScene"
 _APPLY = "moveit_msgs/ApplyPlanningScene"
@@ -18,6 +18,18 @@ _EMPTY = "std_srvs/Empty"
 
 def offer_scene(context: MoveGroupContext) -> None:
     """Listen to the topics and offer the services."""
+    node = context.node
+    offer_scene_topics(context)
+    node.create_service("get_planning_scene", service_type(_GET), lambda r: _get(context, r))
+    node.create_service("apply_planning_scene", service_type(_APPLY), lambda r: _apply(context, r))
+    node.create_service("clear_octomap", service_type(_EMPTY), _cleared)
+    node.create_subscription(
+        "trajectory_execution_event", "std_msgs/msg/String", lambda m: _event(context, m)
+    )
+
+
+def offer_scene_topics(context: MoveGroupContext) -> None:
+    """Listen to the topics."""
     node, monitor = context.node, context.monitor
     takers: tuple[tuple[str, str, Callable[[Any], object]], ...] = (
         ("planning_scene", "PlanningScene", monitor.apply),
@@ -29,12 +41,6 @@ def offer_scene(context: MoveGroupContext) -> None:
         node.create_subscription(
             topic, f"moveit_msgs/msg/{kind}", _without_value(take), queue_size=1024
         )
-    node.create_service("get_planning_scene", service_type(_GET), lambda r: _get(context, r))
-    node.create_service("apply_planning_scene", service_type(_APPLY), lambda r: _apply(context, r))
-    node.create_service("clear_octomap", service_type(_EMPTY), _cleared)
-    node.create_subscription(
-        "trajectory_execution_event", "std_msgs/msg/String", lambda m: _event(context, m)
-    )
 
 
 def _without_value(take: Callable[[Any], object]) -> Callable[[Any], None]:

@@ -105,6 +105,12 @@ class SceneMonitor:
             self._node.log("warn", f"planning scene: {problem}")
         return not problems
 
+    def replace(self, scene: PlanningScene) -> None:
+        """Take a scene in place of the present one."""
+        with self._lock:
+            self._scene = scene
+        self._tell_change()
+
     def apply_world(self, message: Any) -> bool:
         """Take a ``PlanningSceneWorld``, which replaces all objects."""
         with self._lock:

@@ -1,0 +1,1 @@
+"""moveit_py, on Gazelle's graph."""

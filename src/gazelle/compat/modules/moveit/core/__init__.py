@@ -1,0 +1,1 @@
+"""moveit.core, on Gazelle's motion."""

@@ -1,0 +1,3 @@
+"""moveit.core.kinematic_constraints, on Gazelle's motion."""
+
+from gazelle.compat.moveit.py.kinematic_constraints import *  # noqa: F403

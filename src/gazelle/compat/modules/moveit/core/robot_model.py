@@ -1,0 +1,3 @@
+"""moveit.core.robot_model, on Gazelle's motion."""
+
+from gazelle.compat.moveit.py.robot import JointModelGroup, RobotModel

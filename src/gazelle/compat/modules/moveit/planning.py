@@ -1,0 +1,3 @@
+"""moveit.planning, on Gazelle's graph."""
+
+from gazelle.compat.moveit.py.planning import *  # noqa: F403

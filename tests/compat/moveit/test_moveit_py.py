@@ -1,0 +1,111 @@
+"""moveit_py as its tutorial uses it."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from tests.nodes.conftest import (
+    Bench,
+    bench,  # noqa: F401 - a fixture
+)
+from tests.nodes.move_group.conftest import JOINTS, READY, box_object, parameters, pose
+from tests.nodes.move_group.fake_robot import FakeRobot
+
+from gazelle.compat.moveit.py import planning
+from gazelle.compat.moveit.py.kinematic_constraints import construct_joint_constraint
+from gazelle.compat.moveit.py.robot import RobotState
+from gazelle.interfaces import fill, message_type
+from gazelle.nodes.move_group.execution import ExecutionStatus
+
+
+@pytest.fixture
+def moveit(
+    bench: Bench,  # noqa: F811 - the fixture
+    monkeypatch: pytest.MonkeyPatch,
+) -> Iterator[planning.MoveItPy]:
+    robot = FakeRobot(bench.node, dict(zip([*JOINTS, "finger_joint"], [*READY, 0.04], strict=True)))
+    robot.follow("arm_controller")
+    stop = threading.Event()
+
+    def publish() -> None:
+        while not stop.wait(0.02):
+            robot.publish()
+
+    thread = threading.Thread(target=publish, daemon=True)
+    thread.start()
+    monkeypatch.setattr(sys, "argv", ["program"])
+    monkeypatch.setattr(planning.Graph, "open", lambda: bench.graph)
+    yield planning.MoveItPy("moveit_py", config_dict=parameters())
+    stop.set()
+    thread.join()
+
+
+def test_tutorial_of_moveit_py(moveit: planning.MoveItPy) -> None:
+    arm = moveit.get_planning_component("arm")
+    model = moveit.get_robot_model()
+    assert arm.named_target_states == ["up", "ready"]
+
+    arm.set_start_state_to_current_state()
+    arm.set_goal_state(configuration_name="up")
+    plan = arm.plan()
+    assert plan and plan.trajectory is not None and plan.trajectory.duration > 1.0
+    assert moveit.execute(plan.trajectory) is ExecutionStatus.SUCCEEDED
+
+    state = RobotState(model)
+    state.set_to_default_values("arm", "ready")
+    group = model.get_joint_model_group("arm")
+    arm.set_start_state_to_current_state()
+    arm.set_goal_state(motion_plan_constraints=[construct_joint_constraint(state, group)])
+    assert arm.plan()
+
+    stamped: Any = message_type("geometry_msgs/msg/PoseStamped")()
+    fill(stamped, {"header": {"frame_id": "world"}, "pose": pose(0.36, 0.18, 0.3, (0, 1, 0, 0))})
+    arm.set_goal_state(pose_stamped_msg=stamped, pose_link="tool_link")
+    assert arm.plan(planning.PlanRequestParameters(planning_attempts=2))
+
+
+def test_scene_and_states(moveit: planning.MoveItPy) -> None:
+    monitor, arm = moveit.get_planning_scene_monitor(), moveit.get_planning_component("arm")
+    box: Any = message_type("moveit_msgs/msg/CollisionObject")()
+    fill(box, box_object("crate", [0.2, 0.2, 0.2], [0.178, 0.0, 0.32]))
+    with monitor.read_only() as scene:
+        assert not scene.is_state_colliding(joint_model_group_name="arm")
+    with monitor.read_write() as scene:
+        scene.apply_collision_object(box)
+    with monitor.read_only() as scene:
+        assert scene.is_state_colliding(joint_model_group_name="arm")
+    arm.set_goal_state(configuration_name="up")
+    failed = arm.plan()
+    assert not failed and failed.error_code.val == -10
+    assert "object 'crate'" in failed.error_code.message
+    with monitor.read_write() as scene:
+        scene.remove_all_collision_objects()
+    assert arm.plan()
+
+
+def test_states_solve_kinematics(moveit: planning.MoveItPy) -> None:
+    state = RobotState(moveit.get_robot_model())
+    state.set_to_default_values("arm", "ready")
+    target: Any = state.get_pose("tool_link")
+    target.position.z += 0.05
+    assert state.set_from_ik("arm", target, "tool_link", 1.0)
+    assert state.get_pose("tool_link").position.z == pytest.approx(target.position.z, abs=1e-4)
+    target.position.x = 3.0
+    assert not state.set_from_ik("arm", target, "tool_link", 0.1)
+    assert state.get_jacobian("arm").shape == (6, 6)
+
+
+def test_mistakes_are_told(moveit: planning.MoveItPy) -> None:
+    with pytest.raises(RuntimeError, match="no planning group 'arms'"):
+        moveit.get_planning_component("arms")
+    arm = moveit.get_planning_component("arm")
+    with pytest.raises(ValueError, match="exactly one kind of goal"):
+        arm.set_goal_state()
+    with pytest.raises(Exception, match=r"has no state 'redy'.*ready"):
+        arm.set_goal_state(configuration_name="redy")
+    with pytest.raises(RuntimeError, match="there is no parameter 'robot_description'"):
+        planning.MoveItPy("other", config_dict={"robot_description_semantic": "<robot/>"})
