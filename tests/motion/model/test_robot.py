@@ -115,6 +115,14 @@ def test_a_chain_up_and_down_has_the_joints_of_both_sides(robot: Make) -> None:
     assert group.variables == ("j", "k") and not group.is_chain
 
 
+def test_a_chain_written_from_its_tip_is_the_same(robot: Make) -> None:
+    made = robot(
+        '<link name="a"/>' + _joint("j", "a", "b"),
+        '<group name="g"><chain base_link="b" tip_link="a"/></group>',
+    )
+    assert (made.group("g").base_link, made.group("g").tip_link) == ("a", "b")
+
+
 def test_joint_limits_yaml_changes_limits(robot: Make) -> None:
     change = JointLimit(-0.5, None, True, 0.25, True, 3.0, False, None)
     made = robot(

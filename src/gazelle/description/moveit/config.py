@@ -123,13 +123,14 @@ def typed_config(tree: Settings, description: str, robot: Model, srdf: Srdf) -> 
     """Read all that is not robot or SRDF from the parameters of ``move_group``."""
     groups = [group.name for group in srdf.groups]
     joints = [joint.name for joint in robot.joints]
+    links = [link.name for link in robot.links]
     virtual = [joint.name for joint in srdf.virtual_joints]
     planning = tree.branch(f"{description}_planning")
     pipelines, default = read_pipelines(tree, groups)
     return MoveItConfig(
         robot,
         srdf,
-        read_kinematics(tree.branch(f"{description}_kinematics"), groups),
+        read_kinematics(tree.branch(f"{description}_kinematics"), groups, links),
         read_joint_limits(planning.branch("joint_limits"), _variables(robot, srdf)),
         _scaling(planning, "default_velocity_scaling_factor"),
         _scaling(planning, "default_acceleration_scaling_factor"),

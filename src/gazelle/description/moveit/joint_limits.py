@@ -53,7 +53,7 @@ def read_joint_limits(branch: Settings, variables: Collection[str]) -> dict[str,
         variables: names of the robot's joints, and of the variables of those that have several.
     """
     found: dict[str, JointLimit] = {}
-    for name, settings in branch.branches():
+    for name, settings in branch.entries():
         if branch.check_name(name, "joint", variables):
             found[name] = _read_limit(settings)
     return found

@@ -53,21 +53,24 @@ class KinematicsSettings:
     tips: tuple[str, ...] = ()
 
 
-def read_kinematics(branch: Settings, groups: Collection[str]) -> dict[str, KinematicsSettings]:
+def read_kinematics(
+    branch: Settings, groups: Collection[str], links: Collection[str]
+) -> dict[str, KinematicsSettings]:
     """Read ``robot_description_kinematics``: settings by group.
 
     Args:
         branch: the branch.
         groups: names of the groups of the SRDF.
+        links: of the robot.
     """
     found: dict[str, KinematicsSettings] = {}
-    for name, settings in branch.branches():
+    for name, settings in branch.entries():
         if branch.check_name(name, "group", groups):
-            found[name] = _read_group(settings)
+            found[name] = _read_group(settings, links)
     return found
 
 
-def _read_group(settings: Settings) -> KinematicsSettings:
+def _read_group(settings: Settings, links: Collection[str]) -> KinematicsSettings:
     default = KinematicsSettings()
     solver = settings.text("kinematics_solver")
     if not any(word in solver for word in _OTHERS):
@@ -76,6 +79,7 @@ def _read_group(settings: Settings) -> KinematicsSettings:
         message = f"{settings.name()} names no kinematics_solver; MoveIt gives the group no inverse"
         message += " kinematics, Gazelle solves it as usual"
         settings.diagnostics.report("moveit.no-solver", message, settings.span())
+    tips = settings.texts("kinematics_solver_ik_links")
     weight = _positive(settings, "orientation_vs_position", 1.0, zero=True)
     return KinematicsSettings(
         solver or default.solver,
@@ -85,7 +89,7 @@ def _read_group(settings: Settings) -> KinematicsSettings:
         weight,
         _positive(settings, "epsilon", default.epsilon),
         int(_positive(settings, "max_solver_iterations", default.max_iterations)),
-        settings.texts("kinematics_solver_ik_links"),
+        tuple(name for name in tips if settings.check_name(name, "link", links)),
     )
 
 

@@ -56,6 +56,16 @@ class Settings:
             if isinstance(value, Mapping):
                 yield str(key), self.branch(str(key))
 
+    def entries(self) -> Iterator[tuple[str, Settings]]:
+        """Yield every key as a branch; those that hold something else are reported."""
+        for key in self.values:
+            branch = self.branch(str(key))
+            if isinstance(self.values[key], Mapping):
+                yield str(key), branch
+            elif self.values[key] is None:
+                message = f"{self.name(str(key))} is empty; it has no effect"
+                self.diagnostics.report("moveit.wrong-type", message, self.span(str(key)))
+
     def number(self, key: str) -> float | None:
         """Return a finite number; None when it is absent or (reported) something else."""
         value = self.values.get(key)

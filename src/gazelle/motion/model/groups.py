@@ -102,7 +102,7 @@ class _Resolver:
             np.array([i for joint in active for i in _places(joint)], dtype=np.intp),
             _space(active),
             self._is_chain(joints),
-            written.chains[0].base_link if _is_one_chain(written) else joints[0].parent,
+            self._base(written, joints),
             tips,
             self._subgroups(written, members),
             self._end_effectors(written.name, links),
@@ -142,6 +142,11 @@ class _Resolver:
             if joint.parent in moved:
                 moved.add(joint.child)
         return tuple(joint.child for joint in self._joints if joint.child in moved)
+
+    def _base(self, written: Group, joints: tuple[RobotJoint, ...]) -> str:
+        if _is_one_chain(written) and self._below(written.chains[0]):
+            return written.chains[0].base_link
+        return joints[0].parent
 
     def _tips(self, written: Group, joints: tuple[RobotJoint, ...]) -> tuple[str, ...]:
         if _is_one_chain(written) and self._below(written.chains[0]):
