@@ -90,7 +90,7 @@ def wrapper_script(command: NodeCommand) -> Path:
     if len(command.words) == 1:
         return Path(command.words[0])
     text = f'#!/bin/sh\nexec {shlex.join(command.words)} "$@"\n'
-    folder = command_folder() / "nodes" / "-".join(command.words[-1:]).strip("/").replace("/", "-")
+    folder = command_folder() / "nodes" / command.words[-1].strip("/").replace("/", "-")
     folder.mkdir(parents=True, exist_ok=True)
     script = folder / command.program
     if not script.is_file() or script.read_text(encoding="utf-8") != text:
