@@ -303,3 +303,22 @@ def test_nested_parameters_merge_branches() -> None:
 def test_pipelines_that_moveit_brings_along_have_a_planner(package: Make, name: str) -> None:
     config = package().read()
     assert config.pipelines[name].plugins and config.pipelines[name].response_adapters
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "code"),
+    [
+        ("kinematics.yaml", "arm: {kinematics_solver_timeout: 0.1}\n", "moveit.no-solver"),
+        (
+            "ompl_planning.yaml",
+            "planner_configs: {RRT: {type: r}}\narm: {default_planner_config: RTT}\n",
+            "moveit.no-planner",
+        ),
+    ],
+)
+def test_entries_that_lack_what_they_need_are_told(
+    package: Make, name: str, text: str, code: str
+) -> None:
+    made = package().write(f"config/{name}", text)
+    made.read()
+    assert [item.code for item in made.diagnostics] == [code]
