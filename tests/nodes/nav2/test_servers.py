@@ -145,3 +145,105 @@ def test_navigate_to_pose_through_poses_and_waypoints(bench, world, start) -> No
     assert goal.status.name == "SUCCEEDED"
     assert [int(one.index) for one in goal.result.missed_waypoints] == [1]
     assert not world.touched
+
+
+_SCRIPT = """
+import rclpy
+from geometry_msgs.msg import PoseStamped
+from nav2_simple_commander.robot_navigator import BasicNavigator, TaskResult
+
+rclpy.init()
+navigator = BasicNavigator()
+navigator.waitUntilNav2Active(localizer="robot_localization")
+
+def pose(x, y):
+    made = PoseStamped()
+    made.header.frame_id = "map"
+    made.pose.position.x, made.pose.position.y = x, y
+    made.pose.orientation.w = 1.0
+    return made
+
+path = navigator.getPath(pose(0.0, 0.0), pose(2.0, 1.0))
+print("path", len(path.poses) > 5, navigator.getPath(pose(0.0, 0.0), pose(90.0, 1.0)))
+navigator.goToPose(pose(2.0, 1.0))
+seen = 0
+while not navigator.isTaskComplete():
+    seen += navigator.getFeedback() is not None
+print("drive", navigator.getResult() is TaskResult.SUCCEEDED, seen > 0)
+navigator.spin(1.57)
+navigator.cancelTask()
+while not navigator.isTaskComplete():
+    pass
+print("spin", navigator.getResult())
+navigator.clearAllCostmaps()
+print("costmap", navigator.getGlobalCostmap().metadata.size_x)
+navigator.goToPose(pose(90.0, 1.0))
+navigator.cancelTask()
+while not navigator.isTaskComplete():
+    pass
+print("left", navigator.getResult())
+rclpy.shutdown()
+"""
+
+
+def test_simple_commander_drives(bench, world, start, gazelle, tmp_path: Path) -> None:
+    start()
+    script = tmp_path / "commander.py"
+    script.write_text(_SCRIPT)
+    run = gazelle(str(script), module="gazelle.compat.runner", ROS_VERSION="2")
+    assert run.wait(120.0) == 0, run.text
+    assert "path True None" in run.text
+    assert "drive True True" in run.text
+    assert "spin TaskResult.CANCELED" in run.text
+    assert "costmap 120" in run.text
+    assert "left TaskResult.CANCELED" in run.text
+
+
+def test_behaviours_move_the_robot(bench, world, start) -> None:
+    start()
+    from gazelle.interfaces import message_type
+
+    before = world.pose
+    assert _send(bench, "spin", "Spin", target_yaw=1.57).status.name == "SUCCEEDED"
+    assert math.remainder(world.pose[2] - before[2] - 1.57, math.tau) == pytest.approx(0, abs=0.2)
+    point = message_type("geometry_msgs/msg/Point")
+    goal = _send(bench, "drive_on_heading", "DriveOnHeading", target=point(x=0.5), speed=0.25)
+    assert goal.status.name == "SUCCEEDED"
+    assert world.pose[1] - before[1] == pytest.approx(0.5, abs=0.1)
+    goal = _send(bench, "backup", "BackUp", target=point(x=0.3), speed=0.1)
+    assert goal.status.name == "SUCCEEDED"
+    assert world.pose[1] - before[1] == pytest.approx(0.2, abs=0.15)
+    # A wall is 4 m away.
+    goal = _send(bench, "drive_on_heading", "DriveOnHeading", target=point(x=9.0), speed=1.0)
+    assert goal.status.name == "ABORTED"
+    assert (goal.result.error_code, goal.result.error_msg) == (723, "Collision Ahead - Exiting")
+    goal = _send(bench, "drive_on_heading", "DriveOnHeading", target=point(x=1.0), speed=-1.0)
+    assert goal.result.error_msg == "Speed and command sign did not match"
+    assert not world.touched
+
+
+def test_unreachable_goals_end_with_codes_and_reasons(bench, world, start, tmp_path: Path) -> None:
+    tree = tmp_path / "once.xml"
+    tree.write_text(
+        '<root BTCPP_format="4" main_tree_to_execute="Once"><BehaviorTree ID="Once"><Sequence>'
+        '<ComputePathToPose goal="{goal}" path="{path}" error_code_id="{compute_path_error_code}"/>'
+        '<FollowPath path="{path}"/></Sequence></BehaviorTree></root>'
+    )
+    start(bt_navigator={"default_nav_to_pose_bt_xml": str(tree)})
+    goal = _send(bench, "navigate_to_pose", "NavigateToPose", pose=_pose(90.0, 1.0))
+    assert goal.status.name == "ABORTED"
+    assert goal.result.error_code == 204
+    assert "The goal (90.00, 1.00) is off the global costmap" in goal.result.error_msg
+    goal = _send(bench, "navigate_to_pose", "NavigateToPose", pose=_pose(2.0, 1.0))
+    assert goal.status.name == "SUCCEEDED"
+    goal = _send(
+        bench, "compute_path_to_pose", "ComputePathToPose", goal=_pose(1.0, 1.0), planner_id="Grid"
+    )
+    assert goal.result.error_code == 201
+    assert "Planner names are: GridBased" in goal.result.error_msg
+    strange = _pose(1.0, 1.0)
+    strange.header.frame_id = "mapp"
+    goal = _send(bench, "navigate_to_pose", "NavigateToPose", pose=strange)
+    assert goal.status.name == "ABORTED"
+    empty = _send(bench, "follow_waypoints", "FollowWaypoints")
+    assert empty.status.name == "ABORTED"

@@ -1,0 +1,1 @@
+"""Nav2 from Python, as nav2_simple_commander."""

@@ -1,0 +1,1 @@
+"""What drop-in modules of navigation are made of."""

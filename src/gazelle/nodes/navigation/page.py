@@ -1,0 +1,99 @@
+"""The page of all parameters: ``python -m gazelle.nodes.navigation.page > docs/navigation.md``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+
+from gazelle.navigation.controllers import CONTROLLERS, REFUSED_CONTROLLERS
+from gazelle.navigation.costmap import REFUSED_LAYERS
+from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS
+from gazelle.nodes.move_base.local import local_planner_tables
+from gazelle.nodes.move_base.planner import planner_tables
+from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
+from gazelle.nodes.nav2 import tables as nav2
+from gazelle.nodes.nav2.trees.loading import NODE_TYPES
+from gazelle.nodes.navigation.assembling import COSTMAP_TABLES
+from gazelle.nodes.navigation.table import Row, Table
+
+__all__ = ["page"]
+
+_INTRODUCTION = (
+    "# Navigation: parameters\n\nGenerated from the tables that the nodes read; do not edit"
+    " (`python -m gazelle.nodes.navigation.page > docs/navigation.md`). Parameters marked *live*"
+    " change while the node runs. Those without effect are told when a file sets them, with the"
+    " reason, and so are names that are not listed."
+)
+
+
+def page() -> str:
+    """Return the page."""
+    parts = [_INTRODUCTION, "## ROS 1"]
+    tables = (MOVE_BASE, *planner_tables(), *local_planner_tables(), CLEAR, ROTATE, SLOW)
+    parts += [_section(table) for table in tables]
+    parts += ["## Costmaps of both generations"]
+    parts += [_section(table) for table in COSTMAP_TABLES]
+    parts += ["## Nav2"]
+    parts += [_section(table) for table in _nav2_tables()]
+    parts += ["## What is not there", _refused()]
+    parts += ["## Nodes of behaviour trees", _nodes()]
+    return "\n\n".join(parts) + "\n"
+
+
+def _nav2_tables() -> list[Table]:
+    servers = [
+        nav2.PLANNER_SERVER, nav2.CONTROLLER_SERVER, *nav2.GOAL_CHECKERS.values(),
+        *nav2.PROGRESS_CHECKERS.values(), nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR,
+        nav2.WAYPOINT_FOLLOWER, nav2.LIFECYCLE_MANAGER,
+    ]  # fmt: skip
+    planners = [nav2.planner_table(name) for name in PLANNERS if "::" in name]
+    controllers = [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]
+    return [*servers, *planners, *controllers]
+
+
+def _section(table: Table) -> str:
+    lines = [f"### {table.family}", "", table.summary, ""]
+    if table.types:
+        lines += ["Types: " + ", ".join(f"`{name}`" for name in table.types), ""]
+    honoured = [row for row in table.rows if row.kind != "refused"]
+    idle = [row for row in table.rows if row.kind == "refused"]
+    lines += ["| parameter | default | unit | meaning |", "| --- | --- | --- | --- |"]
+    lines += [_line(row) for row in honoured]
+    if idle:
+        lines += ["", "Without effect:", ""]
+        lines += [f"- `{row.key}`: {row.meaning}" for row in idle]
+    return "\n".join(lines)
+
+
+def _line(row: Row) -> str:
+    names = ", ".join(f"`{name}`" for name in (row.key, *row.names))
+    default = "" if row.default is None else f"`{row.default}`"
+    meaning = row.meaning.replace("|", "\\|") + (" *(live)*" if row.live else "")
+    return f"| {names} | {default} | {row.unit} | {meaning} |"
+
+
+def _refused() -> str:
+    groups: tuple[tuple[str, Mapping[str, str]], ...] = (
+        ("Planners", REFUSED_PLANNERS),
+        ("Controllers", REFUSED_CONTROLLERS),
+        ("Layers", REFUSED_LAYERS),
+    )
+    lines = []
+    for title, refusals in groups:
+        lines += [f"{title}:", ""]
+        lines += [f"- `{name}`: {why}" for name, why in sorted(refusals.items())]
+        lines += [""]
+    return "\n".join(lines).strip()
+
+
+def _nodes() -> str:
+    lines = ["| node | ports | what it does |", "| --- | --- | --- |"]
+    for name, kind in sorted(NODE_TYPES.items()):
+        ports = ", ".join(f"`{port}`" for port in dict.fromkeys((*kind.INPUTS, *kind.OUTPUTS)))
+        about = (kind.__doc__ or "").strip().splitlines()[0]
+        lines.append(f"| `{name}` | {ports} | {about} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page())
