@@ -22,6 +22,7 @@ from gazelle.launch.ros2.events import process as process_events
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
 
 Run = Callable[..., Any]
+_SOON_S = 0.3
 _BOTH = ["sh", "-c", "echo out; echo err >&2"]
 _STUBBORN = (
     "import signal, time\nfor n in {signals}: signal.signal(n, signal.SIG_IGN)\n"
@@ -243,9 +244,15 @@ def test_a_signal_to_the_launcher_ends_everything_in_order(
     assert (ran.code, signal.getsignal(number)) == (0, before)
 
 
+def _end_from_thread(service: LaunchService) -> a.OpaqueFunction:
+    """End a service from another thread, a moment after it has begun."""
+    timer = threading.Timer(_SOON_S, service.shutdown)
+    return a.OpaqueFunction(function=lambda _context: timer.start())
+
+
 def test_a_service_can_be_ended_from_a_thread_and_run_again(run: Run) -> None:
     def end_soon(service: LaunchService) -> None:
-        threading.Timer(0.2, service.shutdown).start()
+        service.include_launch_description(LaunchDescription([_end_from_thread(service)]))
 
     ran = run(a.ExecuteProcess(cmd=["sleep", "60"]), during=end_soon)
     assert ran.code == 0
@@ -257,11 +264,10 @@ def test_a_service_can_be_ended_from_a_thread_and_run_again(run: Run) -> None:
 
 def test_a_service_may_stay_when_idle(run: Run) -> None:
     service = LaunchService()
-    timer = threading.Timer(0.3, service.shutdown)
-    timer.start()
+    service.include_launch_description(LaunchDescription([_end_from_thread(service)]))
     began = time.monotonic()
     assert service.run(shutdown_when_idle=False) == 0
-    assert time.monotonic() - began >= 0.3
+    assert time.monotonic() - began >= _SOON_S
 
 
 def test_what_a_process_left_behind_ends_with_the_launch(run: Run, tmp_path: Path) -> None:
