@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from gazelle.nodes.localisation_names import LOCALISATION
 from gazelle.nodes.slam.names import SLAM_NAMES
 from gazelle.nodes.view_names import VIEWS
 
@@ -217,47 +218,6 @@ _NODES = (
         help="plans and executes motions of arms, as MoveIt does",
     ),
     *(
-        BuiltinNode(package, name, f"gazelle.nodes.map_server.{target}", light=False, help=about)
-        for package, name, target, about in (
-            ("map_server", "map_server", "server:run", "publishes a map from a file"),
-            ("map_server", "map_saver", "saver:run", "writes the map that is published"),
-            (
-                "nav2_map_server",
-                "map_server",
-                "server_ros2:run",
-                "publishes a map from a file, ROS 2's package",
-            ),
-            (
-                "nav2_map_server",
-                "map_saver_cli",
-                "saver:run_cli",
-                "writes the map that is published, ROS 2's package",
-            ),
-        )
-    ),
-    BuiltinNode(
-        "nav2_map_server",
-        "map_saver_server",
-        "gazelle.nodes.map_server.saver:run_server",
-        light=False,
-        help="writes maps on request",
-        name="map_saver",
-    ),
-    BuiltinNode(
-        "amcl",
-        "amcl",
-        "gazelle.nodes.amcl.node:run",
-        light=False,
-        help="finds the robot in a map",
-    ),
-    BuiltinNode(
-        "nav2_amcl",
-        "amcl",
-        "gazelle.nodes.amcl.node:run_ros2",
-        light=False,
-        help="finds the robot in a map, ROS 2's package",
-    ),
-    *(
         BuiltinNode(
             package,
             name,
@@ -304,6 +264,17 @@ _NODES = (
                 (),
             ),
         )
+    ),
+    *(
+        BuiltinNode(
+            row.package,
+            row.type,
+            f"gazelle.nodes.{row.target}",
+            light=row.light,
+            help=row.help,
+            name=row.name,
+        )
+        for row in LOCALISATION
     ),
     BuiltinNode(
         "rosout", "rosout", "gazelle.nodes.rosout:run", light=True, help="collects log messages"

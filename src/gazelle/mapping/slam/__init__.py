@@ -5,5 +5,17 @@ from __future__ import annotations
 from gazelle.mapping.slam.drawing import MapDrawer
 from gazelle.mapping.slam.engine import Slam, SlamResult, Update, slam
 from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.saved import SUFFIX, SavedGraphError, load_graph, save_graph
 
-__all__ = ["MapDrawer", "Slam", "SlamParameters", "SlamResult", "Update", "slam"]
+__all__ = [
+    "SUFFIX",
+    "MapDrawer",
+    "SavedGraphError",
+    "Slam",
+    "SlamParameters",
+    "SlamResult",
+    "Update",
+    "load_graph",
+    "save_graph",
+    "slam",
+]

@@ -51,7 +51,9 @@ class MapDrawer:
 
     def draw(self, keyframes: Keyframes) -> OccupancyGrid:
         """Return the map of all keyframes."""
-        poses, count = keyframes.poses.copy(), len(keyframes)
+        # The other thread may keep more meanwhile.
+        poses = keyframes.poses.copy()
+        count = len(poses)
         if self._has_moved(poses):
             self._drawn = np.empty((0, 3))
         frames = [keyframes[i] for i in range(len(self._drawn), count)]

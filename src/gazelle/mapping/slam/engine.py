@@ -94,6 +94,7 @@ class Slam:
         parameters: as given.
         keyframes: the kept scans.
         edges: what is known of their poses.
+        is_mapping: scans are kept; otherwise the robot is only located in the map as it is.
     """
 
     def __init__(self, parameters: SlamParameters | None = None) -> None:
@@ -101,10 +102,11 @@ class Slam:
         self.parameters = parameters or SlamParameters()
         self.keyframes = Keyframes(self.parameters)
         self.edges: Edges = no_edges()
+        self.is_mapping = True
         self._tracker = Tracker(self.keyframes, self.parameters)
         self._closer = LoopCloser(self.keyframes, self.parameters)
         self._track = Track(self.keyframes)
-        self._odometry = np.zeros(3)
+        self._odometry: Poses | None = None
         self._pose = np.zeros(3)
         self._way_m = 0.0
 
@@ -112,6 +114,15 @@ class Slam:
     def pose(self) -> Poses:
         """Where the robot is, in the map's frame."""
         return self._pose.copy()
+
+    def resume(self, pose: ArrayLike) -> None:
+        """Go on from a pose in the map; the next scan is looked for around it."""
+        self._pose = np.array(pose, dtype=float)
+        self._odometry = None
+        self._way_m = float(self.keyframes[-1].way_m) if len(self.keyframes) else 0.0
+        self._tracker.forget()
+        self._tracker.lost = 1
+        self._tracker.uses_nearest = True
 
     @property
     def loops(self) -> int:
@@ -131,7 +142,7 @@ class Slam:
         odometry = np.asarray(odometry, dtype=float)
         if not np.isfinite(odometry).all():
             raise ValueError(f"odometry is {odometry.tolist()}, not three finite numbers")
-        motion = between(self._odometry, odometry) if len(self.keyframes) else np.zeros(3)
+        motion = np.zeros(3) if self._odometry is None else between(self._odometry, odometry)
         self._odometry = odometry
         self._way_m += math.hypot(motion[0], motion[1])
         frame = keyframe_of(scan, self.parameters, self._way_m)
@@ -141,7 +152,7 @@ class Slam:
         expected = compose(self._pose, motion)
         found = self._tracker.locate(frame, expected, motion)
         self._pose = expected if found is None else found.pose
-        is_kept = self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
+        is_kept = self.is_mapping and self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
         has_closed = is_kept and self._keep(frame, found)
         self._track.add(scan.stamp_ns, self._pose)
         if found is None and len(frame.points_m) >= FEWEST_POINTS:

@@ -35,6 +35,8 @@ _LOST_M_PER_SCAN = 1.0
 _LOST_MOST_M = 6.0
 _LOST_SCANS = 80
 _INSIDE = 0.9
+# A field reaches 2 m farther than beams do.
+_LEFT_M = 1.5
 
 
 def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.float64]:
@@ -51,6 +53,7 @@ def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.
 class _Submap:
     field: Field
     coarse: Field
+    center: Poses
 
 
 class Tracker:
@@ -58,6 +61,8 @@ class Tracker:
 
     Attributes:
         lost: how many scans in a row fitted nowhere.
+        uses_nearest: scans are matched with the nearest kept ones in place of the last ones, in a
+            map that was there before.
     """
 
     def __init__(self, keyframes: Keyframes, parameters: SlamParameters) -> None:
@@ -67,6 +72,7 @@ class Tracker:
         self._submap: _Submap | None = None
         self._usual_score = 0.8
         self.lost = 0
+        self.uses_nearest = False
 
     def forget(self) -> None:
         """Keyframes were added or moved."""
@@ -119,7 +125,7 @@ class Tracker:
         far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
         near = np.argsort(far)[:_LOST_SCANS]
         field = self._keyframes.field(near.tolist(), expected, frame.reach_m + reach)
-        submap = _Submap(field, field.pooled())
+        submap = _Submap(field, field.pooled(), expected)
         return self._anywhere(submap, frame, expected, (reach, math.pi), 0.0)
 
     def _anywhere(
@@ -145,10 +151,16 @@ class Tracker:
         return found if inside and found.score > least else None
 
     def _current(self, expected: Poses, reach_m: float) -> _Submap:
-        if self._submap is None:
-            count = len(self._keyframes)
-            recent = range(max(0, count - self._parameters.submap_scans), count)
+        known = self._submap
+        if known is None or math.dist(known.center[:2], expected[:2]) > _LEFT_M:
             reach = min(self._parameters.max_range_m, reach_m + 2.0)
-            field = self._keyframes.field(recent, expected, reach)
-            self._submap = _Submap(field, field.pooled())
-        return self._submap
+            field = self._keyframes.field(self._chosen(expected), expected, reach)
+            known = self._submap = _Submap(field, field.pooled(), expected.copy())
+        return known
+
+    def _chosen(self, expected: Poses) -> list[int]:
+        count, wanted = len(self._keyframes), self._parameters.submap_scans
+        if not self.uses_nearest:
+            return list(range(max(0, count - wanted), count))
+        far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
+        return [int(k) for k in np.argsort(far)[:wanted]]

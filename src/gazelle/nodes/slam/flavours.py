@@ -1,0 +1,195 @@
+"""The SLAM nodes of ROS by their parameters: names and defaults are theirs.
+
+gmapping (wiki.ros.org/gmapping), slam_karto (wiki.ros.org/slam_karto), hector_mapping
+(wiki.ros.org/hector_mapping), slam_toolbox (its README and ``mapper_params_online_async.yaml``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gazelle.nodes.navigation.table import Row, Table
+from gazelle.nodes.slam.options import Flavour, SlamOptions, used, why_not
+
+__all__ = ["FLAVOURS"]
+
+_DEFAULTS = SlamOptions()
+_NO_PARTICLES = "the map is a graph of poses, not a filter with particles"
+_OWN_MATCHER = "matching is Gazelle's own: its windows follow from odometry's errors"
+_OWN_SOLVER = "the graph is solved by Gazelle's own sparse least squares"
+_GROWS = "the map grows where the robot goes"
+_SHOWS = "drawings and timings of the original's inside"
+
+
+def _flavour(
+    family: str,
+    types: tuple[str, ...],
+    uses: tuple[tuple[Row, str], ...],
+    idle: tuple[Row, ...],
+    base: SlamOptions = _DEFAULTS,
+    *,
+    services: bool = False,
+) -> Flavour:
+    rows = (*(row for row, _ in uses), *idle)
+    table = Table(family, f"SLAM under the names of {family}.", types, rows)
+    return Flavour(table, {row.key: option for row, option in uses}, base, services)
+
+
+_GMAPPING = _flavour(
+    "gmapping",
+    ("gmapping/slam_gmapping",),
+    (
+        used("base_frame", "base_link", "base_frame", "the robot's frame"),
+        used("map_frame", "map", "map_frame", "the map's frame"),
+        used("odom_frame", "odom", "odom_frame", "odometry's frame"),
+        used("map_update_interval", 5.0, "map_period_s", "between two maps", 0.0, "s"),
+        used("maxUrange", 80.0, "max_range_m", "longest beams that count, at most 30", 0.1, "m"),
+        used("maxRange", 1e9, "range_limit_m", "ranges from there on say nothing", 0.0, "m"),
+        used("throttle_scans", 1, "throttle", "every so many-th scan is used", 1),
+        used("linearUpdate", 1.0, "keyframe_m", "a scan is kept after so long a way", 0.0, "m"),
+        used("angularUpdate", 0.5, "keyframe_rad", "or after such a turn", 0.0, "rad"),
+        used("transform_publish_period", 0.05, "tf_period_s", "between two transforms", 0.0, "s"),
+        used("tf_delay", 0.05, "tf_ahead_s", "transforms are dated so far ahead", 0.0, "s"),
+        used("delta", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
+        used("occ_thresh", 0.25, "occupied_share", "share of beams that end in a cell", 0.0),
+        used("srr", 0.1, "odometry_m_per_m", "odometry's error of a way, per way", 0.0),
+        used("stt", 0.2, "odometry_rad_per_rad", "of a turn, per turn", 0.0),
+        used("str", 0.1, "odometry_rad_per_m", "of the heading, per way", 0.0, "rad/m"),
+    ),
+    (
+        *why_not(_NO_PARTICLES, "particles", "resampleThreshold", "llsamplerange",
+                 "llsamplestep", "lasamplerange", "lasamplestep", "temporalUpdate"),
+        *why_not(_OWN_MATCHER, "sigma", "kernelSize", "lstep", "astep", "iterations", "lsigma",
+                 "ogain", "lskip", "minimumScore", "srt"),
+        *why_not(_GROWS, "xmin", "ymin", "xmax", "ymax"),
+    ),
+)  # fmt: skip
+
+_KARTO_USES = (
+    used("odom_frame", "odom", "odom_frame", "odometry's frame"),
+    used("map_frame", "map", "map_frame", "the map's frame"),
+    used("map_update_interval", 5.0, "map_period_s", "between two maps", 0.0, "s"),
+    used("throttle_scans", 1, "throttle", "every so many-th scan is used", 1),
+    used("resolution", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
+    used("transform_publish_period", 0.05, "tf_period_s", "between two transforms", 0.0, "s"),
+    used("do_loop_closing", True, "loop_closing", "whether places are recognised"),
+    used("scan_buffer_size", 70, "submap_scans", "scans are matched with so many kept ones", 1),
+)
+_KARTO_IDLE = (
+    *why_not(_OWN_MATCHER, "use_scan_matching", "use_scan_barycenter",
+             "scan_buffer_maximum_scan_distance", "link_match_minimum_response_fine",
+             "link_scan_maximum_distance", "correlation_search_space_dimension",
+             "correlation_search_space_resolution", "correlation_search_space_smear_deviation",
+             "distance_variance_penalty", "angle_variance_penalty", "fine_search_angle_offset",
+             "coarse_search_angle_offset", "coarse_angle_resolution", "minimum_angle_penalty",
+             "minimum_distance_penalty", "use_response_expansion"),
+    *why_not("places are found by branch and bound and believed when several agree",
+             "loop_search_maximum_distance",
+             "loop_match_minimum_chain_size", "loop_match_maximum_variance_coarse",
+             "loop_match_minimum_response_coarse", "loop_match_minimum_response_fine",
+             "loop_search_space_dimension", "loop_search_space_resolution",
+             "loop_search_space_smear_deviation"),
+)  # fmt: skip
+
+_KARTO = _flavour(
+    "slam_karto",
+    ("slam_karto/slam_karto",),
+    (
+        *_KARTO_USES,
+        used("base_frame", "base_link", "base_frame", "the robot's frame"),
+        used("minimum_travel_distance", 0.2, "keyframe_m", "a scan is kept after it", 0.0, "m"),
+        used("minimum_travel_heading", 0.174, "keyframe_rad", "or after it", 0.0, "rad"),
+    ),
+    _KARTO_IDLE,
+)
+
+_HECTOR = _flavour(
+    "hector_mapping",
+    ("hector_mapping/hector_mapping",),
+    (
+        used("base_frame", "base_link", "base_frame", "the robot's frame"),
+        used("map_frame", "map_link", "map_frame", "the map's frame"),
+        used("odom_frame", "odom", "odom_frame", "odometry's frame"),
+        used("scan_topic", "scan", "scan_topic", "of the lidar"),
+        used("map_resolution", 0.025, "resolution_m", "side of a cell of the map", 0.001, "m"),
+        used("map_pub_period", 2.0, "map_period_s", "between two maps", 0.0, "s"),
+        used("map_update_distance_thresh", 0.4, "keyframe_m", "a scan is kept after it", 0.0, "m"),
+        used("map_update_angle_thresh", 0.9, "keyframe_rad", "or after it", 0.0, "rad"),
+        used("laser_max_dist", 30.0, "range_limit_m", "ranges from there on say nothing", 0.0, "m"),
+        used("pub_map_odom_transform", True, "publishes_tf", "whether the transform is sent"),
+    ),
+    (
+        *why_not(_GROWS, "map_size", "map_start_x", "map_start_y", "map_multi_res_levels"),
+        *why_not(_OWN_MATCHER, "use_tf_scan_transformation", "use_tf_pose_start_estimate",
+                 "update_factor_free", "update_factor_occupied", "laser_z_min_value",
+                 "laser_z_max_value", "laser_min_dist", "scan_subscriber_queue_size"),
+        *why_not(_SHOWS, "pub_map_scanmatch_transform", "tf_map_scanmatch_transform_frame_name",
+                 "output_timing", "pub_drawings", "pub_debug_output", "pub_odometry",
+                 "advertise_map_service"),
+    ),
+)  # fmt: skip
+
+_TOOLBOX = _flavour(
+    "slam_toolbox",
+    tuple(
+        f"slam_toolbox/{name}_slam_toolbox_node"
+        for name in ("sync", "async", "localization", "lifelong")
+    ),
+    (
+        *_KARTO_USES,
+        used("base_frame", "base_footprint", "base_frame", "the robot's frame"),
+        used("scan_topic", "/scan", "scan_topic", "of the lidar"),
+        used("mode", "mapping", "mode", "mapping or localization"),
+        used("max_laser_range", 20.0, "max_range_m", "longest beams, at most 30", 0.1, "m"),
+        used("minimum_travel_distance", 0.5, "keyframe_m", "a scan is kept after it", 0.0, "m"),
+        used("minimum_travel_heading", 0.5, "keyframe_rad", "or after it", 0.0, "rad"),
+        used("minimum_time_interval", 0.5, "least_interval_s", "between two scans", 0.0, "s"),
+        used("transform_timeout", 0.2, "tf_ahead_s", "transforms are dated so far ahead", 0.0, "s"),
+        used("map_file_name", "", "map_file", "graph of poses to begin with"),
+        used("map_start_pose", [], "start_pose", "where the robot is in it: x, y, yaw"),
+    ),
+    (
+        *_KARTO_IDLE,
+        *why_not(_OWN_SOLVER, "solver_plugin", "ceres_linear_solver", "ceres_preconditioner",
+                 "ceres_trust_strategy", "ceres_dogleg_type", "ceres_loss_function"),
+        *why_not("no graph is drawn for editing", "enable_interactive_mode",
+                 "interactive_mode", "debug_logging"),
+        *why_not("tf is kept as long as scans wait", "tf_buffer_duration", "stack_size_to_use"),
+        *why_not("the robot begins where map_start_pose says", "map_start_at_dock"),
+        *why_not("save_map is always offered", "use_map_saver"),
+        *why_not(_OWN_MATCHER, "min_laser_range", "min_pass_through", "occupancy_threshold",
+                 "scan_queue_size", "lifelong_search_use_tree",
+                 "lifelong_minimum_score", "lifelong_iou_match", "lifelong_node_removal_score",
+                 "lifelong_overlap_score_scale", "lifelong_constraint_multiplier",
+                 "lifelong_nearby_penalty", "lifelong_candidates_scale",
+                 "position_covariance_scale", "yaw_covariance_scale",
+                 "check_min_dist_and_heading_precisely",
+                 "restamp_tf", "use_lifecycle_manager"),
+    ),
+    services=True,
+)  # fmt: skip
+
+_CARTOGRAPHER = _flavour(
+    "cartographer",
+    ("cartographer_ros/cartographer_node",),
+    (
+        used("tracking_frame", "base_link", "base_frame", "the robot's frame"),
+        used("published_frame", "odom", "odom_frame", "child of the map's frame"),
+        used("map_frame", "map", "map_frame", "the map's frame"),
+        used("max_range", 30.0, "max_range_m", "longest beams that count, at most 30", 0.1, "m"),
+        used("resolution", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
+        used("submap_publish_period_sec", 0.3, "map_period_s", "between two maps", 0.0, "s"),
+        used("pose_publish_period_sec", 5e-3, "tf_period_s", "between two transforms", 0.0, "s"),
+    ),
+    (),
+    replace(_DEFAULTS, map_period_s=1.0),
+)
+
+FLAVOURS = {
+    "gmapping": _GMAPPING,
+    "slam_karto": _KARTO,
+    "hector_mapping": _HECTOR,
+    "slam_toolbox": _TOOLBOX,
+    "cartographer": _CARTOGRAPHER,
+}
+"""By family."""

@@ -1,0 +1,161 @@
+"""The SLAM nodes: gmapping, slam_karto, hector_mapping, cartographer_node, slam_toolbox."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import service_type
+from gazelle.mapping.poses import Poses
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.server import log_findings
+from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.slam.flavours import FLAVOURS
+from gazelle.nodes.slam.lua import read_lua
+from gazelle.nodes.slam.mapper import Mapper
+from gazelle.nodes.slam.options import Flavour, SlamOptions, options_of
+from gazelle.nodes.slam.toolbox import ToolboxServices
+
+__all__ = [
+    "run_cartographer",
+    "run_gmapping",
+    "run_hector",
+    "run_karto",
+    "run_localization",
+    "run_occupancy_grid",
+    "run_toolbox",
+]
+
+_NANO = 1_000_000_000
+_POLL_S = 0.02
+_MODES = ("mapping", "localization")
+
+
+def run_gmapping(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """``gmapping/slam_gmapping``."""
+    return _run(FLAVOURS["gmapping"], arguments, graph, stop)
+
+
+def run_karto(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """``slam_karto/slam_karto``."""
+    return _run(FLAVOURS["slam_karto"], arguments, graph, stop)
+
+
+def run_hector(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """``hector_mapping/hector_mapping``; it uses odometry, which the original does not need."""
+    return _run(FLAVOURS["hector_mapping"], arguments, graph, stop)
+
+
+def run_toolbox(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """slam_toolbox's mapping nodes."""
+    return _run(FLAVOURS["slam_toolbox"], arguments, graph, stop)
+
+
+def run_localization(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """slam_toolbox's localization node: in the map of ``map_file_name``."""
+    flavour = FLAVOURS["slam_toolbox"]
+    base = replace(flavour.base, mode="localization")
+    uses = {key: option for key, option in flavour.uses.items() if option != "mode"}
+    return _run(replace(flavour, base=base, uses=uses), arguments, graph, stop)
+
+
+def run_cartographer(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """``cartographer_ros/cartographer_node``: frames and ranges of its Lua file."""
+    given = read_lua(arguments.rest)
+    arguments = replace(arguments, params={**given, **arguments.params})
+    return _run(FLAVOURS["cartographer"], arguments, graph, stop)
+
+
+def run_occupancy_grid(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """``cartographer_occupancy_grid_node``: cartographer_node publishes the map itself here."""
+    node = start_node(arguments, graph)
+    node.log("info", "the map comes from cartographer_node itself, drawn with its own resolution")
+    arguments.ready()
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+def _run(flavour: Flavour, arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    node = start_node(arguments, graph)
+    options = _options(flavour, arguments, node)
+    mapper = Mapper(node, options)
+    _offer(node, mapper, flavour, options)
+    mapper.listen()
+    done = threading.Event()
+    workers = [threading.Thread(target=_draw, args=(node, mapper, done), daemon=True)]
+    if options.publishes_tf and options.tf_period_s > 0:
+        workers.append(threading.Thread(target=_place, args=(node, mapper, done), daemon=True))
+    for worker in workers:
+        worker.start()
+    arguments.ready()
+    while not stop.wait(_POLL_S):
+        mapper.settle()
+    done.set()
+    node.shutdown()
+    return 0
+
+
+def _options(flavour: Flavour, arguments: NodeArguments, node: Node) -> SlamOptions:
+    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
+    tree.update(nested(arguments.params))
+    found = Diagnostics()
+    settings = Settings(flavour.table, tree, node.resolve_name("~"), found)
+    options = options_of(flavour, settings)
+    settings.report_unknown()
+    log_findings(node, found)
+    if options.mode not in _MODES:
+        hint = did_you_mean(options.mode, _MODES) or f"there are {' and '.join(_MODES)}"
+        raise LaunchError(f"mode is '{options.mode}'; {hint}")
+    return options
+
+
+def _offer(node: Node, mapper: Mapper, flavour: Flavour, options: SlamOptions) -> None:
+    get_map: Any = service_type("nav_msgs/srv/GetMap")
+
+    def on_get_map(_request: Any) -> Any:
+        grid = mapper.grid()
+        response = get_map.Response()
+        if grid is not None:
+            now_ns = node.clock.now_ns()
+            response.map = message_of_grid(grid, options.map_frame, now_ns)
+        return response
+
+    if not flavour.services:
+        node.create_service("dynamic_map", get_map, on_get_map)
+        return
+    node.create_service("~/dynamic_map", get_map, on_get_map)
+    services = ToolboxServices(node, mapper)
+    if options.map_file:
+        start = options.start_pose if len(options.start_pose) == 3 else None
+        why = services.load(Path(options.map_file), start, keeps=options.mode == "localization")
+        if why:
+            node.log("error", why)
+    elif options.mode == "localization":
+        node.log("warn", "localization needs a map: give map_file_name, or call deserialize_map; "
+                         "until then a map is made")  # fmt: skip
+
+
+def _draw(node: Node, mapper: Mapper, done: threading.Event) -> None:
+    drawn: tuple[int, Poses] | None = None
+    period_ns = max(int(mapper.options.map_period_s * _NANO), _NANO // 10)
+    for _now_ns in ticks(node, period_ns, done):
+        poses = mapper.engine.keyframes.poses
+        if not len(poses):
+            continue
+        state = len(poses), poses[-1].copy()
+        if drawn is None or drawn[0] != state[0] or (drawn[1] != state[1]).any():
+            mapper.publish_map()
+            drawn = state
+
+
+def _place(node: Node, mapper: Mapper, done: threading.Event) -> None:
+    for now_ns in ticks(node, int(mapper.options.tf_period_s * _NANO), done):
+        mapper.publish_transform(now_ns)
