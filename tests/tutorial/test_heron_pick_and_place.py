@@ -1,0 +1,34 @@
+"""The example arm: its launch file, and the program that carries a cube over a wall."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
+
+_WORKSPACE = Path(__file__).parents[2] / "examples" / "arm_ws"
+_PATIENCE_S = 180.0
+
+
+def test_cube_is_carried_over_the_wall(gazelle: Callable[..., Any], free_port: int) -> None:
+    launched = gazelle("ros2", "launch", "heron_bringup", "heron.launch.py", cwd=_WORKSPACE)
+    launched.wait_for_line("You can start planning now!", _PATIENCE_S)
+    assert _cube(launched) == pytest.approx([0.36, 0.18, 0.12], abs=1e-3)
+
+    run = gazelle("ros2", "run", "heron_bringup", "pick_and_place", cwd=_WORKSPACE, port=free_port)
+    run.wait_for_line("the cube is on the other side", _PATIENCE_S)
+    assert run.wait() == 0
+    assert _cube(launched) == pytest.approx([0.36, -0.18, 0.12], abs=0.02)
+    assert launched.stop() == 0
+
+
+def _cube(launched: Any) -> list[float]:
+    answer = launched.call(
+        "/gazebo/get_model_state", "gazebo_msgs/srv/GetModelState", model_name="cube"
+    )
+    place = answer.pose.position
+    return [place.x, place.y, place.z]
