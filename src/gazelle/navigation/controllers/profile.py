@@ -181,11 +181,7 @@ def dwb_profile(o: DwbOptions, critics: Mapping[str, Mapping[str, Any]]) -> Prof
         o: its parameters.
         critics: parameters of critics by name; what is missing has the default.
     """
-    used = {
-        name: {**DwbOptions.CRITICS[name], **critics.get(name, {})}
-        for name in (item.rpartition("::")[2].removesuffix("Critic") for item in o.critics)
-        if name in DwbOptions.CRITICS
-    }
+    used = _used_critics(o, critics)
 
     def of(critic: str, key: str, default: float = 0.0) -> float:
         return float(used.get(critic, {}).get(key, default))
@@ -195,17 +191,7 @@ def dwb_profile(o: DwbOptions, critics: Mapping[str, Mapping[str, Any]]) -> Prof
     rotates = "RotateToGoal" in used
     return Profile(
         name="DWB controller",
-        low=(o.min_vel_x, o.min_vel_y, -o.max_vel_theta),
-        high=(o.max_vel_x, o.max_vel_y, o.max_vel_theta),
-        acceleration=(o.acc_lim_x, o.acc_lim_y, o.acc_lim_theta),
-        deceleration=(-o.decel_lim_x, -o.decel_lim_y, -o.decel_lim_theta),
-        slowest_m_s=o.min_speed_xy,
-        slowest_rad_s=o.min_speed_theta,
-        fastest_m_s=o.max_speed_xy if o.max_speed_xy > 0 else -1.0,
-        counts=(o.vx_samples, o.vy_samples, o.vtheta_samples),
-        sim_time_s=o.sim_time,
-        step_m=0.0 if o.discretize_by_time else o.linear_granularity,
-        step_rad=o.time_granularity if o.discretize_by_time else o.angular_granularity,
+        **_dwb_limits(o),
         path=of("PathDist", "scale"),
         goal=of("GoalDist", "scale"),
         nose_goal=of("GoalAlign", "scale"),
@@ -229,3 +215,30 @@ def dwb_profile(o: DwbOptions, critics: Mapping[str, Mapping[str, Any]]) -> Prof
         slow_m_s=of("Oscillation", "x_only_threshold"),
         oscillates="Oscillation" not in used,
     )
+
+
+def _used_critics(
+    o: DwbOptions, critics: Mapping[str, Mapping[str, Any]]
+) -> dict[str, dict[str, Any]]:
+    names = (item.rpartition("::")[2].removesuffix("Critic") for item in o.critics)
+    return {
+        name: {**DwbOptions.CRITICS[name], **critics.get(name, {})}
+        for name in names
+        if name in DwbOptions.CRITICS
+    }
+
+
+def _dwb_limits(o: DwbOptions) -> dict[str, Any]:
+    return {
+        "low": (o.min_vel_x, o.min_vel_y, -o.max_vel_theta),
+        "high": (o.max_vel_x, o.max_vel_y, o.max_vel_theta),
+        "acceleration": (o.acc_lim_x, o.acc_lim_y, o.acc_lim_theta),
+        "deceleration": (-o.decel_lim_x, -o.decel_lim_y, -o.decel_lim_theta),
+        "slowest_m_s": o.min_speed_xy,
+        "slowest_rad_s": o.min_speed_theta,
+        "fastest_m_s": o.max_speed_xy if o.max_speed_xy > 0 else -1.0,
+        "counts": (o.vx_samples, o.vy_samples, o.vtheta_samples),
+        "sim_time_s": o.sim_time,
+        "step_m": 0.0 if o.discretize_by_time else o.linear_granularity,
+        "step_rad": o.time_granularity if o.discretize_by_time else o.angular_granularity,
+    }

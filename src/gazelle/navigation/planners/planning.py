@@ -166,7 +166,8 @@ def _cells(
     smooth: bool,
 ) -> _Found | None:
     """Search by A*."""
-    from gazelle.navigation.planners.kernels import astar, smooth_path
+    from gazelle.navigation.planners.kernels import smooth_path
+    from gazelle.navigation.planners.search_kernels import astar
 
     width = costs.shape[1]
     cells, cost, _looked = astar(costs, table, start, goal, reach, most)
@@ -181,7 +182,7 @@ def _cells(
 def _any_angle(
     costs: NDArray[np.uint8], start: int, goal: int, options: ThetaStarOptions
 ) -> _Found | None:
-    from gazelle.navigation.planners.kernels import theta_star
+    from gazelle.navigation.planners.search_kernels import theta_star
 
     width, table = costs.shape[1], theta_table(options)
     corners = 8 if options.how_many_corners == 8 else 4

@@ -1,0 +1,18 @@
+"""Scans from pictures and clouds, and what is taken out of scans."""
+
+from __future__ import annotations
+
+from gazelle.navigation.filters.chain import FILTERS, REFUSED_FILTERS, FilterSetup, apply_chain
+from gazelle.navigation.filters.flatten import FlatScan, scan_of_depth, scan_of_points
+from gazelle.navigation.filters.record import ScanArrays
+
+__all__ = [
+    "FILTERS",
+    "REFUSED_FILTERS",
+    "FilterSetup",
+    "FlatScan",
+    "ScanArrays",
+    "apply_chain",
+    "scan_of_depth",
+    "scan_of_points",
+]

@@ -1,0 +1,1 @@
+"""Nodes that make scans of pictures and clouds, and that clean scans."""

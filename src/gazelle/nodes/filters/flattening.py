@@ -1,0 +1,181 @@
+"""``depthimage_to_laserscan`` and ``pointcloud_to_laserscan``."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.navigation.filters import FlatScan, scan_of_depth, scan_of_points
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.navigation.frames import Frames, stamp_ns_of
+from gazelle.nodes.navigation.sensing import cloud_points
+from gazelle.nodes.parameters import private, private_number, start_node
+
+__all__ = ["depth_of_image", "run_clouds", "run_depth"]
+
+_METRES = {"32FC1": ("f4", 1.0), "16UC1": ("u2", 0.001), "mono16": ("u2", 0.001)}
+
+
+def depth_of_image(message: Any) -> NDArray[np.float64]:
+    """Return the depths of a ``sensor_msgs/Image``, (height, width), m.
+
+    Raises:
+        ValueError: its encoding is no depth's, or it has fewer bytes than it says.
+    """
+    if message.encoding not in _METRES:
+        known = ", ".join(_METRES)
+        raise ValueError(f"Depth image has unsupported encoding: {message.encoding}, not {known}")
+    kind, unit = _METRES[message.encoding]
+    dtype = np.dtype((">" if message.is_bigendian else "<") + kind)
+    width, height, step = int(message.width), int(message.height), int(message.step)
+    data = np.frombuffer(bytes(message.data), np.uint8)
+    if len(data) < step * height or step < width * dtype.itemsize:
+        raise ValueError(f"the image says {width} × {height} and has {len(data)} bytes")
+    rows = data[: step * height].reshape(height, step)[:, : width * dtype.itemsize]
+    return np.ascontiguousarray(rows).view(dtype).astype(float) * unit
+
+
+def run_depth(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Make scans of depth pictures until told to stop."""
+    node = start_node(arguments, graph)
+    _DepthToScan(node, arguments)
+    arguments.ready()
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+class _DepthToScan:
+    def __init__(self, node: Node, arguments: NodeArguments) -> None:
+        def number(name: str, default: float) -> float:
+            return private_number(node, arguments, name, default)
+
+        self._rows = int(number("scan_height", 1))
+        self._limits = (
+            number("range_min", 0.45), number("range_max", 10.0), number("scan_time", 0.033)
+        )  # fmt: skip
+        frame = private(node, arguments, "output_frame_id", "camera_depth_frame")
+        self._frame = str(private(node, arguments, "output_frame", frame))
+        self._frames = Frames(node)
+        self._info: Any = None
+        self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
+        image = node.create_subscription(
+            _depth_topic(node), "sensor_msgs/msg/Image", self._on_image, queue_size=2
+        )
+        space = image.topic.rpartition("/")[0]
+        self._info_topic = _info_topic(node, space)
+        kind = "sensor_msgs/msg/CameraInfo"
+        node.create_subscription(self._info_topic, kind, self._on_info, queue_size=2)
+
+    def _on_info(self, message: Any) -> None:
+        self._info = message
+
+    def _on_image(self, message: Any) -> None:
+        if not self._out.matched:
+            return
+        if self._info is None:
+            text = f"no {self._info_topic} has come yet, so depths have no directions"
+            self._frames.say("warn", text)
+            return
+        k, (low, high, _time_s) = self._info.k, self._limits
+        try:
+            scan = scan_of_depth(
+                depth_of_image(message), fx=k[0], fy=k[4], cx=k[2], cy=k[5], rows=self._rows,
+                range_min_m=low, range_max_m=high,
+            )  # fmt: skip
+        except ValueError as error:
+            text = f"Could not convert depth image to laserscan: {error}"
+            self._frames.say("error", text)
+            return
+        self._out.publish(_message(scan, message, self._frame, self._limits))
+
+
+def _depth_topic(node: Node) -> str:
+    """Return ``image``, or ROS 2's ``depth`` where that one is remapped."""
+    return "depth" if not node.resolve_name("depth").endswith("/depth") else "image"
+
+
+def _info_topic(node: Node, space: str) -> str:
+    own = node.resolve_name("depth_camera_info")
+    return f"{space}/camera_info" if own.endswith("/depth_camera_info") else own
+
+
+def run_clouds(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Make scans of point clouds until told to stop.
+
+    Raises:
+        LaunchError: the parameters say no directions.
+    """
+    node = start_node(arguments, graph)
+    try:
+        _CloudToScan(node, arguments)
+    except ValueError as error:
+        node.shutdown()
+        raise LaunchError(f"pointcloud_to_laserscan: {error}") from None
+    arguments.ready()
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+class _CloudToScan:
+    def __init__(self, node: Node, arguments: NodeArguments) -> None:
+        def number(name: str, default: float) -> float:
+            return private_number(node, arguments, name, default)
+
+        infinite = bool(private(node, arguments, "use_inf", True))
+        nearest, farthest = number("range_min", 0.0), number("range_max", math.inf)
+        self._options = {
+            "angle_min_rad": number("angle_min", -math.pi),
+            "angle_max_rad": number("angle_max", math.pi),
+            "increment_rad": number("angle_increment", math.pi / 180),
+            "low_m": number("min_height", -math.inf),
+            "high_m": number("max_height", math.inf),
+            "range_min_m": nearest,
+            "range_max_m": farthest,
+            "empty": math.inf if infinite else farthest + number("inf_epsilon", 1.0),
+        }
+        # What is wrong with them is told now, not with the first cloud.
+        scan_of_points(np.zeros((0, 3)), **self._options)
+        self._limits = (nearest, farthest, number("scan_time", 1 / 30))
+        self._target = str(private(node, arguments, "target_frame", "") or "")
+        self._frames = Frames(node)
+        self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
+        kind = "sensor_msgs/msg/PointCloud2"
+        node.create_subscription("cloud_in", kind, self._on_cloud, queue_size=2)
+
+    def _on_cloud(self, message: Any) -> None:
+        if not self._out.matched:
+            return
+        source = str(message.header.frame_id)
+        frame = self._target or source
+        try:
+            points = cloud_points(message)
+        except ValueError as error:
+            self._frames.say("error", f"a cloud is left out: {error}")
+            return
+        if frame != source:
+            T = self._frames.between(frame, source, stamp_ns_of(message))
+            if isinstance(T, str):
+                self._frames.say("warn", f"Transform failure: {T}", key=f"cloud {source}")
+                return
+            points = T.transform(points)
+        scan = scan_of_points(points, **self._options)
+        self._out.publish(_message(scan, message, frame, self._limits))
+
+
+def _message(scan: FlatScan, source: Any, frame: str, limits: tuple[float, float, float]) -> Any:
+    message: Any = message_type("sensor_msgs/msg/LaserScan")()
+    message.header.stamp, message.header.frame_id = source.header.stamp, frame
+    message.angle_min, message.angle_max = scan.angle_min_rad, scan.angle_max_rad
+    message.angle_increment = scan.increment_rad
+    message.range_min, message.range_max, message.scan_time = limits
+    message.ranges = scan.ranges_m
+    return message

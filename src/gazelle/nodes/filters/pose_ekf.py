@@ -1,0 +1,87 @@
+"""``robot_pose_ekf``: fuses wheel odometry, IMU and visual odometry (ROS 1)."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import numpy as np
+
+from gazelle.geometry import Pose
+from gazelle.graph import Graph, Node
+from gazelle.interfaces import message_type
+from gazelle.navigation.filters.ekf import Ekf
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.filters.fusing import Fusion
+from gazelle.nodes.filters.measuring import measure_imu, measure_pose
+from gazelle.nodes.navigation.frames import fill_pose, set_stamp, stamp_ns_of
+from gazelle.nodes.parameters import private, private_number, start_node, ticks
+
+__all__ = ["run"]
+
+_POSE = np.arange(15) < 6
+_TURN = np.isin(np.arange(15), (5,))
+_LEVEL = np.isin(np.arange(15), (3, 4))
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Fuse measurements until told to stop."""
+    node = start_node(arguments, graph)
+    fusion = Fusion(node, Ekf())
+    base = str(private(node, arguments, "base_footprint_frame", "base_footprint"))
+    parent = str(private(node, arguments, "output_frame", "odom_combined"))
+    _connect(node, arguments, fusion, base)
+    kind: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
+    out = node.create_publisher("~/odom_combined", kind)
+    arguments.ready()
+    period_ns = int(1e9 / max(private_number(node, arguments, "freq", 30.0), 0.1))
+    for _now_ns in ticks(node, period_ns, stop):
+        stamp_ns, state, covariance = fusion.snapshot()
+        if stamp_ns == 0:
+            continue
+        x, y, z, roll, pitch, yaw = map(float, state[:6])
+        pose = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+        message = kind()
+        set_stamp(message, stamp_ns, parent)
+        fill_pose(message.pose.pose, pose)
+        message.pose.covariance = covariance[:6, :6].ravel().tolist()
+        out.publish(message)
+        fusion.send(parent, base, pose, stamp_ns)
+    node.shutdown()
+    return 0
+
+
+def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) -> None:
+    """Listen to what is used; every pose counts relative to the one before, as in the original."""
+
+    def used(name: str, default: bool = True) -> bool:
+        return bool(private(node, arguments, name, default))
+
+    def on_odometry(name: str) -> Any:
+        def take(message: Any) -> None:
+            found = measure_pose(message.pose, stamp_ns_of(message))
+            fusion.take(name, found, _POSE, by_difference=True)
+
+        return take
+
+    def on_imu(message: Any) -> None:
+        frame = str(message.header.frame_id).removeprefix("/")
+        T_base_imu = fusion.frames.between(base, frame)
+        if isinstance(T_base_imu, str):
+            text = f"Could not transform imu message from {frame} to {base}. Imu will not be "
+            fusion.frames.say("warn", f"{text}activated yet. ({T_base_imu})", key="imu")
+            return
+        found = measure_imu(message, stamp_ns_of(message), T_base_imu)
+        fusion.take("imu", found, _TURN, by_difference=True)
+        fusion.take("imu level", found, _LEVEL)
+
+    odometry = "nav_msgs/msg/Odometry"
+    if used("odom_used"):
+        node.create_subscription("odom", odometry, on_odometry("odom"), queue_size=10)
+    if used("vo_used"):
+        node.create_subscription("vo", odometry, on_odometry("vo"), queue_size=10)
+    if used("imu_used"):
+        node.create_subscription("imu_data", "sensor_msgs/msg/Imu", on_imu, queue_size=10)
+    if used("gps_used", default=False):
+        node.log("warn", "gps_used has no effect here: positions of satellites are not fused; "
+                 "robot_localization's pose0 takes them")  # fmt: skip
