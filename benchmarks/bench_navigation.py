@@ -2,8 +2,8 @@
 
     python benchmarks/bench_navigation.py
 
-Medians of processor time after one call that compiles. Budgets: A* on 1674 × 1006 cells 100 ms, DWA and MPPI at 20 Hz
-within 20 % of a core (10 ms), 2,000 particles × 60 beams 1 ms.
+Medians of processor time after one call that compiles. Budgets: A* on 1674 × 1006 cells 100 ms, DWA
+and MPPI at 20 Hz within 20 % of a core (10 ms), 2,000 particles × 60 beams 1 ms.
 """
 
 from __future__ import annotations
@@ -86,9 +86,8 @@ def planners() -> None:
     """Plan between far places of a large map."""
     costs = np.where(warehouse().cells == 100, 254, 0).astype(np.uint8)
     raw = CostGrid(costs, 0.03)
-    print(
-        f"inflation of 1674 × 1006: {median_ms(lambda: inflated(raw, _INFLATION, _ROBOT), 5):.1f} ms"
-    )
+    taken = median_ms(lambda: inflated(raw, _INFLATION, _ROBOT), 5)
+    print(f"inflation of 1674 × 1006: {taken:.1f} ms")
     grid = inflated(raw, _INFLATION, _ROBOT)
     regions, _ = label(grid.costs < 253)
     free = np.argwhere((regions == np.bincount(regions[regions > 0]).argmax()) & (grid.costs < 50))
