@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,10 +12,12 @@ import numpy as np
 import pytest
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster, TransformBuffer, TransformListener
 from gazelle.interfaces import message_type, service_type
 from gazelle.mapping.grids import read_map
+from gazelle.nodes.host import run_node
 
 POSES = [(0.1 * k - 1, 0.05 * k - 0.5, 0.05 * k) for k in range(20)]
 # Where odometry began in the room.
@@ -224,8 +227,9 @@ def _in_map(pose: tuple[float, float, float]) -> tuple[float, float]:
 
 
 def test_a_wrong_mode_is_refused(bench: Any) -> None:
-    bench.start("slam_toolbox/async_slam_toolbox_node", "_mode:=localisation")
-    assert bench.wait() == [1]
+    job = {"node": "slam_toolbox/async_slam_toolbox_node", "argv": ["_mode:=localisation"]}
+    with pytest.raises(LaunchError, match="'localisation'; did you mean 'localization'"):
+        run_node(job, bench.graph, threading.Event())
 
 
 def test_services_of_slam_toolbox_have_its_types() -> None:

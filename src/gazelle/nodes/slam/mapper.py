@@ -30,6 +30,7 @@ _JUMP_M_S = 5.0
 _JUMP_RAD = 1.5
 _JUMP_RAD_S = 6.0
 _LOST_SCANS = 10
+_WAITING = 10
 
 
 class Mapper:
@@ -53,7 +54,7 @@ class Mapper:
         frames = (options.odom_frame, options.base_frame)
         self._queue = ScanQueue(
             self._frames.buffer, frames, lambda text: self._frames.say("warn", text, "dropped"),
-            max_range_m=options.range_limit_m,
+            size=_WAITING, max_range_m=options.range_limit_m,
         )  # fmt: skip
         self._drawer = MapDrawer(options.resolution_m, options.occupied_share)
         grid: Any = message_type("nav_msgs/msg/OccupancyGrid")
