@@ -95,9 +95,9 @@ def offer_move_action(context: MoveGroupContext) -> OneAtATime:
                 goal.request.request, options, stop, lambda: _feedback(goal, "MONITOR")
             )
         _feedback(goal, "IDLE")
-        _end(goal, attempt.code, attempt.why, _move_result(context, attempt))
         if attempt.why:
             context.tell("motion request", MoveGroupError(attempt.code, attempt.why))
+        _end(goal, attempt.code, attempt.why, _move_result(context, attempt))
 
     return OneAtATime(context, _NAMES[context.generation], _MOVE, work)
 
@@ -129,9 +129,9 @@ def offer_execute_action(context: MoveGroupContext) -> OneAtATime:
                 why = ""
         result.error_code = code_message(code, why)
         _feedback(goal, "IDLE")
-        _end(goal, code, why, result)
         if why:
             context.tell("execution", MoveGroupError(code, why))
+        _end(goal, code, why, result)
 
     return OneAtATime(context, "execute_trajectory", _EXECUTE, work)
 
