@@ -256,6 +256,14 @@ _NODES = (
                 "drives to one pose after another (Nav2)",
                 (),
             ),
+            ("nav2_smoother", "smoother_server", "smoother_server", "smooths paths (Nav2)", ()),
+            (
+                "nav2_velocity_smoother",
+                "velocity_smoother",
+                "velocity_smoother",
+                "limits accelerations of commands (Nav2)",
+                (),
+            ),
             (
                 "nav2_lifecycle_manager",
                 "lifecycle_manager",

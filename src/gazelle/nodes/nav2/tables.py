@@ -14,6 +14,7 @@ __all__ = [
     "LIFECYCLE_MANAGER",
     "PLANNER_SERVER",
     "PROGRESS_CHECKERS",
+    "SMOOTHER",
     "SMOOTHER_SERVER",
     "VELOCITY_SMOOTHER",
     "WAYPOINT_FOLLOWER",
@@ -217,17 +218,26 @@ SMOOTHER_SERVER = Table(
     (
         Row("smoother_plugins", "texts", ("simple_smoother",), "names of smoothers"),
         Row("<smoother>.plugin", "text", "nav2_smoother::SimpleSmoother", "a smoother's type"),
-        Row("<smoother>.tolerance", "number", 1e-10, "it ends when points move less", "m", 0),
-        Row("<smoother>.max_its", "integer", 1000, "most rounds", "", 1),
-        Row("<smoother>.w_data", "number", 0.2, "weight of the given path", "", 0),
-        Row("<smoother>.w_smooth", "number", 0.3, "weight of smoothness", "", 0),
-        Row("<smoother>.do_refinement", "flag", True, "smooth twice more"),
-        Row("<smoother>.refinement_num", "integer", 2, "how often"),
         Row("costmap_topic", "text", "global_costmap/costmap_raw", "costs to check against"),
         *refused("the path's own frame counts", "robot_base_frame", "transform_tolerance",
-                 "footprint_topic", "<smoother>.enforce_path_inversion"),
+                 "footprint_topic"),
         *_BOND,
         *_SERVICE,
+    ),
+)  # fmt: skip
+
+SMOOTHER = Table(
+    "SimpleSmoother",
+    "Draws the points of a path to each other and to where they were.",
+    ("nav2_smoother::SimpleSmoother",),
+    (
+        Row("tolerance", "number", 1e-10, "it ends when points move less", "m", 0),
+        Row("max_its", "integer", 1000, "most rounds", "", 1),
+        Row("w_data", "number", 0.2, "weight of the given path", "", 0),
+        Row("w_smooth", "number", 0.3, "weight of smoothness", "", 0),
+        Row("do_refinement", "flag", True, "smooth the result again"),
+        Row("refinement_num", "integer", 2, "how often", "", 0),
+        *refused("paths that reverse are smoothed as a whole", "enforce_path_inversion"),
     ),
 )  # fmt: skip
 

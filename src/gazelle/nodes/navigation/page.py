@@ -44,7 +44,8 @@ def _nav2_tables() -> list[Table]:
     servers = [
         nav2.PLANNER_SERVER, nav2.CONTROLLER_SERVER, *nav2.GOAL_CHECKERS.values(),
         *nav2.PROGRESS_CHECKERS.values(), nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR,
-        nav2.WAYPOINT_FOLLOWER, nav2.LIFECYCLE_MANAGER,
+        nav2.WAYPOINT_FOLLOWER, nav2.SMOOTHER_SERVER, nav2.SMOOTHER,
+        nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
     ]  # fmt: skip
     planners = [nav2.planner_table(name) for name in PLANNERS if "::" in name]
     controllers = [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]
