@@ -36,13 +36,13 @@ def _ranges(x: float, y: float, yaw: float) -> list[float]:
 class Robot:
     """Sends scans and transforms of the drive."""
 
-    def __init__(self, bench: Any, base: str = "base_footprint") -> None:
-        self.bench, self.base = bench, base
+    def __init__(self, bench: Any, capfd: pytest.CaptureFixture[str]) -> None:
+        self.bench, self.base = bench, "base_footprint"
+        self.console, self.said = capfd, ""
         self.tf = TransformBroadcaster(bench.node)
         self.scans = bench.node.create_publisher("/scan", "sensor_msgs/msg/LaserScan")
         self.buffer = TransformBuffer()
         self.listener = TransformListener(self.buffer, bench.node)
-        self.said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
         self.stamp_ns = bench.node.clock.now_ns() - 2_000_000_000
 
     def ready(self) -> None:
@@ -68,13 +68,20 @@ class Robot:
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(self.stamp_ns, 10**9)
         self.scans.publish(message)
 
-    def heard(self, text: str) -> Callable[[], Any]:
-        return lambda: next((one.msg for one in self.said if text in one.msg), "")
+    def heard(self, text: str) -> Callable[[], str]:
+        """What was said on the console, once that holds a text."""
+
+        def said() -> str:
+            out, error = self.console.readouterr()
+            self.said += out + error
+            return self.said if text in self.said else ""
+
+        return said
 
 
 @pytest.fixture
-def robot(bench: Any) -> Iterator[Robot]:
-    made = Robot(bench)
+def robot(bench: Any, capfd: pytest.CaptureFixture[str]) -> Iterator[Robot]:
+    made = Robot(bench, capfd)
     yield made
     made.listener.close()
 

@@ -118,26 +118,23 @@ class ScanQueue:
         return ready
 
     def ready(self) -> list[PlacedScan]:
-        """Return the scans that can be placed now, in order."""
-        placed = []
-        while self._waiting:
+        """Return the scans that can be placed now, in order; others do not stop them."""
+        placed: list[PlacedScan] = []
+        waiting, self._waiting = self._waiting, deque()
+        for message in waiting:
             try:
-                one = self._place(self._waiting[0])
+                placed.append(self._place(message))
             except ExtrapolationError as error:
                 # What lies before all that tf knows never comes.
-                if "past" not in str(error):
-                    break
-                self._drop(self._waiting.popleft())
-                continue
+                if "past" in str(error):
+                    self._drop(message)
+                else:
+                    self._waiting.append(message)
             except TransformError:
-                break
+                self._waiting.append(message)
             except ValueError as error:
                 self.dropped += 1
                 self._say(f"a scan is left out: {error}")
-                self._waiting.popleft()
-                continue
-            self._waiting.popleft()
-            placed.append(one)
         return placed
 
     def give_up(self) -> None:
