@@ -113,7 +113,11 @@ def mark_points(costs, ox, oy, points, min_cells, max_cells, bounds):
 
 @njit(cache=True, nogil=True)
 def fill_polygon(costs, corners, value, bounds):
-    """Set the cells whose centres lie in a convex polygon; coordinates in cells."""
+    """Set the cells of a convex polygon and of its outline; coordinates in cells.
+
+    The outline counts as ``setConvexPolygonCost`` has it: what `outline_cost` looks at is free
+    afterwards.
+    """
     height, width = costs.shape
     n = corners.shape[0]
     low = height
@@ -144,6 +148,36 @@ def fill_polygon(costs, corners, value, bounds):
         bounds[1] = min(bounds[1], y)
         bounds[2] = max(bounds[2], last + 1)
         bounds[3] = max(bounds[3], y + 1)
+    for k in range(n):
+        ax = int(math.floor(corners[k, 0]))
+        ay = int(math.floor(corners[k, 1]))
+        bx = int(math.floor(corners[(k + 1) % n, 0]))
+        by = int(math.floor(corners[(k + 1) % n, 1]))
+        dx = abs(bx - ax)
+        dy = abs(by - ay)
+        sx = 1 if bx > ax else -1
+        sy = 1 if by > ay else -1
+        steps = max(dx, dy)
+        error = steps // 2
+        for _step in range(steps + 1):
+            if 0 <= ax < width and 0 <= ay < height:
+                costs[ay, ax] = value
+                bounds[0] = min(bounds[0], ax)
+                bounds[1] = min(bounds[1], ay)
+                bounds[2] = max(bounds[2], ax + 1)
+                bounds[3] = max(bounds[3], ay + 1)
+            if dx >= dy:
+                ax += sx
+                error += dy
+            else:
+                ay += sy
+                error += dx
+            if error >= steps:
+                error -= steps
+                if dx >= dy:
+                    ay += sy
+                else:
+                    ax += sx
 
 
 @njit(cache=True, nogil=True)
