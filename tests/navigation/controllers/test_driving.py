@@ -19,6 +19,7 @@ from gazelle.navigation.controllers import (
     NoCommand,
     PursuitOptions,
     RobotState,
+    TrajectoryPlannerOptions,
 )
 from gazelle.navigation.costmap import (
     CostGrid,
@@ -56,6 +57,13 @@ _PURSUIT = PursuitOptions(
     desired_linear_vel=0.22, rotate_to_heading_angular_vel=1.5,
     regulated_linear_scaling_min_speed=0.1,
 )  # fmt: skip
+# base_local_planner_params.yaml of turtlebot3_navigation.
+_TRAJECTORY = TrajectoryPlannerOptions(
+    max_vel_x=0.18, min_vel_x=0.08, max_vel_theta=1.0, min_vel_theta=-1.0,
+    min_in_place_vel_theta=1.0, acc_lim_x=1.0, acc_lim_y=0.0, acc_lim_theta=0.6,
+    xy_goal_tolerance=0.1, yaw_goal_tolerance=0.2, holonomic_robot=False, sim_time=0.8,
+    vx_samples=18, vtheta_samples=20, sim_granularity=0.05,
+)  # fmt: skip
 _MPPI = MppiOptions(vx_max=0.26, vx_min=-0.1, batch_size=400)
 Make = Callable[[], Controller]
 
@@ -76,6 +84,7 @@ _DRIVERS = {
         0.05,
     ),
 }
+_PLAIN = _make("base_local_planner/TrajectoryPlannerROS", _TRAJECTORY, 0.1)
 every_controller = pytest.mark.parametrize("name", list(_DRIVERS))
 
 
@@ -139,6 +148,18 @@ def test_robot_drives_around_boxes_into_its_goal(name: str) -> None:
     tolerance = 0.06 if name == "dwa" else 0.26
     assert math.hypot(pose[0] - 4.0, pose[1] - 3.0) < tolerance
     assert abs(math.remainder(pose[2] - 1.57, math.tau)) < 0.3
+
+
+def test_base_local_planner_drives_too() -> None:
+    grid = _world([(2.0, 1.2), (2.6, 2.6), (3.4, 1.8)])
+    plan = make_plan(grid, (1.0, 1.0, 0.0), (4.0, 3.0, 1.57), NavfnOptions())
+    assert isinstance(plan, Plan)
+    controller = _PLAIN()
+    controller.set_plan(plan.poses)
+    pose, time_s, hits = _drive(controller, grid, [1.0, 1.0, 2.0], 0.1, 90.0)
+    assert hits == 0
+    assert math.isfinite(time_s)
+    assert math.hypot(pose[0] - 4.0, pose[1] - 3.0) < 0.11
 
 
 @every_controller

@@ -13,7 +13,7 @@ _CAMERA = {"fx": 50.0, "fy": 50.0, "cx": 39.5, "cy": 29.5}
 
 
 def test_a_wall_before_the_camera_is_a_straight_line() -> None:
-    scan = scan_of_depth(np.full((60, 80), 2.0), rows=5, **_CAMERA)  # type: ignore[arg-type]
+    scan = scan_of_depth(np.full((60, 80), 2.0), rows=5, **_CAMERA)
     angles = scan.angle_min_rad + scan.increment_rad * np.arange(80)
     ahead = scan.ranges_m * np.cos(angles)
     assert np.nanmax(np.abs(ahead - 2.0)) < 0.03
@@ -24,7 +24,7 @@ def test_a_wall_before_the_camera_is_a_straight_line() -> None:
 def test_the_left_of_a_picture_is_the_end_of_the_scan() -> None:
     depth = np.full((60, 80), np.nan)
     depth[:, 2] = 1.0
-    scan = scan_of_depth(depth, **_CAMERA)  # type: ignore[arg-type]
+    scan = scan_of_depth(depth, rows=1, **_CAMERA)
     (seen,) = np.nonzero(np.isfinite(scan.ranges_m))
     assert seen.min() > 70
 
@@ -41,7 +41,7 @@ def test_the_nearest_of_several_rows_counts() -> None:
 def test_what_is_no_depth_says_nothing() -> None:
     depth = np.array([[0.0, np.nan, np.inf, 0.1, 20.0, 1.0]])
     camera = {"fx": 5.0, "fy": 5.0, "cx": 2.5, "cy": 0.6}
-    assert np.isfinite(scan_of_depth(depth, **camera).ranges_m).sum() == 1
+    assert np.isfinite(scan_of_depth(depth, rows=1, **camera).ranges_m).sum() == 1
 
 
 @pytest.mark.parametrize(

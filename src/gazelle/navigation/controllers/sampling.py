@@ -152,12 +152,15 @@ class SamplingController:
             side = np.array([[0.0, y, 0.0] for y in p.side_m_s])
             samples = np.vstack([samples, side])
         speed = np.hypot(samples[:, 0], samples[:, 1])
+        # Turns on the spot are made fast enough to happen, as base_local_planner does.
+        spot = (speed < 1e-4) & (np.abs(samples[:, 2]) > 1e-4)
+        least = np.maximum(np.abs(samples[:, 2]), p.slowest_in_place_rad_s)
+        samples[:, 2] = np.where(spot, np.copysign(least, samples[:, 2]), samples[:, 2])
         turn = np.abs(samples[:, 2])
         slow = (p.slowest_m_s >= 0) & (speed + 1e-4 < p.slowest_m_s)
         slow &= (p.slowest_rad_s >= 0) & (turn + 1e-4 < p.slowest_rad_s)
         fast = (p.fastest_m_s >= 0) & (speed - 1e-4 > p.fastest_m_s)
-        lazy = (speed < 1e-4) & (turn + 1e-4 < p.slowest_in_place_rad_s)
-        kept = samples[~(slow | fast | lazy)]
+        kept = samples[~(slow | fast)]
         return kept if len(kept) else samples[:1]
 
     def _scores(

@@ -102,7 +102,8 @@ def _box(scan: ScanArrays, setup: FilterSetup, transform: Transform) -> ScanArra
         low, high = setup.number(f"min_{name}", 0.0), setup.number(f"max_{name}", 0.0)
         inside &= (points[:, axis] > low) & (points[:, axis] < high)
     outside = np.isfinite(points).all(axis=1) & ~inside
-    return _without(scan, outside if setup.params.get("invert") else inside)
+    gone = outside if setup.params.get("invert") else inside
+    return _without(scan, np.asarray(gone, bool))
 
 
 def _shadows(scan: ScanArrays, setup: FilterSetup, _transform: Transform) -> ScanArrays:

@@ -32,7 +32,8 @@ class ScanArrays:
     @property
     def angles_rad(self) -> NDArray[np.float64]:
         """Directions of the beams, (n,)."""
-        return self.angle_min_rad + self.increment_rad * np.arange(len(self.ranges_m))
+        steps = np.arange(len(self.ranges_m), dtype=float)
+        return np.asarray(self.angle_min_rad + self.increment_rad * steps, float)
 
     @property
     def points(self) -> NDArray[np.float64]:
