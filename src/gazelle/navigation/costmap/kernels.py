@@ -149,10 +149,10 @@ def fill_polygon(costs, corners, value, bounds):
         bounds[2] = max(bounds[2], last + 1)
         bounds[3] = max(bounds[3], y + 1)
     for k in range(n):
-        ax = int(math.floor(corners[k, 0]))
-        ay = int(math.floor(corners[k, 1]))
-        bx = int(math.floor(corners[(k + 1) % n, 0]))
-        by = int(math.floor(corners[(k + 1) % n, 1]))
+        ax = math.floor(corners[k, 0])
+        ay = math.floor(corners[k, 1])
+        bx = math.floor(corners[(k + 1) % n, 0])
+        by = math.floor(corners[(k + 1) % n, 1])
         dx = abs(bx - ax)
         dy = abs(by - ay)
         sx = 1 if bx > ax else -1
