@@ -34,6 +34,8 @@ export class CameraRig {
   state: ViewState = {
     kind: 'Orbit', distance: 8, yaw: -0.9, pitch: 0.5, focal: [0, 0, 0.3], scale: 60, angle: 0,
   };
+  /** Whether anybody has moved the camera. */
+  touched = false;
   private width = 1;
   private height = 1;
   private glide: { from: ViewState; to: ViewState; began: number } | null = null;
@@ -53,6 +55,7 @@ export class CameraRig {
   /** Take new values of the state at once. */
   set(change: Partial<ViewState>): void {
     this.glide = null;
+    this.touched = true;
     const kind = change.kind && change.kind in VIEW_KINDS ? change.kind : change.kind ? 'Orbit' : this.state.kind;
     this.state = { ...this.state, ...change, kind };
     this.apply();
@@ -98,6 +101,7 @@ export class CameraRig {
     const to = { ...this.state, ...change };
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) return this.set(change);
     this.glide = { from: this.state, to, began: performance.now() };
+    this.touched = true;
     this.changed();
   }
 

@@ -203,8 +203,9 @@ export class ScenePanel implements Panel, Bench {
     this.view.moved();
   }
 
-  /** Look at what can move, the first time there is something. */
+  /** Look at what can move, the first time there is something; not against who has looked around. */
   private frameModels(): void {
+    if (this.view.rig.touched) return;
     const models = this.world.scene?.models ?? [];
     const nodesOf = (are: typeof models) => are.flatMap((model) => this.assembly.nodes(model.name));
     const nodes = nodesOf(models.filter((model) => !model.static).slice(0, 12));

@@ -112,6 +112,9 @@ def _drag_along_x(gazebo: GazeboPage, model: str) -> None:
     gazebo.seen.page.evaluate(_LOOK_NORTH)
     gazebo.tool("Translate")
     before = world.state(model).pose.position
+    # The arrows are there from the first frame drawn with them on.
+    gazebo.seen.page.evaluate("gazelle.drawNow('gazebo')")
+    gazebo.eventually(lambda: gazebo.pose(f"{model}::link")[0] == pytest.approx(before.x, abs=1e-3))
     handle = f"gazelle.project([{before.x + 0.5}, {before.y}, {before.z}], 'gazebo')"
     at = gazebo.seen.page.evaluate(handle)
     gazebo.drag((at["x"], at["y"]), (at["x"] + 150, at["y"]))
