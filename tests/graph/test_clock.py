@@ -169,13 +169,3 @@ def test_stop_ends_a_sleep_while_simulated_time_stands_still(simulated: Graph) -
     stop.set()
     thread.join(10)
     assert slept == [False]
-
-
-def test_stop_ends_a_sleep_while_simulated_time_stands_still(simulated: Graph) -> None:
-    clock, stop = simulated.create_node("a").clock, threading.Event()
-    slept: list[bool] = []
-    thread = threading.Thread(target=lambda: slept.append(clock.sleep_until(S, stop)))
-    thread.start()
-    stop.set()
-    thread.join(10)
-    assert slept == [False]

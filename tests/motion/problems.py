@@ -65,9 +65,7 @@ def group_of(name: str) -> str:
     return "test_group" if name == "luck" else "arm"
 
 
-def case_of(
-    robot: RobotModel, name: str, number: int, start: FloatArray, goal: FloatArray
-) -> Case:
+def case_of(robot: RobotModel, name: str, number: int, start: FloatArray, goal: FloatArray) -> Case:
     """Return a problem whose start and goal were recorded."""
     checker = CollisionChecker(_scene(robot, number, REACHES_M[name]), group_of(name))
     space = robot.group(group_of(name)).space

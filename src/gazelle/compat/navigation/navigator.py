@@ -55,9 +55,7 @@ class BasicNavigator(NavigatorCalls):
         self.info(f"Following {len(poses)} goals....")
         return self.begin("follow_waypoints", "FollowWaypoints", poses=poses)
 
-    def followPath(
-        self, path: Any, controller_id: str = "", goal_checker_id: str = ""
-    ) -> Any:
+    def followPath(self, path: Any, controller_id: str = "", goal_checker_id: str = "") -> Any:
         """Begin to drive along a path."""
         self.info("Executing path...")
         return self.begin("follow_path", "FollowPath", path=path, controller_id=controller_id,
@@ -91,9 +89,7 @@ class BasicNavigator(NavigatorCalls):
         """Return how the last task ended; UNKNOWN while it runs."""
         return _RESULTS.get(self.status or 0, TaskResult.UNKNOWN)
 
-    def waitUntilNav2Active(
-        self, navigator: str = "bt_navigator", localizer: str = "amcl"
-    ) -> None:
+    def waitUntilNav2Active(self, navigator: str = "bt_navigator", localizer: str = "amcl") -> None:
         """Wait until localisation and navigation are active and know where the robot is."""
         if localizer != "robot_localization":
             self._wait_for_node_to_activate(localizer)
@@ -102,9 +98,7 @@ class BasicNavigator(NavigatorCalls):
         self._wait_for_node_to_activate(navigator)
         self.info("Nav2 is ready for use!")
 
-    def getPath(
-        self, start: Any, goal: Any, planner_id: str = "", use_start: bool = False
-    ) -> Any:
+    def getPath(self, start: Any, goal: Any, planner_id: str = "", use_start: bool = False) -> Any:
         """Return a path to a pose, None when there is none."""
         found = self.ask_action("compute_path_to_pose", "ComputePathToPose", start=start,
                                 goal=goal, planner_id=planner_id, use_start=use_start)  # fmt: skip
