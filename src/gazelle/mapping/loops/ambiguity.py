@@ -12,7 +12,7 @@ from gazelle.mapping.pose_graph.information import bounded
 __all__ = ["ambiguous"]
 
 _STEP_M = 0.2
-_SCORE_SIGMA = 0.02
+_SCORE_SIGMA = 0.04
 
 
 def ambiguous(

@@ -12,7 +12,7 @@ from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Prior, refined
 from gazelle.mapping.matching.surfaces import even_points
 from gazelle.mapping.matching.wide import wide_search
-from gazelle.mapping.pose_graph.information import bounded, seen_from
+from gazelle.mapping.pose_graph.information import seen_from
 from gazelle.mapping.poses import Poses, between, transform_points
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
@@ -20,13 +20,15 @@ from gazelle.mapping.slam.parameters import SlamParameters
 __all__ = ["recognise"]
 
 _PATCH_M = 5.0
-_PATCH_SCANS = 8
+_PATCH_SCANS = 10
 _PATCH_CELL_M = 0.1
 _PATCH_POINTS = 300
 _PLACE_M = 6.0
-_PLACE_SCANS = 10
+_PLACE_SCANS = 24
+_APART_M = 0.45
 _FEWEST_POINTS = 40
-_FIRST_REACH_M = 0.6
+_FIRST_REACH_M = 0.25
+_LEAST_DOUBT_M = 1.5
 _MUCH_BETTER = 0.08
 
 
@@ -42,7 +44,7 @@ def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) ->
         return None
     pose = keyframes.poses[head]
     reach = float(np.sqrt((points**2).sum(axis=1).max())) + place.reach_m
-    near = _around(keyframes, place.keyframe, head)
+    near = _around(keyframes, place, head)
     field = keyframes.field(near, pose, reach)
     rough = _nearest_match(field.pooled(), points, pose, place, parameters.least_loop)
     if rough is None:
@@ -52,11 +54,7 @@ def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) ->
         return None
     tail = place.keyframe
     relative = between(keyframes.poses[tail], found.pose)
-    information = (
-        bounded(found.information)
-        if place.reach_m < 1
-        else ambiguous(field, points, found, place.reach_m)
-    )
+    information = ambiguous(field, points, found, max(_LEAST_DOUBT_M, place.reach_m))
     information = seen_from(keyframes.poses[tail], information)
     return Hypothesis(tail, head, relative, information, found.score, place.reach_m)
 
@@ -85,21 +83,32 @@ def _nearest_match(
 def _patch(keyframes: Keyframes, head: int) -> NDArray[np.float64]:
     """Return what the last keyframes see, in the frame of the last one."""
     origin = keyframes.poses[head]
-    first = head
-    while (
-        first > max(0, head - _PATCH_SCANS + 1)
-        and keyframes[head].way_m - keyframes[first - 1].way_m < _PATCH_M
-    ):
-        first -= 1
     parts = [
         transform_points(between(origin, keyframes.poses[i]), keyframes[i].points_m)
-        for i in range(first, head + 1)
+        for i in _along(keyframes, head, -1, _PATCH_M)[:_PATCH_SCANS]
     ]
     return even_points(np.concatenate(parts), _PATCH_CELL_M, _PATCH_POINTS)
 
 
-def _around(keyframes: Keyframes, index: int, head: int) -> list[int]:
-    """Return the keyframes around a place that are not of the present."""
-    way = keyframes[index].way_m
-    low, high = max(0, index - _PLACE_SCANS), min(head - _PATCH_SCANS, index + _PLACE_SCANS + 1)
-    return [i for i in range(low, high) if abs(keyframes[i].way_m - way) < _PLACE_M]
+def _around(keyframes: Keyframes, place: Place, head: int) -> list[int]:
+    """Return the keyframes around a place that are not of the present.
+
+    They reach as far as the patch does wherever it may be in the window: where they see less, it
+    would be drawn to where they see more.
+    """
+    reach = _PLACE_M + min(place.reach_m, _PLACE_M)
+    both = {
+        i for way in (-1, 1) for i in _along(keyframes, place.keyframe, way, reach)[:_PLACE_SCANS]
+    }
+    present = keyframes[head].way_m - _PATCH_M
+    return sorted(i for i in both if keyframes[i].way_m < present)
+
+
+def _along(keyframes: Keyframes, start: int, step: int, reach_m: float) -> list[int]:
+    """Return keyframes from one on, forwards or back, some way apart from each other."""
+    chosen, index, count = [start], start + step, len(keyframes)
+    while 0 <= index < count and abs(keyframes[index].way_m - keyframes[start].way_m) < reach_m:
+        if abs(keyframes[index].way_m - keyframes[chosen[-1]].way_m) >= _APART_M:
+            chosen.append(index)
+        index += step
+    return chosen

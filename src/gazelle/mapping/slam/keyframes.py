@@ -18,6 +18,8 @@ __all__ = ["Keyframe", "Keyframes", "keyframe_of"]
 
 _MOST_POINTS = 360
 _MARGIN_M = 2.0
+_UNSEEN_M = 0.7
+_UNSEEN_SHARE = 0.2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +48,11 @@ class Keyframe:
 
 def keyframe_of(scan: Scan, parameters: SlamParameters, way_m: float) -> Keyframe:
     """Return what matching needs of a scan."""
-    points = even_points(scan.points(parameters.max_range_m), parameters.cell_m, _MOST_POINTS)
+    limit_m = min(parameters.max_range_m, scan.range_max_m)
+    # Walls go on behind the end of sight, where earlier scans did not see them: to match what lies
+    # there would pull every scan back to the last ones.
+    sure_m = limit_m - min(_UNSEEN_M, _UNSEEN_SHARE * limit_m)
+    points = even_points(scan.points(sure_m), parameters.cell_m, _MOST_POINTS)
     surface = dense_surface(scan, parameters.max_range_m, parameters.cell_m)
     return Keyframe(scan, points, surface, way_m, parameters.max_range_m)
 
