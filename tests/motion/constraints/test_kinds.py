@@ -95,8 +95,10 @@ def test_samples_of_regions_fill_them_evenly(
 def test_regions_that_are_none_are_refused() -> None:
     with pytest.raises(ValueError, match="a region of kind 'cone' is not one of box, sphere"):
         Region("cone", (1.0, 1.0), np.eye(4))
-    with pytest.raises(ValueError, match="a cylinder needs 2 dimensions that are not negative"):
+    with pytest.raises(ValueError, match="a cylinder needs 2 dimensions, finite and not negative"):
         Region("cylinder", (1.0,), np.eye(4))
+    with pytest.raises(ValueError, match="a sphere needs 1 dimensions"):
+        Region("sphere", (math.nan,), np.eye(4))
 
 
 def test_a_position_constraint_takes_the_nearest_region() -> None:

@@ -158,8 +158,11 @@ def test_requests_that_pilz_refuses() -> None:
         Command(_PTP, _HOME, velocity_scaling=0.0),
     )
     _fails(invalid, "Acceleration scaling", Command(_LIN, _HOME, acceleration_scaling=1.5))
+    lost = Auxiliary(AuxiliaryKind.CENTER, np.full(3, np.nan))
+    _fails(invalid, "the center point has numbers that", Command(_CIRC, _pose(1.0), lost))
     bad_goal = ErrorCode.INVALID_GOAL_CONSTRAINTS
     _fails(bad_goal, "goal: joint 'x' is at 3, outside [-2, 2]", Command(_PTP, _at(3.0)))
+    _fails(bad_goal, "goal of PTP has numbers that are not", Command(_PTP, np.full(6, np.nan)))
     _fails(bad_goal, "3 positions for 6 joints", Command(_LIN, np.zeros(3)))
     for kind in (_PTP, _LIN):
         text = f"inverse kinematics of the goal pose at (2.500, 0.000, 0.000) m of {kind}"

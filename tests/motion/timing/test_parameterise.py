@@ -226,6 +226,20 @@ def test_limits_and_settings_without_sense_are_refused() -> None:
         parameterise(ends, space_of(1), path_tolerance=-1.0, resample_dt_s=0.0)
 
 
+def test_paths_that_are_none_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"a path of shape \(2, 1\) for 2 joints"):
+        parameterise(np.array([[0.0], [1.0]]), space_of(2))
+    with pytest.raises(ValueError, match="waypoint 1 of the path has numbers that are not finite"):
+        parameterise(np.array([[0.0], [np.nan]]), space_of(1))
+
+
+def test_a_start_outside_the_limits_does_not_stop_at_every_corner() -> None:
+    corner = np.array([[-3.2, 0.0], [-3.1, 0.0], [0.0, 0.0], [0.0, 1.0]])
+    blind = parameterise(corner, space_of(2))
+    seeing = parameterise(corner, space_of(2), validity=Map2D(()))
+    assert seeing.duration_s == pytest.approx(blind.duration_s)
+
+
 def test_adapters_of_moveit_name_the_method() -> None:
     prefix = "default_planner_request_adapters/"
     assert method_of([prefix + "AddTimeOptimalParameterization"]) == ("totg", ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,8 +34,9 @@ class Region:
         if wanted is None:
             known = ", ".join(_DIMENSIONS)
             raise ValueError(f"a region of kind '{self.kind}' is not one of {known}")
-        if len(self.dimensions_m) < wanted or min(self.dimensions_m[:wanted]) < 0.0:
-            raise ValueError(f"a {self.kind} needs {wanted} dimensions that are not negative")
+        sides = self.dimensions_m[:wanted]
+        if len(sides) < wanted or not all(0.0 <= side < math.inf for side in sides):
+            raise ValueError(f"a {self.kind} needs {wanted} dimensions, finite and not negative")
 
     def beyond(self, point: FloatArray, share: float) -> FloatArray:
         """Return the way from the region to a point, zero within; 3 numbers in the region's axes.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
+import numpy as np
+
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
 from gazelle.motion.space import FloatArray
 
@@ -65,13 +67,19 @@ class Command:
         """Refuse what Pilz refuses of every request.
 
         Raises:
-            PlanningError: INVALID_MOTION_PLAN.
+            PlanningError: INVALID_MOTION_PLAN or INVALID_GOAL_CONSTRAINTS.
         """
         factors = ("Velocity", self.velocity_scaling), ("Acceleration", self.acceleration_scaling)
         for name, value in factors:
             if not _LEAST_SCALING <= value <= 1.0:
                 text = f"{name} scaling not in range [{_LEAST_SCALING:g}, 1], actual value is: "
                 raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, f"{text}{value:g}")
+        if not np.isfinite(self.goal).all():
+            reason = f"the goal of {self.kind} has numbers that are not finite"
+            raise PlanningError(ErrorCode.INVALID_GOAL_CONSTRAINTS, reason)
+        if self.auxiliary is not None and not np.isfinite(self.auxiliary.point_m).all():
+            reason = f"the {self.auxiliary.kind} point has numbers that are not finite"
+            raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, reason)
         if self.kind is CommandKind.CIRC and self.auxiliary is None:
             reason = 'CIRC needs a path constraint named "interim" or "center" with one position'
             raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, reason)

@@ -54,7 +54,7 @@ def parameterise(
             samples come closer together where the straight motion between two of them is not.
 
     Raises:
-        ValueError: a limit, the tolerance or the period makes no sense.
+        ValueError: the path, a limit, the tolerance or the period makes no sense.
     """
     if path_tolerance < 0.0 or not resample_dt_s > 0.0:
         raise ValueError(
@@ -62,7 +62,7 @@ def parameterise(
             "is not below zero and a period above it"
         )
     limits = limits_of(space, velocity_scaling, acceleration_scaling, jerk=method == "jerk")
-    waypoints = distinct(path.waypoints if isinstance(path, Path) else np.asarray(path, float))
+    waypoints = distinct(_waypoints(path, space))
     if len(waypoints) == 1:
         return _at_rest(space, waypoints, limits)
     corners = _corner_tolerances(space, waypoints, path_tolerance, validity)
@@ -74,7 +74,7 @@ def parameterise(
     for item in timed:
         trajectory = item.sampled(space, resample_dt_s, limits.notes)
         period = resample_dt_s
-        while validity is not None and first_fault(space, validity, trajectory.positions):
+        while validity is not None and _fault(space, validity, trajectory.positions):
             period /= 2.0
             if period < _SHORTEST_PERIOD_S:
                 break
@@ -154,6 +154,24 @@ class _Timed:
         if isinstance(part, Line):
             return seven_phases(part, self._limits, times_s)[0]
         return part.at(times_s) if isinstance(part, Smoothed) else states_at(part, times_s)
+
+
+def _waypoints(path: Path | FloatArray, space: JointSpace) -> FloatArray:
+    rows = path.waypoints if isinstance(path, Path) else np.asarray(path, dtype=np.float64)
+    if rows.ndim != 2 or not len(rows) or rows.shape[1] != space.size:
+        raise ValueError(f"a path of shape {rows.shape} for {space.size} joints")
+    if not np.isfinite(rows).all():
+        row = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
+        raise ValueError(f"waypoint {row} of the path has numbers that are not finite")
+    return rows
+
+
+def _fault(space: JointSpace, validity: Validity, positions: FloatArray) -> str:
+    """Return what is wrong with the samples from where they are within the limits."""
+    begin = 0
+    while begin < len(positions) - 1 and space.outside(positions[begin], tolerance=1e-3):
+        begin += 1
+    return first_fault(space, validity, positions[begin:])
 
 
 def _at_rest(space: JointSpace, waypoints: FloatArray, limits: Limits) -> Trajectory:
