@@ -31,7 +31,7 @@ export interface ChannelWire {
 /** Streams of which only the newest item counts; their items are acknowledged. */
 const LATEST = new Set([
   'topic.stats', 'topic.echo', 'image', 'tf', 'tf.tree', 'display', 'world.poses',
-  'world.stats', 'world.contacts', 'world.joints', 'bag', 'turtles',
+  'world.stats', 'world.contacts', 'world.joints', 'bag', 'turtles', 'motion.path', 'motion.scene',
 ]);
 
 /** Streams that do something once: to open them again would do it again. */

@@ -29,8 +29,8 @@ export interface PanelHost {
   readonly id: string;
   readonly graph: GraphStore;
   setTitle(title: string): void;
-  /** Opens (or brings to the front) another panel. */
-  show(kind: string, params: JsonObject): void;
+  /** Opens (or brings to the front) another panel; a new one comes below one that is open if asked for. */
+  show(kind: string, params: JsonObject, below?: string): void;
   /** Tells the person what went wrong: message, hint and the names that exist. */
   fail(problem: unknown, where?: string): void;
   /** Tells the person something that went well. */

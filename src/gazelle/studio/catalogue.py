@@ -14,6 +14,7 @@ from gazelle.studio.displays import tables as displays
 from gazelle.studio.downloads import download, save_file
 from gazelle.studio.files import Route
 from gazelle.studio.graph_view import tables as graph_view
+from gazelle.studio.motion import tables as motion
 from gazelle.studio.params import Params
 from gazelle.studio.plugins import tables as plugins
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
@@ -34,6 +35,7 @@ METHODS: dict[str, Method] = {
     **bags.METHODS,
     **settings.METHODS,
     **plugins.METHODS,
+    **motion.METHODS,
     "file.save": save_file,
     "robot.get": get_robot,
 }
@@ -43,6 +45,7 @@ STREAMS: dict[str, StreamKind] = {
     **world.STREAMS,
     **bags.STREAMS,
     **plugins.STREAMS,
+    **motion.STREAMS,
 }
 ROUTES: dict[str, Route] = {
     **world.ROUTES,

@@ -1,5 +1,6 @@
 /** All kinds of displays, in RViz's order. */
 import { shortType } from '../graph_store';
+import { MOTION_PLANNING } from '../motion/display';
 import type { DisplayKind } from './display';
 import { EFFORT } from './effort';
 import { AXES, GRID } from './grid';
@@ -17,8 +18,8 @@ import { TF } from './tf';
 
 const KINDS: readonly DisplayKind[] = [
   AXES, CAMERA, EFFORT, GRID, GRID_CELLS, IMAGE, IMU, INTERACTIVE_MARKERS, MAP, MARKER, MARKER_ARRAY,
-  ODOMETRY, PATH, POINT_STAMPED, ...POINT_KINDS, POLYGON, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE, RANGE,
-  ROBOT_MODEL, TF, WRENCH,
+  MOTION_PLANNING, ODOMETRY, PATH, POINT_STAMPED, ...POINT_KINDS, POLYGON, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE,
+  RANGE, ROBOT_MODEL, TF, WRENCH,
 ].sort((a, b) => a.name.localeCompare(b.name));
 
 /** Names that differ between RViz's versions. */

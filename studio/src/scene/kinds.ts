@@ -32,4 +32,8 @@ export const SCENE: readonly PanelKind[] = [
     kind: 'displays', title: 'Displays', group: 'Visualization', about: 'What a 3D view shows',
     make: async (connection, host) => new (await import('../displays/displays_panel')).DisplaysPanel(connection, host),
   },
+  {
+    kind: 'motion_planning', title: 'MotionPlanning', group: 'Visualization', aliases: ['moveit'], single: true, about: 'Plans and executes motions of an arm with MoveIt',
+    make: async (connection, host) => new (await import('../motion/panel')).MotionPlanningPanel(connection, host),
+  },
 ];

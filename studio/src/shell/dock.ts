@@ -169,7 +169,7 @@ export class Dock {
       id,
       graph: this.graph,
       setTitle: (title) => this.api.getPanel(id)?.api.setTitle(title),
-      show: (kind, params) => this.show(kind, params),
+      show: (kind, params, below) => this.show(kind, params, below && this.has(below) ? { kind, beside: below, direction: 'below' } : undefined),
       fail: (problem, where) => this.toasts.fail(problem, where),
       tell: (text) => this.toasts.tell(text),
       touched: () => this.touch(),

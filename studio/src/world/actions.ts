@@ -6,6 +6,7 @@ import { poseOf } from '../model/assembly';
 import type { Entity } from '../model/body';
 import { MODES, type Mode } from '../model/modes';
 import type { Pose } from '../model/scene_value';
+import { MOTION_PLANNING } from '../motion/display';
 import { groundPoint } from '../scene/picking';
 import type { ScenePanel } from '../scene/scene_panel';
 import type { MenuItem } from '../widgets/menu';
@@ -126,6 +127,10 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
     const value = await panel.connection.call('rviz.open', file);
     if (!isObject(value)) return;
     panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
+    if (panel.displays.displays.some((display) => display.kind.name === MOTION_PLANNING.name)) {
+      panel.choose('Interact');
+      panel.host.show('motion_planning', {}, 'displays');
+    }
   } catch (problem) {
     panel.fail(asCallError(problem));
   }

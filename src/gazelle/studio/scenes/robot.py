@@ -14,7 +14,7 @@ from gazelle.studio.session import Studio
 from gazelle.studio.taps import Sample
 from gazelle.workspace import Workspace
 
-__all__ = ["get_robot"]
+__all__ = ["description_text", "get_robot"]
 
 _PARAMETER = "/robot_description"
 _TOPIC_S = 2.0
@@ -45,14 +45,14 @@ def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
 
 def _description(studio: Studio, params: Params) -> str:
     if "topic" in params:
-        return _from_topic(studio, params.text("topic"))
+        return description_text(studio, params.text("topic"))
     name = params.text("parameter", _PARAMETER)
     try:
         value = studio.graph.parameters.get(name)
     except KeyError:
         topics = {one.name for one in studio.graph.topics()}
         if name in topics:
-            return _from_topic(studio, name)
+            return description_text(studio, name)
         known = studio.graph.parameters.names()
         raise unknown("parameter or topic", name, {*known, *topics}) from None
     if not isinstance(value, str):
@@ -60,7 +60,12 @@ def _description(studio: Studio, params: Params) -> str:
     return value
 
 
-def _from_topic(studio: Studio, topic: str) -> str:
+def description_text(studio: Studio, topic: str) -> str:
+    """Return the latched text of a topic.
+
+    Raises:
+        StudioError: none came, or it is no text.
+    """
     came = threading.Event()
     samples: list[Sample] = []
 

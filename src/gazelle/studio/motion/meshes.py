@@ -1,0 +1,56 @@
+"""``motion.mesh``: a mesh file of the person's machine as ``shape_msgs/Mesh`` has it."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gazelle.studio.errors import StudioError
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+
+__all__ = ["read_mesh"]
+
+_MOST_TRIANGLES = 200_000
+
+
+def read_mesh(_studio: Studio, params: Params) -> dict[str, Any]:
+    """Read the file ``name`` with the content ``base64``; vertices in metres."""
+    # Readers of meshes are needed by few pages.
+    from gazelle.errors import GazelleError
+    from gazelle.geometry import MESH_SUFFIXES, load_mesh
+
+    name = Path(params.text("name")).name
+    if Path(name).suffix.lower() not in MESH_SUFFIXES:
+        raise StudioError(f"{name} is no mesh file", known=MESH_SUFFIXES)
+    try:
+        data = base64.b64decode(params.text("base64"), validate=True)
+    except binascii.Error as error:
+        raise StudioError(f"{name}: its content is not base64: {error}") from error
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / name
+        file.write_bytes(data)
+        try:
+            mesh = load_mesh(file, smooth=False)
+        except GazelleError as error:
+            raise StudioError(str(error).replace(f"{folder}/", "")) from error
+    return _value(name, [(part.vertices_m, part.faces) for part in mesh.parts])
+
+
+def _value(name: str, parts: list[tuple[Any, Any]]) -> dict[str, Any]:
+    """Return one mesh; corners at the same place are one vertex."""
+    begins = np.cumsum([0, *(len(vertices) for vertices, _ in parts[:-1])])
+    corners = np.concatenate([np.asarray(vertices, np.float64) for vertices, _ in parts])
+    faces = np.concatenate(
+        [np.asarray(rows).reshape(-1, 3) + at for (_, rows), at in zip(parts, begins, strict=True)]
+    )
+    if len(faces) > _MOST_TRIANGLES:
+        text = f"{name} has {len(faces)} triangles, more than {_MOST_TRIANGLES}"
+        raise StudioError(text, hint="Planning needs a simple shape; reduce the mesh first.")
+    places, index = np.unique(corners.round(9), axis=0, return_inverse=True)
+    return {"vertices": places.tolist(), "triangles": index.reshape(-1)[faces].tolist()}

@@ -1,0 +1,29 @@
+"""``motion.path``: planned paths of a topic, whole."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.studio.errors import StudioError
+from gazelle.studio.json_text import message_value
+from gazelle.studio.params import Params
+from gazelle.studio.session import Studio
+from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.taps import Sample
+
+__all__ = ["open_path"]
+
+
+def open_path(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+    """Send each ``moveit_msgs/DisplayTrajectory`` of a ``topic``."""
+
+    def value(sample: Sample) -> Any:
+        message: Any = sample.message()
+        if not hasattr(message, "trajectory_start"):
+            raise StudioError(f"{message.TYPE_NAME} is no moveit_msgs/DisplayTrajectory")
+        return message_value(message, None)
+
+    def take(sample: Sample) -> None:
+        channel.offer(lambda: value(sample))
+
+    return OpenStream(studio.taps.listen(params.text("topic"), take))

@@ -1,0 +1,155 @@
+"""``motion.robot``: the robot as move_group knows it: groups, named states, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph import Kind
+from gazelle.studio.errors import StudioError
+from gazelle.studio.params import Params
+from gazelle.studio.scenes.assets import Assets
+from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.session import Studio
+
+if TYPE_CHECKING:
+    from gazelle.description.moveit import MoveItConfig
+    from gazelle.motion.model import JointGroup, RobotModel
+
+__all__ = ["get_motion_robot"]
+
+_PLAN = "plan_kinematic_path"
+_TYPE = "moveit_msgs/srv/GetMotionPlan"
+_DESCRIPTION = "robot_description"
+_PARTS = ("", "_semantic", "_kinematics", "_planning")
+_START = "start it, in ROS 2 by the launch file of the arm's MoveIt configuration"
+
+
+def get_motion_robot(studio: Studio, params: Params) -> dict[str, Any]:
+    """Return groups, joints, states and shapes of the robot of a move_group.
+
+    ``namespace`` is that of the move_group, ``description`` the name of the parameter.
+    """
+    # Readers of descriptions take a third of the server's start; few pages plan motions.
+    from gazelle.description.moveit import config_from_parameters
+    from gazelle.diagnostics import Diagnostics
+    from gazelle.motion.model import RobotModel
+    from gazelle.sensors.scene_value import robot_value
+    from gazelle.workspace import Workspace
+
+    description = params.text("description", _DESCRIPTION).lstrip("/") or _DESCRIPTION
+    node, prefix = _move_group(studio, params.text("namespace", ""))
+    found = Diagnostics()
+    tree = _parameters(studio, node, prefix, description)
+    config = config_from_parameters(
+        tree, workspace=Workspace.discover(), diagnostics=found, description=description
+    )
+    if config is None:
+        reasons = "\n".join(str(item.message) for item in found)
+        raise StudioError(f"{node} has no '{description}' that can be read", hint=reasons)
+    robot = RobotModel.from_config(config, diagnostics=found)
+    return {
+        "node": node,
+        "prefix": prefix,
+        **_robot_value(robot, config),
+        "scene": page_scene(robot_value(robot.description), studio.shared(Assets)),
+    }
+
+
+def _move_group(studio: Studio, namespace: str) -> tuple[str, str]:
+    """Return a move_group's node and what its names begin with."""
+    offered = {
+        one.name: one.node
+        for one in studio.graph.entities()
+        if one.kind is Kind.SERVICE and one.type_name == _TYPE and one.name.endswith(f"/{_PLAN}")
+    }
+    if not offered:
+        raise StudioError("no move_group is running on this graph", hint=_START)
+    wanted = f"/{namespace.strip('/')}/{_PLAN}".replace("//", "/")
+    if wanted not in offered and (namespace.strip("/") or len(offered) > 1):
+        text = f"there is no move_group in namespace '{namespace}'"
+        raise StudioError(text, known=sorted(_before(name) for name in offered))
+    name = wanted if wanted in offered else next(iter(offered))
+    return offered[name], _before(name)
+
+
+def _before(service: str) -> str:
+    return service.removesuffix(_PLAN)
+
+
+def _parameters(studio: Studio, node: str, prefix: str, description: str) -> dict[str, Any]:
+    """ROS 2 gives a move_group its parameters, ROS 1 has the descriptions beside it."""
+    from gazelle.description.moveit import nested_parameters
+
+    store = studio.graph.parameters
+    own = store.get(node) if store.has(node) else {}
+    tree = nested_parameters(own) if isinstance(own, Mapping) else {}
+    for part in _PARTS:
+        name = f"{description}{part}"
+        for place in (f"{prefix}{name}", f"/{name}"):
+            if name not in tree and store.has(place):
+                value = store.get(place)
+                tree[name] = nested_parameters(value) if isinstance(value, Mapping) else value
+    for name in (description, f"{description}_semantic"):
+        if not tree.get(name):
+            tree[name] = _of_topic(studio, f"{prefix}{name}")
+    return tree
+
+
+def _of_topic(studio: Studio, topic: str) -> str:
+    """A description that is no parameter is on a topic of its name."""
+    from gazelle.studio.scenes.robot import description_text
+
+    if topic not in {one.name for one in studio.graph.topics()}:
+        raise StudioError(f"there is neither a parameter nor a topic '{topic}'", hint=_START)
+    return description_text(studio, topic)
+
+
+def _robot_value(robot: RobotModel, config: MoveItConfig) -> dict[str, Any]:
+    return {
+        "name": robot.name,
+        "frame": robot.frame,
+        "root": robot.root_link,
+        "velocity_scaling": config.velocity_scaling,
+        "acceleration_scaling": config.acceleration_scaling,
+        "default_pipeline": config.default_pipeline,
+        "defaults": robot.named(robot.default_positions()),
+        "mimics": [
+            {"variable": one.variables[0], "leader": leader, "factor": factor, "offset": offset}
+            for one in robot.joints
+            if one.mimic is not None and one.variables
+            for leader, factor, offset in [robot.mimic_of(one.variables[0])]
+        ],
+        "joints": [_joint_value(one) for one in robot.joints if one.variables],
+        "groups": [_group_value(robot, one) for one in robot.groups.values()],
+    }
+
+
+def _joint_value(joint: Any) -> dict[str, Any]:
+    limits = [
+        {
+            "name": name,
+            "lower": None if limit.continuous else _finite(limit.lower),
+            "upper": None if limit.continuous else _finite(limit.upper),
+        }
+        for name, limit in zip(joint.variables, joint.limits, strict=True)
+    ]
+    return {"name": joint.name, "kind": joint.kind.value, "child": joint.child, "variables": limits}
+
+
+def _finite(value: float) -> float | None:
+    return value if abs(value) < 1e6 else None
+
+
+def _group_value(robot: RobotModel, group: JointGroup) -> dict[str, Any]:
+    effectors = [one for one in robot.srdf.end_effectors if one.name in group.end_effectors]
+    return {
+        "name": group.name,
+        "variables": list(group.variables),
+        "active": list(group.active_joints),
+        "links": list(group.moved_links),
+        "tips": list(group.tip_links),
+        "effectors": [{"name": one.name, "link": one.parent_link} for one in effectors],
+        "states": {name: dict(values) for name, values in group.states.items()},
+        "is_chain": group.is_chain,
+    }

@@ -1,0 +1,211 @@
+/** What the buttons do: plan, execute, both, stop. */
+import type { Channel } from '../channel';
+import { list } from '../displays/message';
+import { CallError, inOneLine } from '../errors';
+import type { GraphStore } from '../graph_store';
+import { isObject, numberOf, type Json, type JsonObject } from '../json';
+import { jointGoal, outcomeOf, pathOf, poseMessage, robotState, type Outcome } from './messages';
+import { groupOf, tipOf, type MotionRobot } from './robot';
+import type { MotionStore } from './store';
+
+/** What a person sets before planning. */
+export interface PlanOptions {
+  pipeline: string;
+  planner: string;
+  time_s: number;
+  attempts: number;
+  velocity: number;
+  acceleration: number;
+  cartesian: boolean;
+}
+
+/** What the result line says. */
+export interface Report { level: 'busy' | 'ok' | 'error'; text: string }
+
+const OVER = /succeeded|aborted|rejected|cancel(l)?ed|preempted|recalled|lost/i;
+const STRAIGHT_STEP_M = 0.01;
+const SLACK_S = 5;
+
+/** Speaks with move_group's actions. */
+export class Planning {
+  /** The last plan, which Execute executes; null before and after a failure. */
+  plan: Json = null;
+  busy = '';
+  private channel: Channel | null = null;
+
+  constructor(
+    private readonly store: MotionStore,
+    private readonly graph: GraphStore,
+    private readonly options: PlanOptions,
+    private readonly report: (report: Report) => void,
+  ) {}
+
+  /** Plan, and execute what was planned if wanted. */
+  async run(execute: boolean): Promise<void> {
+    const { robot } = this.store;
+    if (!robot || this.busy) return;
+    if (this.options.cartesian) return this.straight(robot, execute);
+    this.plan = null;
+    const goal = {
+      request: this.request(robot),
+      planning_options: { plan_only: !execute, planning_scene_diff: { is_diff: true, robot_state: { is_diff: true } } },
+    };
+    this.begin(execute ? 'Planning and executing …' : 'Planning …');
+    const began = performance.now();
+    await this.act('MoveGroup', ['move_action', 'move_group'], goal, (result, outcome) => {
+      const path = pathOf([result['planned_trajectory'] ?? null], result['trajectory_start']);
+      if (outcome.ok && path.points.length) this.plan = result['planned_trajectory'] ?? null;
+      if (path.points.length) this.store.setPath(path);
+      const took = numberOf(result, 'planning_time') || (performance.now() - began) / 1000;
+      if (!outcome.ok) this.fail(outcome.text);
+      else if (!path.points.length) this.end('ok', 'The robot is where it shall go.');
+      else this.end('ok', `${execute ? 'Executed' : 'Planned'}: ${outcome.text}, planned in ${took.toFixed(3)} s, ${path.points.length} points, ${lastOf(path.times_s).toFixed(2)} s of motion`);
+    });
+  }
+
+  /** Execute the last plan. */
+  async execute(): Promise<void> {
+    if (this.busy) return;
+    if (!this.plan) {
+      this.fail('There is no plan to execute; press Plan first.');
+      return;
+    }
+    const trajectory = this.plan;
+    this.begin('Executing …');
+    await this.act('ExecuteTrajectory', ['execute_trajectory'], { trajectory }, (_result, outcome) => {
+      if (outcome.ok) this.end('ok', `Executed: ${outcome.text}`);
+      else this.fail(outcome.text);
+    });
+  }
+
+  /** Cancel what goes on; the robot stops. */
+  stop(): void {
+    const { store } = this;
+    this.channel?.close();
+    this.channel = null;
+    store.connection.call('topic.publish', {
+      topic: store.name('trajectory_execution_event'), type: 'std_msgs/msg/String', message: { data: 'stop' },
+    }).catch((problem: unknown) => this.fail(inOneLine(problem)));
+    this.end('error', 'Stopped.');
+  }
+
+  /** Forget the plan. */
+  clear(): void {
+    this.plan = null;
+    this.store.setPath(null);
+    this.end('ok', '');
+  }
+
+  /** The tip goes straight to where it shall be. */
+  private async straight(robot: MotionRobot, execute: boolean): Promise<void> {
+    const { store, options } = this;
+    const tip = tipOf(groupOf(robot, store.group));
+    const pose = store.kinematics?.pose(tip, store.positions('goal'));
+    if (!pose) return this.fail(`The group ${store.group} has no tip that could go straight.`);
+    this.plan = null;
+    this.begin('Planning a straight path …');
+    try {
+      const answer = await store.service('compute_cartesian_path', 'GetCartesianPath', {
+        header: { frame_id: store.kinematics?.isMobile ? robot.frame : robot.root },
+        start_state: this.startState(robot), group_name: store.group, link_name: tip,
+        waypoints: [poseMessage(pose)], max_step: STRAIGHT_STEP_M, avoid_collisions: true,
+        max_velocity_scaling_factor: options.velocity, max_acceleration_scaling_factor: options.acceleration,
+      }, options.time_s + SLACK_S);
+      this.takeStraight(answer);
+    } catch (problem) {
+      return this.fail(inOneLine(problem));
+    }
+    if (execute && this.plan) await this.execute();
+  }
+
+  private takeStraight(answer: JsonObject): void {
+    const outcome = outcomeOf(answer);
+    const percent = `${(100 * numberOf(answer, 'fraction')).toFixed(1)} % of the Cartesian path`;
+    const path = pathOf([answer['solution'] ?? null], answer['start_state']);
+    if (path.points.length > 1) this.store.setPath(path);
+    if (outcome.ok && numberOf(answer, 'fraction') >= 1) {
+      this.plan = answer['solution'] ?? null;
+      this.end('ok', `Planned ${percent}: ${outcome.text}`);
+    } else this.fail(`Achieved ${percent}: ${outcome.text}`);
+  }
+
+  private request(robot: MotionRobot): JsonObject {
+    const { store, options } = this;
+    return {
+      group_name: store.group, pipeline_id: options.pipeline, planner_id: options.planner,
+      num_planning_attempts: options.attempts, allowed_planning_time: options.time_s,
+      max_velocity_scaling_factor: options.velocity, max_acceleration_scaling_factor: options.acceleration,
+      start_state: this.startState(robot),
+      goal_constraints: [jointGoal(store.positions('goal'), groupOf(robot, store.group)?.variables ?? [])],
+    };
+  }
+
+  private startState(robot: MotionRobot): JsonObject {
+    const { positions } = this.store.start;
+    return positions ? robotState(robot, this.store.positions('start')) : { is_diff: true };
+  }
+
+  /** Send a goal and wait for its result. */
+  private act(kind: string, names: string[], goal: JsonObject, done: (result: JsonObject, outcome: Outcome) => void): Promise<void> {
+    const { store, graph } = this;
+    const known = new Set(graph.value.actions.map((each) => each.name));
+    const action = names.map((name) => store.name(name)).find((name) => known.has(name)) ?? store.name(names[0]);
+    return new Promise((resolve) => {
+      let over = false;
+      const finish = (tell: () => void): void => {
+        if (over) return;
+        over = true;
+        this.channel = null;
+        tell();
+        resolve();
+      };
+      const lost = (problem: CallError | null): void =>
+        finish(() => this.fail(inOneLine(problem ?? new CallError(`${action} gave no result.`))));
+      const channel = store.connection.open('action', { action, type: `moveit_msgs/action/${kind}`, goal }, {
+        onData: (value) => {
+          for (const item of (Array.isArray(value) ? value : [value]).filter(isObject)) {
+            if (!OVER.test(String(item['state'])) || (!isObject(item['result']) && item['result'] !== null)) continue;
+            if (!isObject(item['result'])) finish(() => this.fail(String(item['text'] || item['state'])));
+            else finish(() => done(item['result'] as JsonObject, outcomeOf(item['result'] as JsonObject)));
+            channel.close();
+          }
+        },
+        onFailed: lost, onEnded: lost,
+      });
+      this.channel = channel;
+    });
+  }
+
+  private begin(text: string): void {
+    this.busy = text;
+    this.report({ level: 'busy', text });
+  }
+
+  private end(level: 'ok' | 'error', text: string): void {
+    this.busy = '';
+    this.report({ level, text });
+  }
+
+  private fail(text: string): void {
+    this.end('error', text);
+  }
+}
+
+/** Planners by pipeline, as `query_planner_interface` tells: rows of pipeline, planner and text. */
+export async function plannersOf(store: MotionStore): Promise<{ pipeline: string; planner: string }[]> {
+  const answer = await store.service('query_planner_interface', 'QueryPlannerInterfaces', {});
+  const found: { pipeline: string; planner: string }[] = [];
+  for (const item of list<JsonObject>(answer, 'planner_interfaces')) {
+    const pipeline = String(item['pipeline_id'] ?? '');
+    const own = new RegExp(`^${store.group}\\[(.*)\\]$`);
+    const ids = list<string>(item, 'planner_ids');
+    const ofGroup = ids.map((id) => own.exec(id)?.[1]).filter((id): id is string => Boolean(id));
+    for (const planner of ofGroup.length ? ofGroup : ids.filter((id) => !id.includes('['))) found.push({ pipeline, planner });
+  }
+  return found;
+}
+
+function lastOf(values: readonly number[]): number {
+  return values[values.length - 1] ?? 0;
+}
+
