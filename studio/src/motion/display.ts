@@ -2,13 +2,13 @@
 import * as THREE from 'three';
 import type { DisplayKind, Drawer, Site } from '../displays/display';
 import { choice, colour, flag, num, text } from '../displays/properties';
-import { place } from '../model/shapes';
 import { Ghost, paint } from './ghost';
 import { Inverse } from './inverse';
 import { SceneObjects } from './object_drawing';
 import { DISPLAY_TIMES } from './player';
 import { groupOf, tipOf, type Positions } from './robot';
 import { SixDof } from './six_dof';
+import { standing } from './standing';
 import { motionStore, type Change, type MotionStore, type Query } from './store';
 
 const RED: [number, number, number] = [1, 0.1, 0.1];
@@ -58,7 +58,7 @@ class MotionDrawer implements Drawer {
   private trail: Ghost[] = [];
   private marker: SixDof | null = null;
   private markerLink = '';
-  private lastPoses = 0;
+  private lastPose = new THREE.Matrix4();
 
   constructor(private readonly site: Site) {
     this.store = motionStore(site.connection);
@@ -154,19 +154,16 @@ class MotionDrawer implements Drawer {
   /** Stand where tf has the robot. */
   private follow(): void {
     const { frames, status } = this.site;
-    const { robot, kinematics } = this.store;
-    if (!robot || !kinematics) return;
-    const name = kinematics.isMobile ? robot.frame : robot.root;
-    const at = frames.at(name);
-    const lost = at < 0;
-    status('Transform', lost ? 'error' : 'ok', lost ? `No transform from [${name}] to [${frames.fixed}]` : 'Transform OK');
-    this.base.visible = !lost;
-    if (lost) return;
-    const sum = frames.poses.slice(at, at + 7).reduce((total, value, index) => total + value * (index + 1), 0);
-    place(this.base, frames.poses, at);
+    const { robot } = this.store;
+    if (!robot) return;
+    const pose = standing(frames, this.store);
+    status('Transform', pose ? 'ok' : 'error', pose ? 'Transform OK' : `No transform from [${robot.root}] to [${frames.fixed}]`);
+    this.base.visible = pose !== null;
+    if (!pose) return;
+    pose.decompose(this.base.position, this.base.quaternion, this.base.scale);
     this.objects.follow();
-    if (sum !== this.lastPoses) this.site.view.moved();
-    this.lastPoses = sum;
+    if (!pose.equals(this.lastPose)) this.site.view.moved();
+    this.lastPose = pose;
   }
 
   private draw(what: Change): void {
@@ -176,7 +173,7 @@ class MotionDrawer implements Drawer {
     const all = what === 'robot' || what === 'look' || what === 'query';
     if (all || what === 'current') this.place(ghosts.robot, store.current);
     if (all || what === 'current') this.drawQueries();
-    if (all || what === 'scene' || what === 'current') this.objects.placeAttached();
+    if (all || what === 'scene' || what === 'current') this.objects.follow();
     if (what === 'robot' || what === 'look') {
       const alpha = props.num('Scene Robot/Robot Alpha');
       ghosts.robot.root.visible = props.flag('Scene Robot/Show Robot Visual');

@@ -4,10 +4,10 @@ import { list, part, poseMatrix } from '../displays/message';
 import type { Site } from '../displays/display';
 import type { Json, JsonObject } from '../json';
 import { unit } from '../model/geometry';
-import { place } from '../model/shapes';
 import { paint } from './ghost';
 import { changeObjects, moveOf } from './objects';
 import { SixDof } from './six_dof';
+import { poseOfFrame, standing } from './standing';
 import type { MotionStore } from './store';
 
 const SEND_MS = 80;
@@ -51,30 +51,15 @@ export class SceneObjects {
 
   /** Frames moved. */
   follow(): void {
-    const { frames } = this.site;
+    const base = standing(this.site.frames, this.store);
+    const { robot, kinematics, current } = this.store;
     for (const one of this.shown) {
-      if (one.attached) continue;
-      const at = frames.at(one.frame);
-      // The planning frame of a robot without a virtual joint's tf is where its root is.
-      const root = at < 0 ? frames.at(this.store.robot?.root ?? '') : at;
-      one.node.visible = root >= 0;
-      if (root >= 0) place(one.node, frames.poses, root);
-    }
-    this.placeAttached();
-  }
-
-  /** What the robot holds is where its link is. */
-  placeAttached(): void {
-    const { kinematics, robot, current } = this.store;
-    if (!kinematics || !robot) return;
-    const base = this.site.frames.at(kinematics.isMobile ? robot.frame : robot.root);
-    for (const one of this.shown.filter((each) => each.attached)) {
-      const pose = kinematics.pose(one.frame, current);
-      one.node.visible = pose !== null && base >= 0;
-      if (!pose || base < 0) continue;
-      place(one.node, this.site.frames.poses, base);
-      one.node.updateMatrix();
-      one.node.matrix.clone().multiply(pose).decompose(one.node.position, one.node.quaternion, one.node.scale);
+      // The planning frame is often the root of tf's tree, of which tf does not speak.
+      const own = one.attached ? null : poseOfFrame(this.site.frames, one.frame);
+      const link = kinematics?.pose(one.frame, current);
+      const pose = own ?? (base && (link ? base.clone().multiply(link) : one.frame === robot?.frame ? base : null));
+      one.node.visible = pose !== null;
+      pose?.decompose(one.node.position, one.node.quaternion, one.node.scale);
     }
   }
 

@@ -7,6 +7,7 @@ import type { Entity } from '../model/body';
 import { MODES, type Mode } from '../model/modes';
 import type { Pose } from '../model/scene_value';
 import { MOTION_PLANNING } from '../motion/display';
+import { scenePanels } from '../scene/active';
 import { groundPoint } from '../scene/picking';
 import type { ScenePanel } from '../scene/scene_panel';
 import type { MenuItem } from '../widgets/menu';
@@ -129,7 +130,8 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
     panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
     if (panel.displays.displays.some((display) => display.kind.name === MOTION_PLANNING.name)) {
       panel.choose('Interact');
-      panel.host.show('motion_planning', {}, 'displays');
+      // As in RViz below the displays, unless Gazebo's panels leave little room there.
+      panel.host.show('motion_planning', {}, scenePanels().some((each) => each.kind === 'gazebo') ? 'rviz' : 'displays');
     }
   } catch (problem) {
     panel.fail(asCallError(problem));

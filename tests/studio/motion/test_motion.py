@@ -11,7 +11,7 @@ from tests.studio.conftest import Talk, eventually
 from tests.studio.page import Page, RefusedError
 
 from gazelle.graph import Graph, Node
-from gazelle.interfaces import fill, message_type, service_type
+from gazelle.interfaces import fill, service_type
 
 _URDF = """
 <robot name="arm">
@@ -115,12 +115,9 @@ def test_scene_is_whole_at_first_and_changes_follow(
 
 
 def test_path_comes_whole(page: Page, talk: Talk) -> None:
-    point = message_type("trajectory_msgs/msg/JointTrajectoryPoint")
-    rows = [point(positions=[float(at)]) for at in range(300)]
-    trajectory = message_type("moveit_msgs/msg/RobotTrajectory")()
-    trajectory.joint_trajectory.joint_names = ["wrist"]
-    trajectory.joint_trajectory.points = rows
-    made = {"trajectory": [trajectory], "model_id": "arm"}
+    rows = [{"positions": [float(at)]} for at in range(300)]
+    joints = {"joint_names": ["wrist"], "points": rows}
+    made = {"trajectory": [{"joint_trajectory": joints}], "model_id": "arm"}
     talk("/path_a", "moveit_msgs/msg/DisplayTrajectory", latch=True, **made)
     value = page.open("motion.path", topic="/path_a").next()
     points = value["trajectory"][0]["joint_trajectory"]["points"]
