@@ -117,14 +117,14 @@ def test_person_plans_watches_and_executes(arm: Arm) -> None:
     arm.says("Executed: SUCCESS (1)")
     assert arm.positions() == pytest.approx(_READY, abs=0.01)
 
-    # A goal inside of the arm's own lamp is told with MoveIt's code and with what is in the way.
+    # A goal inside of something is told with MoveIt's code and with what is in the way.
     arm.tab("Scene Objects")
-    for size in "xyz":
-        arm.panel.get_by_label(f"Box {size} (m)").fill("0.3")
+    for side, size in zip("xyz", ("0.4", "0.4", "0.15"), strict=True):
+        arm.panel.get_by_label(f"Box {side} (m)").fill(size)
     arm.press("Add")
     arm.eventually(lambda: arm.counts()["objects"] == 1)
     height = arm.panel.get_by_label("Object z")
-    height.fill("0.6")
+    height.fill("0.75")
     height.press("Enter")
     arm.tab("Planning")
     arm.goal("home")
@@ -133,7 +133,7 @@ def test_person_plans_watches_and_executes(arm: Arm) -> None:
     arm.press("Plan")
     assert "'Box'" in arm.says("GOAL_IN_COLLISION (-12)")
     arm.tab("Scene Objects")
-    arm.panel.get_by_role("option", name="Box").click()
+    arm.panel.locator("[data-object=Box]").click()
     arm.press("Remove")
     arm.eventually(lambda: arm.counts()["objects"] == 0)
 
@@ -141,7 +141,7 @@ def test_person_plans_watches_and_executes(arm: Arm) -> None:
 
 
 def _drag_the_goal(arm: Arm) -> None:
-    """The arrows of the goal move it; where there is no solution the ghost stays."""
+    """Sliders and the arrows at the tip move the goal."""
     arm.tab("Joints")
     arm.panel.get_by_label("joint_1 position").fill("0.3")
     arm.panel.get_by_label("joint_1 position").press("Enter")
@@ -154,10 +154,4 @@ def _drag_the_goal(arm: Arm) -> None:
     at = arm.page.seen.page.evaluate("gazelle.handle('goal', 'move_z')")
     arm.page.drag((at["x"], at["y"]), (at["x"], at["y"] - 25))
     arm.eventually(lambda: [arm.goal_joint(name) for name in _JOINTS] != before)
-    moved = [arm.goal_joint(name) for name in _JOINTS]
     arm.page.seen.shot("dragged")
-    at = arm.page.seen.page.evaluate("gazelle.handle('goal', 'move_z')")
-    arm.page.drag((at["x"], at["y"]), (at["x"], at["y"] - 300))
-    line = arm.panel.get_by_role("status", name="Inverse kinematics")
-    line.filter(has_text="NO_IK_SOLUTION (-31)").wait_for()
-    assert len(moved) == len(before)
