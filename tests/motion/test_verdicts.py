@@ -14,8 +14,8 @@ from gazelle.motion.planning import FINE_STEP, PlanningError, first_fault, plan
 from gazelle.motion.timing import parameterise
 
 _FILE = Path(__file__).parent / "planning_verdicts.json"
-_EVERY = 4
-"""A quarter of the problems is planned in every test run, all of them by the soak."""
+_EVERY = 10
+"""A tenth of the problems is planned in every test run, all of them by the soak."""
 
 
 def _solvable(name: str, request: pytest.FixtureRequest) -> list[Case]:
