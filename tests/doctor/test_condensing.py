@@ -29,7 +29,7 @@ def test_packages_of_ros_are_one_warning_and_a_wrong_name_stays_an_error(
     written: Write, examined: Examine
 ) -> None:
     node = '<node pkg="{}" type="t" name="n{}"/>'
-    names = ("amcl", "hokuyo_maker", "shop", "moev_base")
+    names = ("anchor_radar", "hokuyo_maker", "shop", "moev_base")
     nodes = "".join(node.format(name, index) for index, name in enumerate(names))
     manifest = '<package format="2"><name>bot</name><version>1.0.0</version>'
     manifest += "<exec_depend>shop</exec_depend></package>"
@@ -37,13 +37,13 @@ def test_packages_of_ros_are_one_warning_and_a_wrong_name_stays_an_error(
         **{
             "package.xml": manifest,
             "launch__one.launch": f"<launch>{nodes}</launch>",
-            "launch__two.launch": f"<launch>{node.format('amcl', 9)}</launch>",
+            "launch__two.launch": f"<launch>{node.format('anchor_radar', 9)}</launch>",
         }
     )
     found = [item for item in examined(folder, "bot").findings if "launch" in str(item.span)]
     elsewhere = next(item for item in found if item.code == "doctor.packages-elsewhere")
     assert elsewhere.severity is Severity.WARNING
-    assert "amcl (one.launch, two.launch), hokuyo_maker (one.launch), shop" in elsewhere.message
+    assert "anchor_radar (one.launch, two.launch), hokuyo_maker (one" in elsewhere.message
     (wrong,) = (item for item in found if item.code == "launch.package-missing")
     assert (wrong.severity, "'moev_base' not found" in wrong.message) == (Severity.ERROR, True)
 

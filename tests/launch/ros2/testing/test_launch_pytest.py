@@ -69,7 +69,7 @@ def test_one(launch_service):
 async def test_two():
     seen.append(2)
 """
-_PLUGINS = ("-p", "gazelle.testing.plugin", "-p", "no:cacheprovider")
+_PLUGINS = ("-p", "no:cacheprovider")
 
 
 def _pytest(folder: Path, text: str) -> str:

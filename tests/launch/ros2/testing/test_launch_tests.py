@@ -75,8 +75,7 @@ class Behind(unittest.TestCase):
             launch_testing.asserts.assertInStdout(proc_output, "nope", process)
 """
 
-# An installation that is older than the plug-in does not load it by itself.
-_PLUGINS = ("-p", "gazelle.testing.plugin", "-p", "no:cacheprovider")
+_PLUGINS = ("-p", "no:cacheprovider")
 _PYTEST = ("-m", "pytest", "-q", *_PLUGINS, "check.py")
 
 

@@ -141,7 +141,7 @@ def test_streams_are_told_apart() -> None:
         asserts.assertInStream(output, "x", talk, stream="log")
     with asserts.assertSequentialStdout(output, talk) as checker:
         checker.assertInText("put")
-        with pytest.raises(AssertionError, match=r"'out' not found in sequence.*\n.*put\nerr"):
+        with pytest.raises(AssertionError, match=r"'out' not found in sequence.*\n.*put\n *err"):
             checker.assertInText("out")
 
 
