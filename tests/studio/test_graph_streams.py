@@ -103,7 +103,8 @@ def test_echo_keeps_to_its_rate_and_loses_not_the_last(page: Page, talk: Talk) -
     items = [stream.next()]
     while items[-1]["message"]["data"] != 99:
         items.append(stream.next())
-    assert items[0]["message"]["data"] == 0
+    # The first look is at once, at whatever is the newest by then.
+    assert items[0]["message"]["data"] < 99
     assert len(items) < 10
 
 
