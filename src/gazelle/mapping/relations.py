@@ -17,13 +17,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.mapping.poses import Poses, between
+from gazelle.mapping.poses import Poses, between, transform_points
 
 __all__ = [
     "RelationErrors",
     "Relations",
     "absolute_error_m",
     "align",
+    "alignment",
     "read_relations",
     "relation_errors",
 ]
@@ -150,10 +151,20 @@ def _nearest(
 
 
 def absolute_error_m(trajectory: Poses, truth: Poses) -> float:
-    """Return the root mean square distance after the best rigid alignment (Horn), metres."""
-    a, b = trajectory[:, :2], truth[:, :2]
-    a, b = a - a.mean(axis=0), b - b.mean(axis=0)
+    """Return the root mean square distance after the best rigid alignment, metres."""
+    moved = transform_points(alignment(trajectory, truth), trajectory[:, :2])
+    return float(np.sqrt(((moved - truth[:, :2]) ** 2).sum(axis=1).mean()))
+
+
+def alignment(trajectory: Poses, truth: Poses) -> Poses:
+    """Return the pose of one trajectory's frame in another's that brings them closest (Horn 1987).
+
+    Args:
+        trajectory: (n, 3).
+        truth: the same poses in another frame, (n, 3).
+    """
+    middle_a, middle_b = trajectory[:, :2].mean(axis=0), truth[:, :2].mean(axis=0)
+    a, b = trajectory[:, :2] - middle_a, truth[:, :2] - middle_b
     turn = np.arctan2((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum(), (a * b).sum())
-    cos, sin = np.cos(turn), np.sin(turn)
-    off = a @ np.array([[cos, sin], [-sin, cos]]) - b
-    return float(np.sqrt((off**2).sum(axis=1).mean()))
+    x, y = middle_b - transform_points(np.array([0.0, 0.0, turn]), middle_a[None])[0]
+    return np.array([x, y, turn])

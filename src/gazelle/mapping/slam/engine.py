@@ -26,7 +26,7 @@ from gazelle.mapping.slam.tracking import FEWEST_POINTS, Tracker, motion_informa
 
 __all__ = ["Slam", "SlamResult", "Update", "slam"]
 
-_GIVE_UP = 15
+_GIVE_UP = 4
 _LAST_ITERATIONS = 20
 _POLISHES = 2
 

@@ -33,7 +33,7 @@ _WIDE_RAD = 1.2
 _LOST_M = 2.0
 _LOST_M_PER_SCAN = 1.0
 _LOST_MOST_M = 6.0
-_LOST_SCANS = 80
+_ALL_SCANS = 80
 _INSIDE = 0.9
 # A field reaches 2 m farther than beams do.
 _LEFT_M = 1.5
@@ -102,7 +102,7 @@ class Tracker:
         prior = Prior(expected, motion_information(motion, self._parameters))
         if math.hypot(motion[0], motion[1]) < _STILL_M and abs(motion[2]) < _STILL_RAD:
             near = refined(submap.field, frame.points_m, expected, prior)
-            if near.score > _GOOD_SCORE:
+            if near.score > max(_GOOD_SCORE, _SUSPICIOUS * self._usual_score):
                 return near
         told = self._parameters
         sigma_m, sigma_rad = (float(prior.information[i, i]) ** -0.5 for i in (0, 2))
@@ -115,18 +115,25 @@ class Tracker:
             # Wheels slip and clocks differ.
             wide = max(_WIDE_M, reach_m), max(_WIDE_RAD, 2 * reach_rad)
             least = found.score + _BETTER
-            found = self._anywhere(submap, frame, expected, wide, least) or found
+            # What is new to the last scans may have been seen long ago.
+            found = self._among_all(frame, expected, wide, least) or found
         least = max(told.least_match, _UNBELIEVED * self._usual_score)
         return found if found.score > least else None
 
     def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
         """Return where a lost robot is, among all that was seen around where it may be."""
         reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN)
+        return self._among_all(frame, expected, (reach, math.pi), 0.0)
+
+    def _among_all(
+        self, frame: Keyframe, expected: Poses, reach: tuple[float, float], least: float
+    ) -> Match | None:
+        """Return a match of a wide window with the nearest scans of any time."""
         far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
-        near = np.argsort(far)[:_LOST_SCANS]
-        field = self._keyframes.field(near.tolist(), expected, frame.reach_m + reach)
+        near = np.argsort(far)[:_ALL_SCANS]
+        field = self._keyframes.field(near.tolist(), expected, frame.reach_m + reach[0])
         submap = _Submap(field, field.pooled(), expected)
-        return self._anywhere(submap, frame, expected, (reach, math.pi), 0.0)
+        return self._anywhere(submap, frame, expected, reach, least)
 
     def _anywhere(
         self,
