@@ -12,7 +12,7 @@ export function watchPlugins(connection: Connection): void {
   registerFamily(OWN, (kind) => ownKind(kind, { title: kind.slice(OWN.length).split('.').pop() ?? kind }));
   registerFamily(FOREIGN, (kind) => foreignKind(kind, { title: kind.slice(FOREIGN.length) }));
   let known: string[] = [];
-  let listed = '';
+  let listed = '[]';
   const refresh = async (): Promise<void> => {
     if (connection.state !== 'open') return;
     const answer = await connection.call('plugin.list').catch(() => null);

@@ -19,9 +19,11 @@ export function buildTopbar(
   for (const each of [panels, layout]) each.setAttribute('aria-haspopup', 'menu');
   onPanelsChanged(() => {
     if (panels.getAttribute('aria-expanded') !== 'true') return;
+    const chosen = document.activeElement?.textContent;
     // Once to close it, once to open it with what is new.
     open();
     open();
+    for (const item of document.querySelectorAll<HTMLElement>('.menu [role^=menuitem]')) if (item.textContent === chosen) item.focus();
   });
   const light = h('span', { class: 'light', role: 'img' });
   connection.onState((state) => {
