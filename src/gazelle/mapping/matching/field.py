@@ -9,11 +9,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.mapping.matching import kernels
+from gazelle.mapping.matching import kernels, line_kernels
 
 __all__ = ["Field", "field_of"]
 
 _PARTS = 4
+_LINE_CELL_M = 0.1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,12 +25,16 @@ class Field:
         values: float32 (height, width) within [0, 1], row 0 lowest y.
         x_m, y_m: lower left corner.
         cell_m: side of a cell.
+        lines: sums of the surfaces' points, see `line_kernels`; None in coarse fields.
+        line_cell_m: side of their cells.
     """
 
     values: NDArray[np.float32]
     x_m: float
     y_m: float
     cell_m: float
+    lines: NDArray[np.float64] | None = None
+    line_cell_m: float = 0.1
 
     def pooled(self) -> Field:
         """Return it with cells twice as large, each the greatest of its four parts."""
@@ -63,7 +68,10 @@ def field_of(
     values = np.zeros((side, side), np.float32)
     x0, y0 = center_m[0] - half_side_m, center_m[1] - half_side_m
     kernels.stamp(values, x0, y0, cell_m, points_m, _kernels(sigma_m, cell_m))
-    return Field(values, x0, y0, cell_m)
+    across = math.ceil(side * cell_m / _LINE_CELL_M)
+    lines = np.zeros((across, across, 6))
+    line_kernels.accumulate(lines, x0, y0, _LINE_CELL_M, points_m)
+    return Field(values, x0, y0, cell_m, lines, _LINE_CELL_M)
 
 
 @lru_cache(maxsize=16)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.matching import kernels
+from gazelle.mapping.matching import kernels, line_kernels
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.poses import Poses, wrap_angle
 
@@ -19,6 +19,11 @@ _ITERATIONS = 15
 # points of one surface err together.
 _POINT_WEIGHT = 4.0
 _COARSE_TURN_RAD = 0.035
+# Of a distance: standard deviation and farthest, m; of a line: fewest points, width, m.
+_LINES = np.array([0.04, 0.12, 8.0, 0.05])
+_FEWEST_ON_LINES = 20
+_MOST_M = 0.12
+_MOST_RAD = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,9 +93,34 @@ def refined(field: Field, points_m: NDArray[np.float64], guess: Poses, prior: Pr
         field.values, *corner, points_m, guess, prior.pose, prior.information, _POINT_WEIGHT,
         _ITERATIONS,
     )  # fmt: skip
+    pose, information = _on_lines(field, points_m, pose, prior, information)
     pose[2] = float(wrap_angle(pose[2]))
     score = field.mean(points_m, pose)
     return Match(pose, 0.0 if math.isnan(score) else score, information)
+
+
+def _on_lines(
+    field: Field,
+    points_m: NDArray[np.float64],
+    pose: Poses,
+    prior: Prior,
+    information: NDArray[np.float64],
+) -> tuple[Poses, NDArray[np.float64]]:
+    """Move a pose to where its points lie on the lines that the field's points lie along.
+
+    A field's ridges are as wide as walls were seen at different places, and flat on top. The lines
+    are the mean of what was seen.
+    """
+    if field.lines is None:
+        return pose, information
+    corner = (field.x_m, field.y_m, field.line_cell_m)
+    found, told, used = line_kernels.refine_on_lines(
+        field.lines, *corner, points_m, pose, prior.pose, prior.information, _LINES, _ITERATIONS
+    )
+    moved = math.dist(found[:2], pose[:2]), abs(float(wrap_angle(found[2] - pose[2])))
+    if used < _FEWEST_ON_LINES or moved[0] > _MOST_M or moved[1] > _MOST_RAD:
+        return pose, information
+    return found, told
 
 
 def _best(

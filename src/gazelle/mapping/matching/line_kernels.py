@@ -1,0 +1,134 @@
+# mypy: ignore-errors
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0915, PLR0917
+"""The compiled inner loops of matching points with lines.
+
+Sums are float64 (height, width, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from
+the middle of the grid, so that squares stay small.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+__all__ = ["accumulate", "refine_on_lines"]
+
+
+@njit(cache=True, nogil=True)
+def accumulate(sums, x0, y0, cell, points):
+    """Add points, (n, 2), to the sums of their cells."""
+    height, width = sums.shape[0], sums.shape[1]
+    mx, my = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
+    for i in range(points.shape[0]):
+        column = math.floor((points[i, 0] - x0) / cell)
+        row = math.floor((points[i, 1] - y0) / cell)
+        if 0 <= column < width and 0 <= row < height:
+            x, y = points[i, 0] - mx, points[i, 1] - my
+            cells = sums[row, column]
+            cells[0] += 1.0
+            cells[1] += x
+            cells[2] += y
+            cells[3] += x * x
+            cells[4] += x * y
+            cells[5] += y * y
+
+
+@njit(cache=True, nogil=True)
+def _line(sums, row, column, fewest, widest, out):
+    """Fit a line to the points of 3 × 3 cells; out is its point and normal. Tells if it is one."""
+    n = sx = sy = sxx = sxy = syy = 0.0
+    for a in range(row - 1, row + 2):
+        for b in range(column - 1, column + 2):
+            n += sums[a, b, 0]
+            sx += sums[a, b, 1]
+            sy += sums[a, b, 2]
+            sxx += sums[a, b, 3]
+            sxy += sums[a, b, 4]
+            syy += sums[a, b, 5]
+    if n < fewest:
+        return False
+    mx, my = sx / n, sy / n
+    vxx, vxy, vyy = sxx / n - mx * mx, sxy / n - mx * my, syy / n - my * my
+    middle, half = 0.5 * (vxx + vyy), 0.5 * (vxx - vyy)
+    spread = math.sqrt(half * half + vxy * vxy)
+    across, along = max(0.0, middle - spread), middle + spread
+    if across > widest * widest or across > 0.15 * along:
+        return False
+    angle = 0.5 * math.atan2(2 * vxy, vxx - vyy)
+    out[0], out[1], out[2], out[3] = mx, my, -math.sin(angle), math.cos(angle)
+    return True
+
+
+@njit(cache=True, nogil=True)
+def refine_on_lines(sums, x0, y0, cell, points, guess, prior, information, told, iterations):
+    """Minimise the distances of points from the lines around them, and from a prior.
+
+    Args:
+        sums: see the module.
+        x0: lower left corner, metres.
+        y0: the same.
+        cell: side of a cell, metres.
+        points: in the robot's frame, (n, 2).
+        guess: pose to begin with.
+        prior: pose that is expected.
+        information: of it, (3, 3).
+        told: standard deviation of a distance (m), farthest that counts (m), fewest points of a
+            line, greatest standard deviation of points across one (m).
+        iterations: at most.
+
+    Returns:
+        The pose, the information of the distances, and how many points have lines.
+    """
+    height, width = sums.shape[0], sums.shape[1]
+    middle_x, middle_y = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
+    sigma, farthest, fewest, widest = told[0], told[1], told[2], told[3]
+    pose = guess.copy()
+    data = np.zeros((3, 3))
+    slope = np.zeros(3)
+    line = np.zeros(4)
+    used = 0
+    for _ in range(iterations):
+        data[:] = 0.0
+        slope[:] = 0.0
+        used = 0
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        for i in range(points.shape[0]):
+            rx = c * points[i, 0] - s * points[i, 1]
+            ry = s * points[i, 0] + c * points[i, 1]
+            x, y = rx + pose[0], ry + pose[1]
+            column, row = math.floor((x - x0) / cell), math.floor((y - y0) / cell)
+            if column < 1 or row < 1 or column >= width - 1 or row >= height - 1:
+                continue
+            if not _line(sums, row, column, fewest, widest, line):
+                continue
+            nx, ny = line[2], line[3]
+            off = nx * (x - middle_x - line[0]) + ny * (y - middle_y - line[1])
+            if abs(off) > farthest:
+                continue
+            # Tukey's biweight.
+            share = 1.0 - (off / farthest) ** 2
+            weight = share * share / (sigma * sigma)
+            nt = ny * rx - nx * ry
+            used += 1
+            data[0, 0] += weight * nx * nx
+            data[0, 1] += weight * nx * ny
+            data[0, 2] += weight * nx * nt
+            data[1, 1] += weight * ny * ny
+            data[1, 2] += weight * ny * nt
+            data[2, 2] += weight * nt * nt
+            slope[0] -= weight * nx * off
+            slope[1] -= weight * ny * off
+            slope[2] -= weight * nt * off
+        data[1, 0], data[2, 0], data[2, 1] = data[0, 1], data[0, 2], data[1, 2]
+        away = pose - prior
+        away[2] = (away[2] + math.pi) % (2 * math.pi) - math.pi
+        normal = data + information
+        for k in range(3):
+            normal[k, k] += 1e-3 + 1e-6 * normal[k, k]
+        step = np.linalg.solve(normal, slope - information @ away)
+        pose += step
+        if abs(step[0]) < 1e-4 and abs(step[1]) < 1e-4 and abs(step[2]) < 1e-5:
+            break
+    return pose, data, used
