@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
@@ -12,14 +13,17 @@ from gazelle.nodes.slam.names import SLAM_NAMES
 from gazelle.nodes.view_names import VIEWS
 
 if TYPE_CHECKING:
-    import threading
-
     from gazelle.graph import Graph
     from gazelle.nodes.arguments import NodeArguments
 
     NodeFunction = Callable[[NodeArguments, Graph, threading.Event], int]
 
 __all__ = ["BuiltinNode", "builtin_node", "builtin_nodes", "builtin_types"]
+
+
+# Python 3.11 fails now and then to parse two modules at once, which a host that starts several nodes
+# would ask of it where modules are parsed anew, as pytest does.
+_IMPORTING = threading.RLock()
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +51,8 @@ class BuiltinNode:
     def load(self) -> Callable[..., Any]:
         """Import and return the function."""
         module, _, function = self.target.partition(":")
-        return getattr(import_module(module), function)  # type: ignore[no-any-return]
+        with _IMPORTING:
+            return getattr(import_module(module), function)  # type: ignore[no-any-return]
 
 
 _SERVER_NAMES = (
