@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 __all__ = ["BuiltinNode", "builtin_node", "builtin_nodes", "builtin_types"]
 
 
-# Python 3.11 fails now and then to parse two modules at once, which a host that starts several nodes
-# would ask of it where modules are parsed anew, as pytest does.
+# Python 3.11 fails now and then to parse two modules at once, which a host of several nodes would
+# ask of it where modules are parsed anew, as pytest does.
 _IMPORTING = threading.RLock()
 
 
