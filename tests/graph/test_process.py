@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph import Graph
+from gazelle.graph import Graph, ServiceUnavailableError
+from gazelle.interfaces import service_type
 
 NODE = """
 import sys, threading
@@ -23,6 +24,29 @@ node.create_publisher("chatter", "std_msgs/msg/String", latch=True)
 node.create_subscription("chatter", None, print)
 print("ready", graph.is_hub, flush=True)
 {end}
+"""
+
+CUT_OFF = """
+import os, socket, stat
+from gazelle.interfaces import service_type
+Trigger = service_type("std_srvs/srv/Trigger")
+count = 0
+def cut_off():
+    for number in range(1024):
+        try:
+            if stat.S_ISSOCK(os.fstat(number).st_mode):
+                with socket.socket(fileno=os.dup(number)) as own:
+                    if {port} not in (own.getpeername()[1], own.getsockname()[1]):
+                        own.shutdown(socket.SHUT_RDWR)
+        except OSError:
+            pass
+def handle(request):
+    global count
+    count += 1
+    {does}
+    return Trigger.Response(success=True, message=str(count))
+node.create_service("work", Trigger, handle)
+threading.Event().wait(60)
 """
 
 Start = Callable[..., "subprocess.Popen[str]"]
@@ -105,3 +129,23 @@ def test_stopped_subscriber_stalls_nobody_and_comes_back(
     eventually(lambda: not publisher.matched)
     eventually(lambda: publisher.matched)
     eventually(lambda: graph.node_names() == ("/listener", "/talker"))
+
+
+def test_call_outlives_the_loss_of_its_link_and_is_handled_once(
+    graph: Graph, port: int, start: Start
+) -> None:
+    start("server", CUT_OFF.format(port=port, does="cut_off()"))
+    kind = service_type("std_srvs/srv/Trigger")
+    client = graph.create_node("caller").create_client("work", kind)
+    for count in ("1", "2"):
+        assert client.wait_for_service(30.0)
+        assert client.call(kind.Request()).message == count
+
+
+def test_call_ends_with_its_server(graph: Graph, port: int, start: Start) -> None:
+    start("server", CUT_OFF.format(port=port, does="os._exit(1)"))
+    kind = service_type("std_srvs/srv/Trigger")
+    client = graph.create_node("caller").create_client("work", kind)
+    assert client.wait_for_service(30.0)
+    with pytest.raises(ServiceUnavailableError, match="work"):
+        client.call(kind.Request())

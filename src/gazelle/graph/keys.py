@@ -26,6 +26,7 @@ __all__ = [
     "parameter_key",
     "ros_type",
     "service_key",
+    "service_selector",
     "token",
     "token_selector",
     "topic_key",
@@ -249,6 +250,12 @@ def token(domain: int, entity: Entity) -> str:
 def token_selector(domain: int) -> str:
     """Return the expression that matches every token of a domain."""
     return f"{_SPACE}/{domain}/**"
+
+
+def service_selector(domain: int, name: str, type_name: str) -> str:
+    """Return the expression that matches the tokens of all servers of a service."""
+    topic = name.replace("/", "%")
+    return f"{_SPACE}/{domain}/*/*/*/{Kind.SERVICE}/%/*/*/{topic}/{dds_type(type_name)}/**"
 
 
 def entity_gid(token_text: str) -> bytes:

@@ -17,7 +17,7 @@ from typing import Any
 
 from gazelle.graph.config import client_config
 
-__all__ = ["Relinker"]
+__all__ = ["Relinker", "hub_knows"]
 
 _PAUSE_S = (0.3, 0.6)
 _ASK_S = 1.0
@@ -64,18 +64,22 @@ class Relinker:
                 _cut(self._port)
 
     def _lives(self, zid: str) -> bool:
-        """Ask the hub as a client would: peers are told of nobody they have no link to."""
-        import zenoh
+        return hub_knows(self._port, f"@ros2_lv/*/{zid}/**")
 
-        try:
-            session: Any = zenoh.open(client_config(self._port))
-        except zenoh.ZError:
-            return False
-        replies = session.liveliness().get(f"@ros2_lv/*/{zid}/**", timeout=_ASK_S)
-        # All of them are taken: one that finds the channel full would hold up the close.
-        lives = sum(reply.ok is not None for reply in replies) > 0
-        session.close()
-        return lives
+
+def hub_knows(port: int, selector: str) -> bool:
+    """Ask the hub for liveliness tokens, as a client: peers know only whom they have a link to."""
+    import zenoh
+
+    try:
+        session: Any = zenoh.open(client_config(port))
+    except zenoh.ZError:
+        return False
+    replies = session.liveliness().get(selector, timeout=_ASK_S)
+    # All of them are taken: one that finds the channel full would hold up the close.
+    lives = sum(reply.ok is not None for reply in replies) > 0
+    session.close()
+    return lives
 
 
 def _cut(port: int) -> None:

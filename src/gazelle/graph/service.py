@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 import traceback
@@ -18,7 +19,17 @@ from gazelle.graph.errors import (
     ServiceUnavailableError,
     coded,
 )
-from gazelle.graph.keys import Attachment, Entity, Kind, entity_gid, service_key, token
+from gazelle.graph.keys import (
+    Attachment,
+    Entity,
+    Kind,
+    entity_gid,
+    service_key,
+    service_selector,
+    token,
+)
+from gazelle.graph.relink import hub_knows
+from gazelle.graph.repeats import Answer, Repeats
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
@@ -27,8 +38,11 @@ __all__ = ["ServiceClient", "ServiceServer"]
 
 _ERROR_ENCODING = "text/plain;service-error"
 _FOR_EVER_S = 1e6
-_SETTLING_S = 1.0
 _RETRY_S = 0.02
+_SETTLING_S = 5.0
+_LOOK_S = 0.3
+_GONE_S = 2.0
+_BACK_S = 30.0
 
 
 class ServiceServer:
@@ -55,6 +69,7 @@ class ServiceServer:
         self._with_caller = with_caller
         self._on_error = on_error
         self._closed = False
+        self._repeats = Repeats()
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
         self._key = service_key(graph.domain, self.name, entity.type_name, entity.type_hash)
@@ -76,27 +91,31 @@ class ServiceServer:
         ).start()
 
     def _answer(self, query: Any) -> None:
-        try:
-            answer, error = self._response_to(query), ""
-        except ServiceRefusedError as refused:
-            answer, error = b"", str(refused)
-        except Exception as raised:  # noqa: BLE001 - a user's handler may raise anything
-            answer, error = b"", f"error processing request: {raised}"
-            if not isinstance(raised, GazelleError):
-                self._on_error(
-                    f"Error processing request: {raised}\n{traceback.format_exc().rstrip()}"
-                )
+        asked = _attachment_of(query)
+        answer, error = self._repeats.answer(
+            asked.gid, asked.sequence, lambda: self._handled(query)
+        )
         if self._closed:
             return
         if answer:
-            attached = query.attachment
-            sequence = Attachment.from_bytes(attached.to_bytes() if attached else b"").sequence
-            attachment = Attachment(sequence, time.time_ns(), self._gid)
+            attachment = Attachment(asked.sequence, time.time_ns(), self._gid)
             query.reply(self._key, answer, attachment=attachment.to_bytes())
         else:
             error = error or "service cannot process request: service handler returned None"
             query.reply_err(error, encoding=_ERROR_ENCODING)
         query.drop()
+
+    def _handled(self, query: Any) -> Answer:
+        try:
+            return self._response_to(query), ""
+        except ServiceRefusedError as refused:
+            return b"", str(refused)
+        except Exception as raised:  # noqa: BLE001 - a user's handler may raise anything
+            if not isinstance(raised, GazelleError):
+                self._on_error(
+                    f"Error processing request: {raised}\n{traceback.format_exc().rstrip()}"
+                )
+            return b"", f"error processing request: {raised}"
 
     def _response_to(self, query: Any) -> bytes:
         """Return the response's bytes, none when the handler gave no response."""
@@ -115,9 +134,7 @@ class ServiceServer:
         return wire.encode(response)
 
     def _caller_of(self, query: Any) -> str:
-        attached = query.attachment
-        gid = Attachment.from_bytes(attached.to_bytes() if attached else b"").gid
-        entity = self._graph.entity_with_gid(gid)
+        entity = self._graph.entity_with_gid(_attachment_of(query).gid)
         return "" if entity is None else entity.node
 
 
@@ -134,17 +151,19 @@ class ServiceClient:
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
         self._key = service_key(graph.domain, self.name, entity.type_name, "*")
-        self._sequence = 0
+        self._selector = service_selector(graph.domain, self.name, entity.type_name)
+        self._numbers = itertools.count(1)
+        self._seen_s = -_FOR_EVER_S
         self._token: Any = graph.session.liveliness().declare_token(text)
 
     @property
     def available(self) -> bool:
         """True when somebody offers the service."""
-        return self._graph.has_service(self.name)
+        return self._noted(self._graph.has_service(self.name))
 
     def wait_for_service(self, timeout_s: float | None = None) -> bool:
         """Wait until somebody offers the service; False when time is up first."""
-        return self._graph.wait_for_service(self.name, timeout_s)
+        return self._noted(self._graph.wait_for_service(self.name, timeout_s))
 
     def call(self, request: Any, timeout_s: float | None = None) -> Any:
         """Send a request and wait for the response.
@@ -173,17 +192,46 @@ class ServiceClient:
             raise ServiceUnavailableError(f"service [{self.name}]: {error}") from error
 
     def _call(self, payload: bytes, timeout_s: float | None) -> Any:
-        start = time.monotonic()
+        """Ask until there is an answer: links are lost, and servers know what they did already."""
+        attachment = Attachment(next(self._numbers), time.time_ns(), self._gid).to_bytes()
+        deadline_s = time.monotonic() + (_FOR_EVER_S if timeout_s is None else timeout_s)
+        self._noted(self._is_offered(self._graph.discovery.known()))
+        lost_s = 0.0
         while True:
-            reply = self._ask(payload, _FOR_EVER_S if timeout_s is None else timeout_s)
+            asked_s = time.monotonic()
+            left_s = max(deadline_s - asked_s, _RETRY_S)
+            reply = self._ask(payload, attachment, left_s)
             if reply is not None:
                 return self._read(reply, timeout_s)
-            servers = self._servers()
-            types = {one.type_name for one in servers}
-            if self.entity.type_name not in types or time.monotonic() - start > _SETTLING_S:
-                raise self._unavailable(types)
+            now_s = time.monotonic()
+            was_asked = self._noted(now_s - asked_s > _SETTLING_S)
+            lost_s = now_s if was_asked or not lost_s else lost_s
+            if now_s > deadline_s:
+                raise self._late(timeout_s)
+            self._await_server(now_s - lost_s)
+
+    def _await_server(self, since_s: float) -> None:
+        """Wait before the next question.
+
+        Raises:
+            ServiceUnavailableError: it would be of no use.
+        """
+        servers = self._servers()
+        if self._noted(self._is_offered(servers)):
             # The announcement of a new service can overtake the service itself.
+            if since_s > _SETTLING_S:
+                raise self._unavailable()
             time.sleep(_RETRY_S)
+            return
+        was_there = not servers and time.monotonic() - self._seen_s < since_s + _BACK_S
+        if not was_there or self._closed or since_s > _BACK_S:
+            raise self._unavailable()
+        if self._graph.discovery.wait_for(self._is_offered, _LOOK_S) or since_s < _GONE_S:
+            return
+        with self._graph.calls.waiting():
+            is_there = hub_knows(self._graph.port, self._selector)
+        if not is_there:
+            raise self._unavailable()
 
     def unregister(self) -> None:
         """Give the client up; calling it twice does nothing."""
@@ -192,11 +240,9 @@ class ServiceClient:
             self._token.undeclare()
             self._graph.forget(self)
 
-    def _ask(self, payload: bytes, timeout_s: float) -> Any:
+    def _ask(self, payload: bytes, attachment: bytes, timeout_s: float) -> Any:
         if self._closed:
             raise ServiceUnavailableError(f"service [{self.name}]: this client was closed")
-        self._sequence += 1
-        attachment = Attachment(self._sequence, time.time_ns(), self._gid).to_bytes()
         replies: Iterable[Any] = self._graph.session.get(
             self._key, payload=payload, attachment=attachment, timeout=timeout_s
         )
@@ -211,15 +257,27 @@ class ServiceClient:
         if str(reply.err.encoding) == _ERROR_ENCODING:
             raise ServiceCallError(f"service [{self.name}] responded with an error: {text}")
         if timeout_s is not None and text == "Timeout":
-            raise ServiceTimeoutError(f"service [{self.name}] did not answer in {timeout_s:g} s")
+            raise self._late(timeout_s)
         raise ServiceCallError(f"transport error completing service call: {text}")
 
     def _servers(self) -> list[Entity]:
         entities = self._graph.entities()
         return [one for one in entities if one.kind is Kind.SERVICE and one.name == self.name]
 
-    def _unavailable(self, types: set[str]) -> GraphError:
-        own = self.entity.type_name
+    def _noted(self, is_there: bool) -> bool:
+        if is_there:
+            self._seen_s = time.monotonic()
+        return is_there
+
+    def _is_offered(self, entities: Iterable[Entity]) -> bool:
+        wanted = (Kind.SERVICE, self.name, self.entity.type_name)
+        return any((one.kind, one.name, one.type_name) == wanted for one in entities)
+
+    def _late(self, timeout_s: float | None) -> GraphError:
+        return ServiceTimeoutError(f"service [{self.name}] did not answer in {timeout_s:g} s")
+
+    def _unavailable(self) -> GraphError:
+        own, types = self.entity.type_name, {one.type_name for one in self._servers()}
         text = f"service [{self.name}] unavailable"
         if types - {own}:
             text += f": it has type {min(types - {own})}, the client wants {own}"
@@ -229,3 +287,8 @@ class ServiceClient:
             nearest = nearest_names(self.name, names)
             text += f"; did you mean {' or '.join(nearest)}?" if nearest else ""
         return ServiceUnavailableError(text)
+
+
+def _attachment_of(query: Any) -> Attachment:
+    attached = query.attachment
+    return Attachment.from_bytes(attached.to_bytes() if attached else b"")
