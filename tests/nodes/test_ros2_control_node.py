@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -39,10 +40,14 @@ def _publish(bench: Any, plugin: str) -> Any:
     return publisher
 
 
-def test_mock_arm_follows_a_trajectory(bench: Any, tmp_path: Path) -> None:
+def test_mock_arm_follows_a_trajectory(
+    bench: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     file = tmp_path / "controllers.yaml"
-    file.write_text(_PARAMETERS)
-    _publish(bench, "mock_components/GenericSystem")
+    # As launch files write it: for every node of the process.
+    text = json.dumps(_ROBOT.format(plugin="mock_components/GenericSystem"))
+    head = f"/**:\n  ros__parameters:\n    robot_description: {text}"
+    file.write_text(f"{head}\n{_PARAMETERS}")
     bench.start(_NODE, "--ros-args", "--params-file", str(file))
     states = bench.listen("/joint_states", "sensor_msgs/msg/JointState")
     bench.start("controller_manager/spawner", "states", "arm", "--ros-args")
@@ -64,6 +69,8 @@ def test_mock_arm_follows_a_trajectory(bench: Any, tmp_path: Path) -> None:
     )
     assert [one.name for one in hardware.component] == ["arm"]
     assert bench.stop() == [0, 0]
+    # Mock hardware is what is wanted where there is no world.
+    assert "[control." not in capsys.readouterr().err
 
 
 def test_hardware_of_a_world_is_refused(bench: Any, capsys: pytest.CaptureFixture[str]) -> None:

@@ -21,6 +21,36 @@ _PATIENCE_S = 120.0
 _KIND = action_type("moveit_msgs/MoveGroup")
 
 
+# Document LUCK has GenericSystem behind use_sim:=false, and no launch file for it.
+_WITHOUT_SIMULATOR = """
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from moveit_configs_utils import MoveItConfigsBuilder
+
+
+def generate_launch_description():
+    config = f"{get_package_share_directory('luck_robot')}/config"
+    mappings = {
+        "use_sim": "false", "initial_positions_file": f"{config}/initial_positions.yaml",
+    }
+    built = MoveItConfigsBuilder("luck_description", package_name="luck_robot")
+    moveit_config = built.robot_description(mappings=mappings).to_moveit_configs()
+    description = moveit_config.robot_description
+    controllers = f"{get_package_share_directory('luck_gazebo')}/config/controllers.yaml"
+    return LaunchDescription([
+        Node(package="robot_state_publisher", executable="robot_state_publisher",
+             parameters=[description]),
+        Node(package="controller_manager", executable="ros2_control_node", output="screen",
+             parameters=[description, controllers]),
+        Node(package="controller_manager", executable="spawner", output="screen",
+             arguments=["joint_state_broadcaster", "test_group_controller"]),
+        Node(package="moveit_ros_move_group", executable="move_group", output="screen",
+             parameters=[moveit_config.to_dict()]),
+    ])
+"""
+
+
 class _Arm:
     """The launched arm with a client of move_group."""
 
@@ -30,20 +60,36 @@ class _Arm:
         self.client = ActionClient(launched.node, "/move_action", _KIND)
         assert self.client.wait_for_server(_PATIENCE_S)
 
-    def go(self, positions: list[float], *, plan_only: bool = False) -> Any:
+    def go(self, positions: list[float]) -> Any:
         """Plan to positions of the joints, execute, and return the result."""
-        goal: Any = _KIND.Goal()
         rows = [
             {"joint_name": name, "position": value, "tolerance_above": 1e-4,
              "tolerance_below": 1e-4, "weight": 1.0}
             for name, value in zip(_JOINTS, positions, strict=True)
         ]  # fmt: skip
+        return self._go({"joint_constraints": rows})
+
+    def go_to_point(self, point: tuple[float, float, float]) -> Any:
+        """Plan to a place of link_6, m, execute, and return the result."""
+        pose = {"position": dict(zip("xyz", point, strict=True)), "orientation": {"w": 1.0}}
+        region = {"primitives": [{"type": 2, "dimensions": [0.001]}], "primitive_poses": [pose]}
+        place = {"link_name": "link_6", "header": {"frame_id": "world"}, "weight": 1.0}
+        return self._go({"position_constraints": [place | {"constraint_region": region}]})
+
+    def hardware(self) -> Any:
+        """Return what the controllers drive."""
+        return self.launched.call(
+            "/controller_manager/list_hardware_components",
+            "controller_manager_msgs/srv/ListHardwareComponents",
+        ).component
+
+    def _go(self, constraints: dict[str, Any]) -> Any:
+        goal: Any = _KIND.Goal()
         fill(goal.request, {
             "group_name": "test_group", "num_planning_attempts": 1, "allowed_planning_time": 10.0,
             "max_velocity_scaling_factor": 1.0, "max_acceleration_scaling_factor": 1.0,
-            "goal_constraints": [{"joint_constraints": rows}],
+            "goal_constraints": [constraints],
         })  # fmt: skip
-        goal.planning_options.plan_only = plan_only
         sent = self.client.send_goal(goal)
         assert sent.wait(_PATIENCE_S), self.launched.text
         return sent.result
@@ -91,7 +137,30 @@ def test_arm_goes_to_ready_around_an_obstacle_and_says_why_it_cannot(
         "ros2", "launch", "luck_gazebo", "gazebo_moveit.launch.py", cwd=workspaces_dir / "ros2_ws"
     )
     arm = _Arm(launched)
+    _goes_to_ready_and_home_around_a_lamp(arm)
+    _says_why_it_cannot(arm)
+    assert launched.stop() == 0
 
+
+def test_arm_without_a_simulator_does_the_same(
+    gazelle: Callable[..., Any], workspaces_dir: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "luck_mock.launch.py"
+    file.write_text(_WITHOUT_SIMULATOR, encoding="utf-8")
+    launched = gazelle("ros2", "launch", str(file), cwd=workspaces_dir / "ros2_ws")
+    first = launched.messages({"/joint_states": 1}, _PATIENCE_S)["/joint_states"][0]
+    assert list(first.position) == _HOME
+    arm = _Arm(launched)
+    types = {row.plugin_name or row.class_type for row in arm.hardware()}
+    assert types == {"mock_components/GenericSystem"}
+    assert arm.positions() == _HOME
+    _goes_to_ready_and_home_around_a_lamp(arm)
+    _says_why_it_cannot(arm)
+    assert launched.stop() == 0
+    assert "[WARN]" not in launched.text and ": warning:" not in launched.text
+
+
+def _goes_to_ready_and_home_around_a_lamp(arm: _Arm) -> None:
     result = arm.go(_READY)
     assert result.error_code.val == 1, result.error_code
     assert arm.positions() == pytest.approx(_READY, abs=0.01)
@@ -117,7 +186,9 @@ def test_arm_goes_to_ready_around_an_obstacle_and_says_why_it_cannot(
         )
         assert seen.valid, seen.contacts
 
-    # What cannot be is told with MoveIt's code and with what is in the way.
+
+def _says_why_it_cannot(arm: _Arm) -> None:
+    """What cannot be is told with MoveIt's code and with what is in the way."""
     at_ready = arm.tip(_READY)
     scene = {"is_diff": True, "world": {"collision_objects": [_box("safe", at_ready, 0.1)]}}
     assert arm.call("/apply_planning_scene", "ApplyPlanningScene", scene=scene).success
@@ -125,6 +196,12 @@ def test_arm_goes_to_ready_around_an_obstacle_and_says_why_it_cannot(
     assert result.error_code.val == -12
     assert "object 'safe'" in result.error_code.message
     assert "link 'link_" in result.error_code.message
-    launched.wait_for_line("GOAL_IN_COLLISION: goal: .* collides with ")
+    arm.launched.wait_for_line("GOAL_IN_COLLISION: goal: .* collides with ")
+    result = arm.go_to_point((3.0, 0.0, 0.5))
+    assert result.error_code.val == -31
+    assert "nothing" in result.error_code.message or "no configuration" in result.error_code.message
+    assert "link 'link_6' at (3.000, 0.000, 0.500) m" in result.error_code.message
+    result = arm.go([9.0, *_READY[1:]])
+    assert result.error_code.val == -16
+    assert "joint 'joint_1' is at 9, outside [-3.14, 3.14]" in result.error_code.message
     assert arm.positions() == pytest.approx(_HOME, abs=0.01)
-    assert launched.stop() == 0

@@ -99,7 +99,7 @@ class ManagerClient:
             return (
                 "there is no controller manager at all: the robot's description needs the plug-in "
                 "libgazebo_ros_control.so or libgazebo_ros2_control.so, and the robot must be "
-                "spawned"
+                "spawned; without a simulation ros2_control_node must run"
             )
         nearest = nearest_names(self.name, found) or found
         return f"controller managers are: {', '.join(nearest)}"

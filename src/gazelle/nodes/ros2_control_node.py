@@ -116,9 +116,8 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
         manager=name,
         overrides={name: given},
     )
-    robot = build_ros2_robot(
-        host, _with_mocks_only(model, host.diagnostics), SystemOptions(False, True, 0.0, rate_hz)
-    )
+    options = SystemOptions(False, True, 0.0, rate_hz, has_world=False)
+    robot = build_ros2_robot(host, _with_mocks_only(model, host.diagnostics), options)
     manager = ControllerManager(
         robot,
         namespace=node.namespace,

@@ -37,12 +37,14 @@ class SystemOptions(NamedTuple):
         hold_joints: joints without a claimed command stand still.
         position_proportional_gain: gz-sim's: share of the error made up for in a period.
         update_rate_hz: of the control loop.
+        has_world: False where there is no simulation, and mock hardware is what is wanted.
     """
 
     is_gz: bool
     hold_joints: bool = True
     position_proportional_gain: float = 0.1
     update_rate_hz: float = 100.0
+    has_world: bool = True
 
 
 class GazeboSystem:

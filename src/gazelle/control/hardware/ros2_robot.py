@@ -74,7 +74,8 @@ class _Builder:
         if plugin not in _KNOWN:
             self._report_unknown(tag)
         elif plugin in _MOCK:
-            self._report_elsewhere(tag, "it mirrors commands and moves nothing")
+            if self._options.has_world:
+                self._report_elsewhere(tag, "it mirrors commands and moves nothing")
             self._add_mock(tag)
         else:
             is_gz = plugin in _GZ
