@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -56,9 +58,6 @@ def test_entry_point_of_a_package_is_called_as_its_script_would(
 def test_code_on_the_command_line_says_which_messages_it_wants(
     package: Path, first: str, name: str
 ) -> None:
-    import subprocess
-    import sys
-
     from gazelle.launch.environment import drop_in_folder
 
     code = f"from std_msgs.msg import Header\nimport {first}\nHeader().stamp.{name}"
@@ -72,3 +71,18 @@ def test_code_on_the_command_line_says_which_messages_it_wants(
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_a_traceback_begins_in_the_users_file(tmp_path: Path) -> None:
+    script = tmp_path / "dies.py"
+    script.write_text("def work():\n    return [].pop()\nwork()\n")
+    words = [sys.executable, "-m", "gazelle.compat.runner", str(script)]
+    ran = subprocess.run(words, capture_output=True, text=True, check=False)
+    lines = ran.stderr.splitlines()
+    assert ran.returncode == 1
+    assert lines[:2] == [
+        "Traceback (most recent call last):",
+        f'  File "{script}", line 3, in <module>',
+    ]
+    assert lines[-1] == "IndexError: pop from empty list"
+    assert "/gazelle/" not in ran.stderr

@@ -6,7 +6,7 @@ import os
 import sys
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, TracebackType
 
 from gazelle.compat.finder import install
 from gazelle.compat.python2 import compile_source
@@ -23,6 +23,7 @@ def main(words: list[str]) -> int:
         sys.stderr.write("usage: python -m gazelle.compat.runner SCRIPT [args…]\n")
         return 2
     end_with_parent()
+    sys.excepthook = _tell
     drop_ins = str(drop_in_folder())
     if drop_ins not in sys.path:
         sys.path.insert(1, drop_ins)
@@ -52,6 +53,19 @@ def run_script(path: Path, argv: list[str]) -> int:
     sys.path[0] = os.path.realpath(path.parent)
     exec(code, module.__dict__)  # noqa: S102 - running the user's node is the purpose
     return 0
+
+
+def _tell(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    """Print a traceback that begins in the user's file, as when Python itself runs it."""
+    ours = str(Path(__file__).parents[1])
+    first = trace
+    while first is not None and _file(first).startswith((ours, "<frozen")):
+        first = first.tb_next
+    sys.__excepthook__(kind, error.with_traceback(first or trace), first or trace)
+
+
+def _file(trace: TracebackType) -> str:
+    return trace.tb_frame.f_code.co_filename
 
 
 def _entry_point(path: Path, wanted: str = "") -> tuple[Path, str, str] | None:

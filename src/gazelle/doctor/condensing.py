@@ -75,12 +75,13 @@ def _replaced(
     ]
 
 
+_NOT_HERE = ("launch.package-missing", "ros2_launch.package-missing")
+
+
 def _packages(findings: list[Diagnostic], known: frozenset[str]) -> list[Diagnostic]:
     """Tell packages that are not here from names that are wrong."""
     group = [
-        item
-        for item in findings
-        if item.code == "launch.package-missing" and _is_elsewhere(_package(item), known)
+        item for item in findings if item.code in _NOT_HERE and _is_elsewhere(_package(item), known)
     ]
     if not group:
         return findings

@@ -11,9 +11,12 @@ from typing import Any
 
 import pytest
 
+from gazelle.diagnostics import Diagnostic
 from gazelle.launch.ros2 import LaunchContext, LaunchDescription, LaunchService, logging
+from gazelle.launch.ros2.actions import IncludeLaunchDescription
 
 Run = Callable[..., "Ran"]
+Include = Callable[..., tuple[int, list[Diagnostic], str]]
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,23 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
         return Ran(code, capsys.readouterr().out, service.context)
 
     return run_entities
+
+
+@pytest.fixture
+def include(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Include:
+    """Includes a file in a launch: exit code, findings and all text on the terminal."""
+
+    def run(name: str, text: str, **given: str) -> tuple[int, list[Diagnostic], str]:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        service = LaunchService()
+        action = IncludeLaunchDescription(str(path), launch_arguments=given.items())
+        service.include_launch_description(LaunchDescription([action]))
+        code = service.run()
+        shown = capsys.readouterr()
+        return code, list(service.context.diagnostics), shown.out + shown.err
+
+    return run
 
 
 @pytest.fixture

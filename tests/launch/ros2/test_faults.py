@@ -28,23 +28,6 @@ _CAUGHT = "Caught exception in launch (see debug for traceback): "
 Include = Callable[..., tuple[int, list[Diagnostic], str]]
 
 
-@pytest.fixture
-def include(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Include:
-    """Includes a file in a launch: exit code, findings and all text on the terminal."""
-
-    def run(name: str, text: str, **given: str) -> tuple[int, list[Diagnostic], str]:
-        path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
-        service = LaunchService()
-        action = IncludeLaunchDescription(str(path), launch_arguments=given.items())
-        service.include_launch_description(LaunchDescription([action]))
-        code = service.run()
-        shown = capsys.readouterr()
-        return code, list(service.context.diagnostics), shown.out + shown.err
-
-    return run
-
-
 @pytest.mark.parametrize(
     ("entity", "code", "message"),
     [
@@ -117,7 +100,7 @@ def test_python_errors_show_the_users_line(
     assert re.search(message, diagnostic.message)
     assert diagnostic.span is not None
     included = code == "ros2_launch.argument-missing"
-    assert diagnostic.span.file.endswith("test_faults.py" if included else "faulty.launch.py")
+    assert diagnostic.span.file.endswith("conftest.py" if included else "faulty.launch.py")
     assert included or diagnostic.span.line == _LINE
     assert included or f"{_LINE} |         {entity}" in text
     assert f"[ERROR] [launch]: {_CAUGHT}" in text
@@ -179,7 +162,7 @@ def test_a_syntax_error_is_shown_with_its_column(include: Include) -> None:
         (
             "a.launch.xml",
             "<launch>\n <log\n</launch>",
-            "ros2_launch.exception",
+            "ros2_launch.bad-file",
             "a.launch.xml:3",
             3,
         ),
@@ -193,9 +176,47 @@ def test_a_syntax_error_is_shown_with_its_column(include: Include) -> None:
         (
             "a.launch.yaml",
             "launch:\n- log:\n    message: a\n- log:\n    mesage: b\n",
-            "ros2_launch.exception",
-            "Can not find attribute 'message' in Entity 'log'",
+            "ros2_launch.bad-element",
+            "log lacks its attribute message: Can not find attribute 'message' in Entity 'log'",
             4,
+        ),
+        (
+            "a.launch.xml",
+            '<launch>\n  <log mesage="a" message="b"/>\n</launch>',
+            "ros2_launch.bad-element",
+            "{'mesage'}; did you mean 'message'",
+            2,
+        ),
+        (
+            "a.launch.xml",
+            '<launch>\n  <node pkg="a" type="b"/>\n</launch>',
+            "ros2_launch.bad-element",
+            "node lacks its attribute exec",
+            2,
+        ),
+        ("a.launch.xml", "<robot/>", "ros2_launch.bad-file", "Expected 'launch' as root tag", 1),
+        (
+            "a.launch.xml",
+            "<launch>\n  <log message=\"$(eval '1 +')\"/>\n</launch>",
+            "ros2_launch.exception",
+            "invalid syntax.*in the expression: 1 [+]",
+            2,
+        ),
+        (
+            "a.launch.yaml",
+            "launch:\n- log:\n    message: a\n    mesage: b\n",
+            "ros2_launch.bad-element",
+            "{'mesage'}; did you mean 'message'",
+            2,
+        ),
+        ("a.launch.yaml", "", "ros2_launch.bad-file", "Expected only one root", 1),
+        ("a.launch.yaml", "launch:\n- log:\n\tm: a\n", "ros2_launch.bad-file", "character '.t'", 3),
+        (
+            "a.launch.yaml",
+            "launch:\n- log:\n    message: a: b\n",
+            "ros2_launch.bad-file",
+            "not YAML: mapping values are not allowed here",
+            3,
         ),
         (
             "a.launch.yaml",
@@ -207,8 +228,8 @@ def test_a_syntax_error_is_shown_with_its_column(include: Include) -> None:
         (
             "a.launch.yaml",
             "launch:\n- [\n",
-            "ros2_launch.exception",
-            "while parsing a flow node",
+            "ros2_launch.bad-file",
+            "not YAML: .*while parsing a flow node",
             3,
         ),
         (

@@ -64,6 +64,66 @@ ENTRIES = (
         "[Errno 2] No such file or directory",
     ),
     Entry(
+        "ros2_launch.bad-file",
+        "error",
+        "A file is no launch file",
+        "It cannot be read as Python, XML or YAML, or it does not return a launch description.",
+        "mend it at the place shown",
+        "The launch file may have a syntax error, or its format is unknown",
+    ),
+    Entry(
+        "ros2_launch.import",
+        "error",
+        "A launch file imports what is not here",
+        "launch, launch_ros and message packages are here; other packages have to be in the "
+        "workspace, or installed.",
+        "correct the name, or put the package into the workspace",
+        "ModuleNotFoundError: No module named",
+    ),
+    Entry(
+        "ros2_launch.package-missing",
+        "error",
+        "A package that a launch file names is not found",
+        "Packages are found in the workspace, among those that Gazelle brings, and in an "
+        "installed ROS.",
+        "correct the name, or put the package's sources into the workspace's src",
+        "PackageNotFoundError: package not found, searching",
+    ),
+    Entry(
+        "ros2_launch.executable-missing",
+        "error",
+        "The executable of a node does not exist",
+        "Neither the package, nor the nodes of Gazelle, nor an installed ROS has it.",
+        "correct executable=, or add the script: in scripts/ with an executable bit, or as "
+        "console_scripts in setup.py",
+        "executable not found on the libexec directory",
+    ),
+    Entry(
+        "ros2_launch.bad-name",
+        "error",
+        "A node or namespace has a name that ROS does not allow",
+        "Names are letters, digits and _, and do not begin with a digit.",
+        "correct the name",
+        "must not contain characters other than alphanumerics or '_'",
+    ),
+    Entry(
+        "ros2_launch.parameter-value",
+        "error",
+        "A value is none that a parameter can have",
+        "Parameters are bools, numbers, texts and lists of one of them; a text is read as YAML.",
+        "a text that is no YAML, such as a robot description: ParameterValue(…, value_type=str) of "
+        "launch_ros.parameter_descriptions",
+        "If the parameter is meant to be a string, try wrapping it in",
+    ),
+    Entry(
+        "ros2_launch.parameter-file",
+        "warning",
+        "A file of parameters does not exist",
+        "The node starts without it, with its own defaults, as in ROS 2.",
+        "correct the path",
+        "Parameter file path is not a file",
+    ),
+    Entry(
         "ros2_launch.include-cycle",
         "error",
         "Launch files include each other without end",

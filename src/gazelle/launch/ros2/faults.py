@@ -9,6 +9,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan, did_you_mean
 from gazelle.launch.environment import ROS_COMMANDS
 from gazelle.launch.ros2.conditions import InvalidConditionExpressionError
+from gazelle.launch.ros2.explaining import Explained, explain
 from gazelle.launch.ros2.place import kept_place, raising_place
 from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
 
@@ -16,16 +17,6 @@ __all__ = ["diagnose", "not_started", "with_diagnostic"]
 
 _ATTRIBUTE = "_gazelle_diagnostic"
 _LONGEST_LETTERS = 3
-# What an error of the launch itself says, and the code of it.
-_PHRASES = {
-    "Required launch argument": "ros2_launch.argument-missing",
-    "Included launch description missing required argument": "ros2_launch.argument-missing",
-    "is not valid. Valid options are": "ros2_launch.argument-choice",
-    "Unrecognized entity of the type": "ros2_launch.bad-element",
-    "Unknown substitution": "ros2_launch.bad-element",
-    "Unexpected": "ros2_launch.bad-element",
-    "launch files include each other without end": "ros2_launch.include-cycle",
-}
 
 
 def with_diagnostic(
@@ -51,8 +42,9 @@ def diagnose(error: BaseException) -> list[Diagnostic]:
         if own is not None:
             found.add(own)
             continue
-        message = f"{type(cause).__name__}: {cause}"
-        found.report(_code(cause), message, _place(cause, error))
+        known = explain(cause) or Explained(_code(cause))
+        message = known.message or f"{type(cause).__name__}: {cause}"
+        found.report(known.code, message, _place(cause, error), fix=known.fix)
     return list(found)
 
 
@@ -97,10 +89,7 @@ def _code(error: BaseException) -> str:
         return "ros2_launch.bad-condition"
     if isinstance(error, FileNotFoundError) and raising_place(error) is None:
         return "ros2_launch.file-missing"
-    text = str(error)
-    return next(
-        (code for phrase, code in _PHRASES.items() if phrase in text), "ros2_launch.exception"
-    )
+    return "ros2_launch.exception"
 
 
 def _place(cause: BaseException, error: BaseException) -> SourceSpan | None:

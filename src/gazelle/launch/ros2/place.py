@@ -13,7 +13,14 @@ from types import FrameType
 
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["calling_place", "keep_place", "kept_place", "raising_place", "written_at"]
+__all__ = [
+    "calling_place",
+    "is_the_users",
+    "keep_place",
+    "kept_place",
+    "raising_place",
+    "written_at",
+]
 
 _OURS = str(Path(__file__).parents[2])
 # Also the folder of commands such as gazelle.
@@ -43,7 +50,7 @@ def calling_place() -> SourceSpan | None:
         return element
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
-        if _is_the_users(frame.f_code.co_filename):
+        if is_the_users(frame.f_code.co_filename):
             return SourceSpan(frame.f_code.co_filename, frame.f_lineno)
         frame = frame.f_back
     return None
@@ -52,12 +59,14 @@ def calling_place() -> SourceSpan | None:
 def raising_place(error: BaseException) -> SourceSpan | None:
     """Return the innermost line of the user's own files in a traceback."""
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
-        return SourceSpan(error.filename, error.lineno, error.offset or 0)
+        place = SourceSpan(error.filename, error.lineno, error.offset or 0)
+        # That of a text, such as an expression, has the line of whoever gave the text.
+        return place if is_the_users(error.filename) else None
     frames = [
         (frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)
     ]
     for file, line in reversed(frames):
-        if _is_the_users(file):
+        if is_the_users(file):
             return SourceSpan(file, line)
     return None
 
@@ -74,5 +83,6 @@ def kept_place(error: BaseException) -> SourceSpan | None:
     return place
 
 
-def _is_the_users(file: str) -> bool:
+def is_the_users(file: str) -> bool:
+    """Return whether code is the user's, not Gazelle's nor a library's."""
     return not file.startswith(_NOT_THE_USERS) and not file.startswith("<")

@@ -197,7 +197,7 @@ def test_what_nodes_cannot_be_ends_the_launch(
 def test_missing_executables_are_told_with_what_there_is(run: Run, package: Path) -> None:
     ran = run(a.Node(package="demo", executable="shwo"))
     (found,) = ran.context.diagnostics.errors
-    assert ran.code == 1 and found.code == "launch.executable-missing"
+    assert ran.code == 1 and found.code == "ros2_launch.executable-missing"
     assert "Cannot locate node of type [shwo] in package [demo]" in found.message
     assert "did you mean 'show'?" in found.fix
     assert found.span.file == __file__
@@ -208,7 +208,7 @@ def test_missing_packages_are_told_with_the_nearest(run: Run, package: Path) -> 
     errors: list[Any] = []
     ran = run(a.Node(package="dmeo", executable="show"))
     errors += ran.context.diagnostics.errors
-    assert [one.code for one in errors] == ["launch.package-missing"]
+    assert [one.code for one in errors] == ["ros2_launch.package-missing"]
     assert "package 'dmeo' not found; did you mean 'demo'?" in errors[0].message
     assert "Caught exception in launch (see debug for traceback): package 'dmeo'" in ran.text
     assert issubclass(PackageNotFoundError, KeyError)
@@ -220,6 +220,37 @@ def test_launch_goes_on_without_compiled_nodes(run: Run, package: Path) -> None:
     assert len(_words(ran)) == 1
     (found,) = ran.context.diagnostics.errors
     assert found.code == "launch.compiled-node"
+    assert "build it with colcon" in found.fix
+
+
+def test_a_file_of_parameters_that_is_not_there_is_told(run: Run, package: Path) -> None:
+    (package / "driver.yaml").write_text("")
+    ran = run(_show(parameters=[str(package / "drivers.yaml")]))
+    (found,) = ran.context.diagnostics
+    assert (ran.code, found.code) == (0, "ros2_launch.parameter-file")
+    assert str(found.severity) == "warning"
+    assert found.fix == "did you mean 'driver.yaml'?"
+    assert found.span is not None and found.span.file == __file__
+    assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: " in ran.text
+
+
+@pytest.mark.parametrize(
+    ("package_name", "what"),
+    [
+        ("usb_cam", "the driver of a real camera"),
+        ("rosbridge_server", "rosbridge_server is a bridge to programs outside of ROS"),
+        ("rqt_xyz", "rqt_xyz is a panel of rqt"),
+        ("nav2_bringup", "put navigation2's folder into src"),
+        ("some_robot", "put the package's sources into the workspace's src"),
+    ],
+)
+def test_packages_of_ros_that_are_not_here_are_explained(
+    run: Run, package: Path, package_name: str, what: str
+) -> None:
+    ran = run(a.Node(package=package_name, executable="node"))
+    (found,) = ran.context.diagnostics.errors
+    assert found.code == "ros2_launch.package-missing"
+    assert what in found.fix
 
 
 @_row

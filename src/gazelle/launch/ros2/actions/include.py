@@ -114,7 +114,8 @@ class IncludeLaunchDescription(Action):
                 )
                 error = RuntimeError(f"{message}; {hint}" if hint else message)
                 # Of the command line's own include no line is the user's.
-                keep_place(error, self.place or argument.place)
+                inner = includes[-1].place if includes else self.place
+                keep_place(error, inner or argument.place)
                 raise error
 
     def _argument_names(self, context: LaunchContext) -> list[str]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.description.xml import Tag, attribute_span, parse_xml
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
@@ -55,8 +55,11 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected nested tag(s) found in `{tag.name}`: {_set(children)}")
         attributes = set(tag.attributes) - self.__read_attributes
         if attributes:
-            error = ValueError(f"Unexpected attribute(s) found in `{tag.name}`: {_set(attributes)}")
-            keep_place(error, attribute_span(tag.span, sorted(attributes)[0], whole=True))
+            first = sorted(attributes)[0]
+            hint = did_you_mean(first, sorted(self.__read_attributes))
+            text = f"Unexpected attribute(s) found in `{tag.name}`: {_set(attributes)}"
+            error = ValueError(f"{text}; {hint}" if hint else text)
+            keep_place(error, attribute_span(tag.span, first, whole=True))
             raise error
 
     def get_attr(
@@ -87,10 +90,10 @@ class Entity(BaseEntity):
         return found
 
     def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        self.__read_attributes |= {name, f"{name}-sep"}
         attributes = self.__tag.attributes
         if name not in attributes:
             return None
-        self.__read_attributes |= {name, f"{name}-sep"}
         separator = attributes.get(f"{name}-sep")
         value = attributes[name] if separator is None else attributes[name].split(separator)
         try:

@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from gazelle.diagnostics import SourceSpan
+from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
@@ -49,6 +49,7 @@ class Entity(BaseEntity):
         self.__type_name = type_name
         self.__parent = parent
         self.__read_keys: set[str] = set()
+        self.__asked_keys: set[str] = set()
         self.__children_called = False
         self.place: SourceSpan | None = getattr(element, "place", None)
         if self.place is None and parent is not None:
@@ -114,8 +115,11 @@ class Entity(BaseEntity):
             return
         unread = set(self.__element) - self.__read_keys if isinstance(self.__element, dict) else ()
         if unread:
-            names = ", ".join(f"'{name}'" for name in sorted(map(str, unread)))
-            raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {{{names}}}")
+            wrong = sorted(map(str, unread))
+            names = ", ".join(f"'{name}'" for name in wrong)
+            text = f"Unexpected key(s) found in `{self.type_name}`: {{{names}}}"
+            hint = did_you_mean(wrong[0], sorted(self.__asked_keys))
+            raise ValueError(f"{text}; {hint}" if hint else text)
 
     def get_attr(
         self,
@@ -131,6 +135,7 @@ class Entity(BaseEntity):
             AttributeError: it is not there.
             TypeError: it has another type.
         """
+        self.__asked_keys.add(name)
         if not isinstance(self.__element, dict) or name not in self.__element:
             if optional:
                 return None
@@ -176,7 +181,8 @@ class Parser(BaseParser):
             raise
         if not isinstance(tree, dict) or len(tree) != 1:
             problem = RuntimeError("Expected only one root")
-            keep_place(problem, getattr(tree, "place", None))
+            begin = SourceSpan(str(getattr(file, "name", "<string>")), 1)
+            keep_place(problem, getattr(tree, "place", None) or begin)
             raise problem
         [(name, value)] = tree.items()
         entity = Entity(value, str(name))

@@ -70,13 +70,18 @@ def get_launch_description_from_python_launch_file(
     module = load_python_launch_file_as_module(path)
     function = getattr(module, _FUNCTION, None)
     if function is None:
-        hint = did_you_mean(_FUNCTION, sorted(vars(module)))
+        hint = did_you_mean(_FUNCTION, _functions(module))
         message = f"launch file at '{path}' does not contain the required function '{_FUNCTION}()'"
         raise _invalid(f"{message}; {hint}" if hint else message, SourceSpan(path))
-    description: Any = function()
+    code = getattr(function, "__code__", None)
+    place = SourceSpan(path, code.co_firstlineno if code is not None else 0)
+    try:
+        description: Any = function()
+    except TypeError as error:
+        # That of a call without arguments is raised here, not in the user's file.
+        keep_place(error, place)
+        raise
     if not isinstance(description, LaunchDescription):
-        code = getattr(function, "__code__", None)
-        place = SourceSpan(path, code.co_firstlineno if code is not None else 0)
         kind = type(description).__name__
         hint = " (is a return missing?)" if description is None else ""
         raise _invalid(
@@ -122,6 +127,12 @@ def get_launch_description_from_any_launch_file(
         else:
             return found
     raise InvalidLaunchFileError(extension, likely_errors=errors)
+
+
+def _functions(module: ModuleType) -> list[str]:
+    """Return the names of functions that a launch file defines itself."""
+    own = {name: getattr(one, "__module__", "") for name, one in vars(module).items()}
+    return sorted(name for name, where in own.items() if where == module.__name__)
 
 
 def _check_exists(path: str) -> None:

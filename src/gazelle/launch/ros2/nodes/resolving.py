@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import shlex
 import stat
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
+from gazelle.launch.elsewhere import replacement_of
 from gazelle.launch.environment import command_folder
 from gazelle.launch.executables import Executable, find_executable, script_command
 from gazelle.launch.ros2.faults import with_diagnostic
@@ -22,6 +24,7 @@ __all__ = ["NodeCommand", "node_command", "wrapper_script"]
 
 _COMPILED = "launch.compiled-node"
 _NO_PACKAGE = "launch.package-missing"
+_BUILD = "build it with colcon and source its workspace, or write the node in Python with rclpy"
 
 
 class NodeCommand(NamedTuple):
@@ -76,13 +79,20 @@ def node_command(
         return NodeCommand(found.command, program, found)
     missing = diagnostics.errors[0]
     if missing.code == _COMPILED:
-        context.tell(missing)
+        context.tell(replace(missing, fix=_BUILD))
         return None
     if missing.code == _NO_PACKAGE:
         error: Exception = PackageNotFoundError(f"package '{package}' not found")
+        code, fix = "ros2_launch.package-missing", replacement_of(package)
     else:
         error = SubstitutionFailure(f"executable '{executable}' not found in package '{package}'")
-    raise with_diagnostic(error, missing.code, missing.message, missing.span, fix=missing.fix)
+        code, fix = "ros2_launch.executable-missing", _near(missing)
+    raise with_diagnostic(error, code, missing.message, missing.span, fix=fix)
+
+
+def _near(missing: Diagnostic) -> str:
+    """Return the names like the one that is missing, or nothing."""
+    return missing.fix if missing.fix.startswith("did you mean") else ""
 
 
 def wrapper_script(command: NodeCommand) -> Path:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import importlib
 import shlex
+import shutil
 import subprocess
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2 import logging as launch_logging
+from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.frontend import expose_substitution
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure, counted, described
@@ -70,7 +72,8 @@ class Command(Substitution):
             )
         except (OSError, ValueError, IndexError) as error:
             what = "file not found" if isinstance(error, FileNotFoundError) else "cannot run"
-            raise SubstitutionFailure(f"{what}: {error}. Command: {line}") from error
+            failure = SubstitutionFailure(f"{what}: {error}. Command: {line}")
+            raise failure.explained(fix=_missing_blank(line)) from error
         _check(result, line, on_stderr)
         return result.stdout
 
@@ -80,14 +83,34 @@ def _check(result: subprocess.CompletedProcess[str], line: str, on_stderr: str) 
         message = f"executed command failed. Command: {line}"
         if result.stderr:
             message += f"\nCaptured stderr output: {result.stderr}"
-        raise SubstitutionFailure(message)
+        raise _failed(message, f"the command failed with exit code {result.returncode}", result)
     if not result.stderr or on_stderr == "ignore":
         return
     message = f"executed command showed stderr output. Command: {line}"
     message += f"\nCaptured stderr output:\n{result.stderr}"
     if on_stderr == "fail":
-        raise SubstitutionFailure(message)
+        raise _failed(message, "the command wrote to stderr, which counts as failure", result)
     launch_logging.get_logger().warning(message)
+
+
+def _failed(
+    message: str, what: str, result: subprocess.CompletedProcess[str]
+) -> SubstitutionFailure:
+    """Return the error about a command: what it wrote stands in the log line above."""
+    line = shlex.join(result.args)
+    first = (result.stderr or result.stdout).strip().partition("\n")[0]
+    return SubstitutionFailure(message).explained(
+        short=f"{what}: {line}" + (f": {first}" if first else ""),
+        fix=f"run it by hand: {line}",
+    )
+
+
+def _missing_blank(line: str) -> str:
+    """Return what to write when a command and its first argument are one word."""
+    program = line.partition("/")[0]
+    if program.strip() == program and program and shutil.which(program):
+        return f"Command joins its words as they are: write '{program} ', with a blank behind it"
+    return ""
 
 
 @expose_substitution("eval")
@@ -133,5 +156,13 @@ class PythonExpression(Substitution):
             if name == "math":
                 names.update(vars(module))
             names[name] = module
-        # A launch file is a program anyway: this reads what it says.
-        return str(eval(perform_substitutions(context, self.expression), {}, names))  # noqa: S307
+        expression = perform_substitutions(context, self.expression)
+        try:
+            # A launch file is a program anyway: this reads what it says.
+            return str(eval(expression, {}, names))  # noqa: S307
+        except Exception as error:
+            kind, fix = type(error).__name__, ""
+            if isinstance(error, NameError):
+                fix = f"if '{error.name}' is a text, put quotes around it in the expression"
+            keep_explanation(error, f"{kind}: {error}, in the expression: {expression}", fix)
+            raise

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.substitution import Substitution
 
 __all__ = ["SubstitutionFailure", "counted", "described"]
@@ -12,6 +13,11 @@ __all__ = ["SubstitutionFailure", "counted", "described"]
 
 class SubstitutionFailure(RuntimeError):  # noqa: N818 - the name users catch
     """A substitution has no value."""
+
+    def explained(self, *, short: str = "", fix: str = "") -> SubstitutionFailure:
+        """Return the error with what people are told of it."""
+        keep_explanation(self, short, fix)
+        return self
 
 
 def described(substitutions: Iterable[Substitution]) -> str:

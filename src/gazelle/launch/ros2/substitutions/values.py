@@ -62,7 +62,9 @@ class LaunchConfiguration(Substitution):
             return perform_substitutions(context, self.__default)
         hint = did_you_mean(name, sorted(context.launch_configurations))
         message = f"launch configuration '{name}' does not exist"
-        raise SubstitutionFailure(f"{message}; {hint}" if hint else message)
+        raise SubstitutionFailure(f"{message}; {hint}" if hint else message).explained(
+            fix=f"declare it before this line: DeclareLaunchArgument('{name}', default_value=…)"
+        )
 
 
 @expose_substitution("env")
@@ -106,7 +108,9 @@ class EnvironmentVariable(Substitution):
         if name in context.environment:
             return context.environment[name]
         if self.default_value is None:
-            raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+            raise SubstitutionFailure(f"environment variable '{name}' does not exist").explained(
+                fix=f"export {name}=… in the shell before the launch, or give a default_value"
+            )
         return perform_substitutions(context, self.default_value)
 
 

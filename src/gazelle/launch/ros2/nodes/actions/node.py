@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import yaml
 
+from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
@@ -94,6 +95,7 @@ class Node(ExecuteProcess):
         given = {"executable": executable, "name": name, "namespace": namespace}
         given, kwargs = newer_names(type(self).__name__, given, kwargs, _OLD_NAMES)
         if given["executable"] is None:
+            check_keywords(type(self), kwargs)
             raise TypeError("Node() missing 1 required keyword-only argument: 'executable'")
         check_keywords(type(self), kwargs)
         check_lists(parameters=parameters, remappings=remappings, arguments=arguments)
@@ -205,10 +207,18 @@ class Node(ExecuteProcess):
         if isinstance(given, dict):
             return ["--params-file", str(self._write_parameters(given))]
         if not given.is_file():
-            logger = launch_logging.get_logger("launch_ros.actions.node")
-            logger.warning(f"Parameter file path is not a file: {given}")
+            self.__tell_of_file(context, Path(given))
             return []
         return ["--params-file", str(given)]
+
+    def __tell_of_file(self, context: LaunchContext, path: Path) -> None:
+        message = f"Parameter file path is not a file: {path}"
+        launch_logging.get_logger("launch_ros.actions.node").warning(message)
+        names = [one.name for one in path.parent.iterdir()] if path.parent.is_dir() else []
+        found = Diagnostics()
+        fix = did_you_mean(path.name, sorted(names))
+        found.report("ros2_launch.parameter-file", message, self.place, fix=fix)
+        context.tell(next(iter(found)))
 
     def _write_parameters(self, values: dict[str, Any]) -> Path:
         name = self.node_name if self.is_node_name_fully_specified() else "/**"

@@ -1,0 +1,57 @@
+"""Packages of ROS that are not here: what they are, and what does their work."""
+
+from __future__ import annotations
+
+__all__ = ["replacement_of"]
+
+_DRIVER = "the driver of a real {}, which a simulation does not need: {}"
+_CAMERA = _DRIVER.format("camera", "a <sensor type='camera'> publishes its topics")
+_LIDAR = _DRIVER.format("laser scanner", "a <sensor type='gpu_lidar'> or 'ray' publishes its scan")
+_BRIDGE = "a bridge to programs outside of ROS; `gazelle bridge` is one"
+_VIEW = "a window that is not here; `rviz2` opens Studio, which shows the same topics"
+_PANEL = "a panel of rqt that is not here; `ros2 topic`, `ros2 param` and Studio show the same"
+_JOYSTICK = "for a joystick; `ros2 run teleop_twist_keyboard teleop_twist_keyboard` drives by keys"
+_MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
+_VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
+_FIRMWARE = "the firmware's link of a real robot; a simulated one publishes these topics itself"
+_CONTROL = "compiled code of ros2_control; `controller_manager` and its spawner are here"
+_MOVEIT = "compiled code of MoveIt; `moveit_ros_move_group` and MotionPlanning in Studio are here"
+_NAV2 = "compiled code of Nav2; its planner, controller, amcl and map_server are here"
+_BRINGUP = "launch files of Nav2: put navigation2's folder into src; its nodes are here"
+
+_KNOWN = {
+    **dict.fromkeys(("usb_cam", "v4l2_camera", "uvc_camera", "cv_camera", "camera_ros"), _CAMERA),
+    **dict.fromkeys(
+        ("realsense2_camera", "openni2_camera", "openni_launch", "zed_wrapper"), _CAMERA
+    ),
+    **dict.fromkeys(("depthai_ros_driver", "depthai_ros", "azure_kinect_ros_driver"), _CAMERA),
+    **dict.fromkeys(("rplidar_ros", "sllidar_ros2", "urg_node", "urg_node2", "ydlidar"), _LIDAR),
+    **dict.fromkeys(("sick_scan", "sick_scan2", "sick_scan_xd", "velodyne", "ld08_driver"), _LIDAR),
+    **dict.fromkeys(("velodyne_driver", "velodyne_pointcloud", "ouster_ros"), _LIDAR),
+    **dict.fromkeys(("hls_lfcd_lds_driver", "ydlidar_ros2_driver", "ldlidar_stl_ros2"), _LIDAR),
+    **dict.fromkeys(("rosbridge_server", "rosbridge_suite", "foxglove_bridge", "rosapi"), _BRIDGE),
+    **dict.fromkeys(("ros1_bridge", "web_video_server"), _BRIDGE),
+    **dict.fromkeys(("rqt_joint_trajectory_controller", "rqt_controller_manager"), _PANEL),
+    **dict.fromkeys(("plotjuggler", "plotjuggler_ros", "mapviz", "rviz_visual_tools"), _VIEW),
+    **dict.fromkeys(("joy", "joy_linux", "teleop_twist_joy", "joy_teleop", "spacenav"), _JOYSTICK),
+    **dict.fromkeys(("rtabmap_ros", "rtabmap_slam", "rtabmap_launch", "octomap_server"), _MAPPING),
+    **dict.fromkeys(("image_proc", "stereo_image_proc", "depth_image_proc"), _VISION),
+    **dict.fromkeys(("apriltag_ros", "aruco_ros", "find_object_2d", "yolo_ros"), _VISION),
+    **dict.fromkeys(
+        ("micro_ros_agent", "rosserial_python", "turtlebot3_node", "mavros"), _FIRMWARE
+    ),
+    **dict.fromkeys(("ros2_control_test_assets", "controller_interface"), _CONTROL),
+    **dict.fromkeys(("moveit_servo", "moveit_setup_assistant", "moveit_hybrid_planning"), _MOVEIT),
+    **dict.fromkeys(("nav2_collision_monitor", "nav2_loopback_sim", "opennav_docking"), _NAV2),
+    "nav2_bringup": _BRINGUP,
+    "twist_mux": "chooses one of several cmd_vel topics; remap one of them to the robot's",
+}
+_FAMILIES = {"rqt_": _PANEL}
+
+
+def replacement_of(package: str) -> str:
+    """Return what a package of ROS is and what replaces it here; empty when that is not known."""
+    known = _KNOWN.get(package, "")
+    if not known:
+        known = next((text for start, text in _FAMILIES.items() if package.startswith(start)), "")
+    return f"{package} is {known}" if known.startswith(("the ", "a ", "compiled")) else known
