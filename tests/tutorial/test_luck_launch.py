@@ -21,8 +21,8 @@ _HARDWARE = ("mock_components/GenericSystem", "gazebo_ros2_control/GazeboSystem"
 # Of the launch file: seconds, and what starts then.
 _TIMES = {"spawn_entity.py": 8.0, "spawner": 10.0, "move_group": 12.0, "rviz2": 17.0}
 # A machine that does other things starts processes late, the first one too.
-_LATE_S = 30.0
-_FIRST_LATE_S = 1.0
+_FIRST_LATE_S = 5.0
+_PATIENCE_S = 180.0
 _HAS_MOVEIT = (drop_in_folder() / "moveit_configs_utils").is_dir()
 _HAS_MOVE_GROUP = builtin_node("moveit_ros_move_group", "move_group") is not None
 needs_moveit = pytest.mark.skipif(
@@ -59,9 +59,10 @@ def test_arm_comes_up_in_the_order_of_its_timers_and_holds_its_pose(
     gazelle: Callable[..., Any], workspaces_dir: Path
 ) -> None:
     arm = gazelle(*_LAUNCH, cwd=workspaces_dir / "ros2_ws")
-    arm.wait_for_line(r"Spawn status: SpawnEntity: Successfully spawned entity \[luck_robot\]")
-    poses = arm.messages({"/joint_states": 1})["/joint_states"]
-    arm.wait_for_line("Configured and activated test_group_controller")
+    spawned = r"Spawn status: SpawnEntity: Successfully spawned entity \[luck_robot\]"
+    arm.wait_for_line(spawned, _PATIENCE_S)
+    poses = arm.messages({"/joint_states": 1}, _PATIENCE_S)["/joint_states"]
+    arm.wait_for_line("Configured and activated test_group_controller", _PATIENCE_S)
     assert max(map(abs, [*poses[0].position, *_positions(arm)])) < 1e-3
     listed = arm.call(
         "/controller_manager/list_controllers", "controller_manager_msgs/srv/ListControllers"
@@ -76,16 +77,18 @@ def test_arm_comes_up_in_the_order_of_its_timers_and_holds_its_pose(
     )
     types = {row.plugin_name or row.class_type for row in hardware.component}
     assert types == {_HARDWARE[1]}
-    arm.wait_for_line(r"\[rviz2-\d+\]: process started")
+    arm.wait_for_line(r"\[rviz2-\d+\]: process started", _PATIENCE_S)
+    started = {name: _started(arm, name) for name in _TIMES}
+    assert sorted(started, key=started.__getitem__) == list(_TIMES)
     for name, seconds in _TIMES.items():
-        late_s = _started(arm, name) - seconds
-        assert -_FIRST_LATE_S < late_s < _LATE_S, (name, late_s)
-    arm.eventually(lambda: {"/move_group", "/rviz2"} <= set(arm.graph.node_names()))
+        assert started[name] > seconds - _FIRST_LATE_S, started
+    nodes = {"/move_group", "/rviz2"}
+    arm.eventually(lambda: nodes <= set(arm.graph.node_names()), _PATIENCE_S)
     assert max(map(abs, _positions(arm))) < 1e-3
-    # Nothing of it is left, and nothing was complained about.
+    # Nothing was complained about, and nothing of it is left.
+    assert "[ERROR]" not in arm.text and ": error:" not in arm.text
     assert arm.stop() == 0
     assert arm.processes() == {}
-    assert "[ERROR]" not in arm.text and ": error:" not in arm.text
 
 
 def test_hardware_is_that_of_use_sim(gazelle: Callable[..., Any], workspaces_dir: Path) -> None:
