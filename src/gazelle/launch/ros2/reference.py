@@ -15,7 +15,9 @@ from gazelle.launch.ros2 import (
     event_handlers,
     events,
     launch_description_sources,
+    nav2,
     nodes,
+    ros_gz,
     substitutions,
     testing,
 )
@@ -47,6 +49,8 @@ _SECTIONS: dict[str, ModuleType] = {
     "launch_ros.event_handlers": nodes.event_handlers,
     "launch_ros.events": nodes.events,
     "launch_ros.events.lifecycle": nodes.events.lifecycle,
+    "ros_gz_sim.actions, ros_gz_bridge.actions": ros_gz,
+    "nav2_common.launch": nav2,
     "launch_testing": testing,
     "launch_testing.actions": testing.actions,
     "launch_testing.asserts": asserts,

@@ -56,6 +56,7 @@ class Parser:
         importlib.import_module("gazelle.launch.ros2.substitutions")
         if importlib.util.find_spec("gazelle.launch.ros2.nodes") is not None:
             importlib.import_module("gazelle.launch.ros2.nodes")
+            importlib.import_module("gazelle.launch.ros2.ros_gz")
         _load(_EXTENSIONS)
 
     @classmethod

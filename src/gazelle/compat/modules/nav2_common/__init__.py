@@ -1,0 +1,1 @@
+"""Drop-in for nav2_common."""

@@ -1,0 +1,5 @@
+"""Drop-in for ros_gz_bridge.actions."""
+
+from gazelle.launch.ros2.ros_gz import RosGzBridge
+
+__all__ = ["RosGzBridge"]
