@@ -1,6 +1,6 @@
 """No broken map for any of 20 seeds and 20 sets of parameters around the defaults.
 
-python benchmarks/soak/slam_robustness.py ARCHIVE [RUNS]     (intel.npz)
+python benchmarks/soak/slam_robustness.py ARCHIVE [--runs N] [--first N] [--jobs N]   (intel.npz)
 
 A seed disturbs the log: odometry's steps by 2 cm and 1° and a share of 5 %, ranges by 1 cm, every
 50th scan is left out. A set of parameters multiplies each by 0.8 … 1.25. A map is broken when its
@@ -9,10 +9,13 @@ trajectory is more than 0.5 m off gmapping's, root mean square.
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -59,41 +62,55 @@ def varied(seed: int) -> SlamParameters:
     return replace(plain, **changed)
 
 
+class Case(NamedTuple):
+    """One map to make."""
+
+    path: Path
+    seed: int
+    is_disturbed: bool
+
+
 def main() -> int:
-    path = Path(sys.argv[1])
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 20
-    data, records = np.load(path), list(read_log(path, Diagnostics()))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("archive", type=Path)
+    parser.add_argument("--runs", type=int, default=20, help="seeds, and sets of parameters")
+    parser.add_argument("--first", type=int, default=0, help="the first of them")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    told = parser.parse_args()
+    seeds = range(told.first, told.first + told.runs)
+    cases = [Case(told.archive, seed, kind) for seed in seeds for kind in (True, False)]
     broken = 0
-    for seed in range(runs):
-        worse, kept = disturbed(records, seed)
-        cases = (
-            ("seed", worse, kept, SlamParameters()),
-            ("parameters", records, np.arange(len(records)), varied(seed)),
-        )
-        for name, log, indices, parameters in cases:
-            broken += _is_broken(f"{name} {seed}", log, data, indices, parameters)
-    print(f"{broken} of {2 * runs} maps are broken")
+    with ProcessPoolExecutor(told.jobs) as pool:
+        for off_m, line in pool.map(_mapped, cases):
+            print(line, flush=True)
+            broken += off_m > BROKEN_M
+    print(f"{broken} of {len(cases)} maps are broken")
     return 1 if broken else 0
 
 
-def _is_broken(
-    name: str, log: Sequence[LogRecord], data: object, indices: np.ndarray, told: SlamParameters
-) -> bool:
-    engine = Slam(told)
-    for record in log:
+def _mapped(case: Case) -> tuple[float, str]:
+    """Return how far the trajectory is from gmapping's, metres, and a line about it."""
+    data, records = np.load(case.path), list(read_log(case.path, Diagnostics()))
+    indices, parameters = np.arange(len(records)), SlamParameters()
+    if case.is_disturbed:
+        records, indices = disturbed(records, case.seed)
+    else:
+        parameters = varied(case.seed)
+    engine = Slam(parameters)
+    for record in records:
         engine.add(*record)
     engine.finish()
-    off_m = absolute_error_m(engine.trajectory(), data["ref"][indices])  # type: ignore[index]
+    off_m = absolute_error_m(engine.trajectory(), data["ref"][indices])
     place = {int(k): n for n, k in enumerate(indices)}
     rows = [
         (place[i], place[j], rel)
-        for i, j, rel in zip(data["ri"], data["rj"], data["rel"][:, [2, 3, 7]], strict=True)  # type: ignore[index]
+        for i, j, rel in zip(data["ri"], data["rj"], data["rel"][:, [2, 3, 7]], strict=True)
         if i in place and j in place
     ]
     first, second, relative = (np.array(column) for column in zip(*rows, strict=True))
     errors = relation_errors(engine.trajectory(), first, second, relative)
-    print(f"{name}: {off_m:.3f} m off gmapping, {errors}", flush=True)
-    return off_m > BROKEN_M
+    name = "seed" if case.is_disturbed else "parameters"
+    return off_m, f"{name} {case.seed}: {off_m:.3f} m off gmapping, {errors}"
 
 
 if __name__ == "__main__":

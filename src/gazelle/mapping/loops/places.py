@@ -10,6 +10,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.information import DOUBTFUL_M, DOUBTFUL_RAD, doubtful
 from gazelle.mapping.poses import Poses
 
 __all__ = ["Place", "places_near"]
@@ -17,6 +18,7 @@ __all__ = ["Place", "places_near"]
 _DRIFT_M = 0.1
 _DRIFT_M_PER_M = 0.02
 _SIGMAS = 3.0
+_DOUBTS = 1.5
 _NEAREST_M = 4.0
 _MOST_PLACES = 2
 _LOOP_LENGTH_M = 0.1
@@ -54,23 +56,32 @@ def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> 
     """
     last = len(poses) - 1
     far = np.hypot(*(poses[:, :2] - poses[last, :2]).T)
-    ways = _ways(edges, len(poses))
-    reach = np.clip(_SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways), 0.3, reach_m)
+    ways, doubts = _ways(edges, len(poses)), np.sqrt(_doubts(edges, len(poses)))
+    reach = _SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways) + _DOUBTS * DOUBTFUL_M * doubts
+    reach = np.clip(reach, 0.3, reach_m)
+    turn = _DRIFT_RAD + _DRIFT_RAD_PER_M * np.minimum(ways, _MOST_WAY_M)
+    turn = np.minimum(turn + _DOUBTS * DOUBTFUL_RAD * doubts, np.pi)
     wanted = np.flatnonzero((far < _NEAREST_M + reach) & (ways > gap_m))
     if not len(wanted):
         return []
     passes = np.split(wanted, np.flatnonzero(np.diff(wanted) > _SAME_PASS) + 1)
     nearest = [int(one[far[one].argmin()]) for one in passes]
     nearest.sort(key=lambda k: far[k] - reach[k])
-    return [
-        Place(k, float(reach[k]), float(_DRIFT_RAD + _DRIFT_RAD_PER_M * min(ways[k], _MOST_WAY_M)))
-        for k in nearest[:_MOST_PLACES]
-    ]
+    return [Place(k, float(reach[k]), float(turn[k])) for k in nearest[:_MOST_PLACES]]
 
 
 def _ways(edges: Edges, count: int) -> NDArray[np.float64]:
     """Return the shortest ways through the graph to the last pose, metres."""
     lengths = np.hypot(edges.relative[:, 0], edges.relative[:, 1]) + 1e-3
-    lengths = np.where(edges.is_loop, _LOOP_LENGTH_M, lengths)
+    return _shortest(edges, np.where(edges.is_loop, _LOOP_LENGTH_M, lengths), count)
+
+
+def _doubts(edges: Edges, count: int) -> NDArray[np.float64]:
+    """Return over how many doubtful relations, at least, one must go to the last pose."""
+    is_doubt = doubtful(edges.information) & ~edges.is_loop
+    return np.round(_shortest(edges, np.where(is_doubt, 1.0, 1e-6), count))
+
+
+def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     graph = csr_matrix((lengths, (edges.tail, edges.head)), shape=(count, count))
     return np.asarray(dijkstra(graph, directed=False, indices=count - 1))

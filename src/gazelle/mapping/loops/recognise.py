@@ -27,6 +27,7 @@ _PLACE_M = 6.0
 _PLACE_SCANS = 24
 _APART_M = 0.45
 _FEWEST_POINTS = 40
+_FEWEST_SCANS = 2
 _FIRST_REACH_M = 0.25
 _LEAST_DOUBT_M = 1.5
 _MUCH_BETTER = 0.08
@@ -39,6 +40,8 @@ def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) ->
     scans of a building resemble each other too often.
     """
     head = len(keyframes) - 1
+    if keyframes.tears.intersection(range(head - _FEWEST_SCANS, head + 1)):
+        return None
     points = _patch(keyframes, head)
     if len(points) < _FEWEST_POINTS:
         return None
@@ -105,9 +108,11 @@ def _around(keyframes: Keyframes, place: Place, head: int) -> list[int]:
 
 
 def _along(keyframes: Keyframes, start: int, step: int, reach_m: float) -> list[int]:
-    """Return keyframes from one on, forwards or back, some way apart from each other."""
+    """Return keyframes from one on, forwards or back, some way apart, as far as all is sure."""
     chosen, index, count = [start], start + step, len(keyframes)
     while 0 <= index < count and abs(keyframes[index].way_m - keyframes[start].way_m) < reach_m:
+        if max(index, index - step) in keyframes.tears:
+            break
         if abs(keyframes[index].way_m - keyframes[chosen[-1]].way_m) >= _APART_M:
             chosen.append(index)
         index += step

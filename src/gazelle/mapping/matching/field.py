@@ -5,16 +5,31 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.mapping.matching import kernels, line_kernels
 
-__all__ = ["Field", "field_of"]
+__all__ = ["Field", "Lines", "field_of"]
 
 _PARTS = 4
 _LINE_CELL_M = 0.1
+
+
+class Lines(NamedTuple):
+    """What lines walls are, from sums of the surfaces' points, see `line_kernels`.
+
+    Attributes:
+        places: int32 (height, width), which row of the sums is a cell's.
+        sums: (n, 6).
+        cell_m: side of a cell.
+    """
+
+    places: NDArray[np.int32]
+    sums: NDArray[np.float64]
+    cell_m: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,16 +40,14 @@ class Field:
         values: float32 (height, width) within [0, 1], row 0 lowest y.
         x_m, y_m: lower left corner.
         cell_m: side of a cell.
-        lines: sums of the surfaces' points, see `line_kernels`; None in coarse fields.
-        line_cell_m: side of their cells.
+        lines: of its surfaces, with the same corner; None in coarse fields.
     """
 
     values: NDArray[np.float32]
     x_m: float
     y_m: float
     cell_m: float
-    lines: NDArray[np.float64] | None = None
-    line_cell_m: float = 0.1
+    lines: Lines | None = None
 
     def pooled(self) -> Field:
         """Return it with cells twice as large, each the greatest of its four parts."""
@@ -69,9 +82,10 @@ def field_of(
     x0, y0 = center_m[0] - half_side_m, center_m[1] - half_side_m
     kernels.stamp(values, x0, y0, cell_m, points_m, _kernels(sigma_m, cell_m))
     across = math.ceil(side * cell_m / _LINE_CELL_M)
-    lines = np.zeros((across, across, 6))
-    line_kernels.accumulate(lines, x0, y0, _LINE_CELL_M, points_m)
-    return Field(values, x0, y0, cell_m, lines, _LINE_CELL_M)
+    places = np.zeros((across, across), np.int32)
+    sums = np.empty((len(points_m) + 1, 6))
+    used = line_kernels.accumulate(places, sums, x0, y0, _LINE_CELL_M, points_m)
+    return Field(values, x0, y0, cell_m, Lines(places, sums[:used], _LINE_CELL_M))
 
 
 @lru_cache(maxsize=16)

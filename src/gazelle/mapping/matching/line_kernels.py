@@ -2,8 +2,9 @@
 # ruff: noqa: ANN001, ANN201, ANN202, PLR0915, PLR0917
 """The compiled inner loops of matching points with lines.
 
-Sums are float64 (height, width, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from
-the middle of the grid, so that squares stay small.
+Sums are float64 (n, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from the middle
+of the grid, so that squares stay small. A grid of int32 says which row is a cell's; row 0, of empty
+cells, is zero. Walls fill few of the cells.
 """
 
 from __future__ import annotations
@@ -17,36 +18,53 @@ __all__ = ["accumulate", "refine_on_lines"]
 
 
 @njit(cache=True, nogil=True)
-def accumulate(sums, x0, y0, cell, points):
-    """Add points, (n, 2), to the sums of their cells."""
-    height, width = sums.shape[0], sums.shape[1]
+def accumulate(places, sums, x0, y0, cell, points):
+    """Add points, (n, 2), to the sums of their cells; return how many rows are in use.
+
+    Args:
+        places: int32 (height, width), zero at first, filled.
+        sums: (n + 1, 6), filled as far as it is used.
+        x0: lower left corner, metres.
+        y0: the same.
+        cell: side of a cell, metres.
+        points: (n, 2).
+    """
+    height, width = places.shape
     mx, my = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
+    sums[0] = 0.0
+    used = 1
     for i in range(points.shape[0]):
         column = math.floor((points[i, 0] - x0) / cell)
         row = math.floor((points[i, 1] - y0) / cell)
         if 0 <= column < width and 0 <= row < height:
+            if places[row, column] == 0:
+                places[row, column] = used
+                sums[used] = 0.0
+                used += 1
             x, y = points[i, 0] - mx, points[i, 1] - my
-            cells = sums[row, column]
+            cells = sums[places[row, column]]
             cells[0] += 1.0
             cells[1] += x
             cells[2] += y
             cells[3] += x * x
             cells[4] += x * y
             cells[5] += y * y
+    return used
 
 
 @njit(cache=True, nogil=True)
-def _line(sums, row, column, fewest, widest, out):
+def _line(places, sums, row, column, fewest, widest, out):
     """Fit a line to the points of 3 × 3 cells; out is its point and normal. Tells if it is one."""
     n = sx = sy = sxx = sxy = syy = 0.0
     for a in range(row - 1, row + 2):
         for b in range(column - 1, column + 2):
-            n += sums[a, b, 0]
-            sx += sums[a, b, 1]
-            sy += sums[a, b, 2]
-            sxx += sums[a, b, 3]
-            sxy += sums[a, b, 4]
-            syy += sums[a, b, 5]
+            cells = sums[places[a, b]]
+            n += cells[0]
+            sx += cells[1]
+            sy += cells[2]
+            sxx += cells[3]
+            sxy += cells[4]
+            syy += cells[5]
     if n < fewest:
         return False
     mx, my = sx / n, sy / n
@@ -62,11 +80,14 @@ def _line(sums, row, column, fewest, widest, out):
 
 
 @njit(cache=True, nogil=True)
-def refine_on_lines(sums, x0, y0, cell, points, guess, prior, information, told, iterations):
+def refine_on_lines(
+    places, sums, x0, y0, cell, points, guess, prior, information, told, iterations
+):
     """Minimise the distances of points from the lines around them, and from a prior.
 
     Args:
-        sums: see the module.
+        places: see the module.
+        sums: the same.
         x0: lower left corner, metres.
         y0: the same.
         cell: side of a cell, metres.
@@ -81,7 +102,7 @@ def refine_on_lines(sums, x0, y0, cell, points, guess, prior, information, told,
     Returns:
         The pose, the information of the distances, and how many points have lines.
     """
-    height, width = sums.shape[0], sums.shape[1]
+    height, width = places.shape
     middle_x, middle_y = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
     sigma, farthest, fewest, widest = told[0], told[1], told[2], told[3]
     pose = guess.copy()
@@ -101,7 +122,7 @@ def refine_on_lines(sums, x0, y0, cell, points, guess, prior, information, told,
             column, row = math.floor((x - x0) / cell), math.floor((y - y0) / cell)
             if column < 1 or row < 1 or column >= width - 1 or row >= height - 1:
                 continue
-            if not _line(sums, row, column, fewest, widest, line):
+            if not _line(places, sums, row, column, fewest, widest, line):
                 continue
             nx, ny = line[2], line[3]
             off = nx * (x - middle_x - line[0]) + ny * (y - middle_y - line[1])

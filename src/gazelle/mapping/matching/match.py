@@ -47,11 +47,13 @@ class Match:
         pose: in the field's frame.
         score: mean likelihood of the points, within [0, 1].
         information: inverse covariance of what the scan alone says, in the field's frame, (3, 3).
+        is_doubtful: another pose is about as likely.
     """
 
     pose: Poses
     score: float
     information: NDArray[np.float64]
+    is_doubtful: bool = False
 
 
 def match(
@@ -113,10 +115,11 @@ def _on_lines(
     """
     if field.lines is None:
         return pose, information
-    corner = (field.x_m, field.y_m, field.line_cell_m)
+    corner = (field.x_m, field.y_m, field.lines.cell_m)
     found, told, used = line_kernels.refine_on_lines(
-        field.lines, *corner, points_m, pose, prior.pose, prior.information, _LINES, _ITERATIONS
-    )
+        field.lines.places, field.lines.sums, *corner, points_m, pose, prior.pose,
+        prior.information, _LINES, _ITERATIONS,
+    )  # fmt: skip
     moved = math.dist(found[:2], pose[:2]), abs(float(wrap_angle(found[2] - pose[2])))
     if used < _FEWEST_ON_LINES or moved[0] > _MOST_M or moved[1] > _MOST_RAD:
         return pose, information

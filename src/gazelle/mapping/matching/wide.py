@@ -12,7 +12,7 @@ from gazelle.mapping.matching import kernels
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.poses import Poses
 
-__all__ = ["WideMatch", "wide_search"]
+__all__ = ["WideMatch", "best_of_sectors", "wide_search"]
 
 _DEEPEST = 7
 
@@ -48,21 +48,61 @@ def wide_search(
         reach_rad: the same for turns.
         least: mean value that must be exceeded.
     """
+    found = _searched(field, points_m, center, reach_m, reach_rad, least, sectors=1)
+    return found[0] if found else None
+
+
+def best_of_sectors(
+    field: Field,
+    points_m: NDArray[np.float64],
+    center: Poses,
+    *,
+    reach_m: float,
+    reach_rad: float,
+    sector_rad: float,
+    least: float,
+) -> list[WideMatch]:
+    """Return the best pose of every sector of turns, to a cell, as far as they exceed a value.
+
+    Args:
+        field: what is matched with; its cells are the steps of the search.
+        points_m: in the robot's frame, (n, 2).
+        center: of the window.
+        reach_m: half side of the window.
+        reach_rad: the same for turns.
+        sector_rad: width of a sector, about.
+        least: mean value that must be exceeded.
+    """
+    sectors = max(1, round(2 * reach_rad / sector_rad))
+    return _searched(field, points_m, center, reach_m, reach_rad, least, sectors=sectors)
+
+
+def _searched(
+    field: Field,
+    points_m: NDArray[np.float64],
+    center: Poses,
+    reach_m: float,
+    reach_rad: float,
+    least: float,
+    *,
+    sectors: int,
+) -> list[WideMatch]:
     if not len(points_m):
-        return None
+        return []
     reach = max(1, math.ceil(reach_m / field.cell_m))
     depth = min(_DEEPEST, max(1, int(math.log2(reach)) + 1))
     turns = _turns(points_m, field.cell_m, reach_rad)
-    cells = _cells(field, points_m, center, turns)
-    block = 1 << (depth - 1)
-    starts = np.arange(-reach, reach + 1, block)
+    levels = _levels(field.values, depth)
+    starts = np.arange(-reach, reach + 1, 1 << (depth - 1))
     offsets = np.stack(np.meshgrid(starts, starts), axis=-1).reshape(-1, 2).astype(np.int64)
-    found = kernels.bound_search(_levels(field.values, depth), cells, offsets, reach, least)
-    turn, columns, rows, value = found
-    if turn < 0:
-        return None
-    x, y = center[0] + columns * field.cell_m, center[1] + rows * field.cell_m
-    return WideMatch(np.array([x, y, center[2] + turns[turn]]), float(value))
+    found: list[WideMatch] = []
+    for part in np.array_split(turns, sectors):
+        cells = _cells(field, points_m, center, part)
+        turn, columns, rows, value = kernels.bound_search(levels, cells, offsets, reach, least)
+        if turn >= 0:
+            x, y = center[0] + columns * field.cell_m, center[1] + rows * field.cell_m
+            found.append(WideMatch(np.array([x, y, center[2] + part[turn]]), float(value)))
+    return found
 
 
 def _turns(points_m: NDArray[np.float64], cell_m: float, reach_rad: float) -> NDArray[np.float64]:

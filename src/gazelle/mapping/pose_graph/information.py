@@ -7,7 +7,12 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.poses import Poses
 
-__all__ = ["bounded", "seen_from"]
+__all__ = ["DOUBTFUL", "DOUBTFUL_M", "DOUBTFUL_RAD", "bounded", "doubtful", "seen_from"]
+
+DOUBTFUL_M = 0.5
+DOUBTFUL_RAD = 0.5
+DOUBTFUL = np.diag([DOUBTFUL_M**-2, DOUBTFUL_M**-2, DOUBTFUL_RAD**-2])
+"""Of relations that may be wrong, such as those of matches that are not the only ones."""
 
 _LEAST_SIGMA = np.diag([0.02**2, 0.02**2, 0.006**2])
 _FAINT = np.diag([1e-2, 1e-2, 1e-1])
@@ -21,6 +26,11 @@ def bounded(information: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     covariance = np.linalg.inv(information + _FAINT)
     return np.linalg.inv(covariance + _LEAST_SIGMA)
+
+
+def doubtful(information: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which of some relations, (m, 3, 3), may be wrong."""
+    return np.asarray(information[:, 2, 2] <= 1.01 * DOUBTFUL[2, 2])
 
 
 def seen_from(pose: Poses, information: NDArray[np.float64]) -> NDArray[np.float64]:

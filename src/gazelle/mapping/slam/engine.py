@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.matching.match import Match
 from gazelle.mapping.pose_graph.edges import Edges, no_edges
-from gazelle.mapping.pose_graph.information import bounded, seen_from
+from gazelle.mapping.pose_graph.information import DOUBTFUL, bounded, seen_from
 from gazelle.mapping.pose_graph.optimise import optimise
 from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.scans import Scan
@@ -109,6 +109,7 @@ class Slam:
         self._odometry: Poses | None = None
         self._pose = np.zeros(3)
         self._way_m = 0.0
+        self._is_doubtful = False
 
     @property
     def pose(self) -> Poses:
@@ -152,10 +153,12 @@ class Slam:
         expected = compose(self._pose, motion)
         found = self._tracker.locate(frame, expected, motion)
         self._pose = expected if found is None else found.pose
+        sees = len(frame.points_m) >= FEWEST_POINTS
+        self._is_doubtful |= sees and (found is None or found.is_doubtful)
         is_kept = self.is_mapping and self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
         has_closed = is_kept and self._keep(frame, found)
         self._track.add(scan.stamp_ns, self._pose)
-        if found is None and len(frame.points_m) >= FEWEST_POINTS:
+        if found is None and sees:
             self._track.note_lost(frame, odometry)
         elif was_lost and found is not None:
             self._track.find_lost(self._tracker, self._pose, odometry)
@@ -197,8 +200,12 @@ class Slam:
         before = self.keyframes.poses[tail].copy()
         relative = between(before, self._pose)
         information = motion_information(relative, self.parameters)
-        if found is not None:
+        if self._is_doubtful:
+            information = DOUBTFUL
+            self.keyframes.tears.add(tail + 1)
+        elif found is not None:
             information = bounded(seen_from(before, found.information) + information)
+        self._is_doubtful = False
         head = self.keyframes.append(frame, self._pose)
         self.edges = self.edges.with_edge(tail, head, relative, information, is_loop=False)
         self._tracker.forget()

@@ -58,11 +58,16 @@ def keyframe_of(scan: Scan, parameters: SlamParameters, way_m: float) -> Keyfram
 
 
 class Keyframes:
-    """All kept scans with where they are."""
+    """All kept scans with where they are.
+
+    Attributes:
+        tears: indices of those whose relation to the one before may be wrong.
+    """
 
     def __init__(self, parameters: SlamParameters) -> None:
         """Start empty."""
         self._parameters = parameters
+        self.tears: set[int] = set()
         self._frames: list[Keyframe] = []
         self._poses = np.zeros((256, 3))
 

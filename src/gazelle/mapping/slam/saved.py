@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.errors import GazelleError
 from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.engine import Slam
 from gazelle.mapping.slam.keyframes import keyframe_of
@@ -91,5 +92,7 @@ def _engine(columns: dict[str, Any], parameters: SlamParameters) -> Slam:
         engine.keyframes.append(frame, columns["poses"][k])
     names = Edges._fields
     engine.edges = Edges(*(columns[f"edge_{name}"] for name in names))
+    torn = doubtful(engine.edges.information) & ~engine.edges.is_loop
+    engine.keyframes.tears = set(engine.edges.head[torn].tolist())
     engine.resume(columns["poses"][-1])
     return engine

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Match, Prior, match, refined
-from gazelle.mapping.matching.wide import wide_search
 from gazelle.mapping.poses import Poses
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.weighing import surroundings, weighed
 
 __all__ = ["FEWEST_POINTS", "Tracker", "motion_information"]
 
@@ -25,16 +25,12 @@ _STILL_RAD = 0.03
 _GOOD_SCORE = 0.6
 _SUSPICIOUS = 0.8
 _FORGET = 0.05
-_BETTER = 0.1
 _BELIEVED = 0.85
-_UNBELIEVED = 0.45
 _WIDE_M = 1.0
 _WIDE_RAD = 1.2
 _LOST_M = 2.0
 _LOST_M_PER_SCAN = 1.0
 _LOST_MOST_M = 6.0
-_ALL_SCANS = 80
-_INSIDE = 0.9
 # A field reaches 2 m farther than beams do.
 _LEFT_M = 1.5
 
@@ -112,50 +108,33 @@ class Tracker:
             reach_m=reach_m, reach_rad=reach_rad, coarse=submap.coarse,
         )  # fmt: skip
         if found.score < _SUSPICIOUS * self._usual_score:
-            # Wheels slip and clocks differ.
+            # Wheels slip, clocks differ, and what is new to the last scans may be known of old.
             wide = max(_WIDE_M, reach_m), max(_WIDE_RAD, 2 * reach_rad)
-            least = found.score + _BETTER
-            # What is new to the last scans may have been seen long ago.
-            found = self._among_all(frame, expected, wide, least) or found
-        least = max(told.least_match, _UNBELIEVED * self._usual_score)
-        return found if found.score > least else None
+            return self._weighed(frame, expected, found.pose, wide)
+        return found if found.score > told.least_match else None
+
+    def _weighed(
+        self, frame: Keyframe, expected: Poses, guess: Poses, reach: tuple[float, float]
+    ) -> Match | None:
+        """Return the likeliest pose of a wide window among all that was seen around it."""
+        reach_m = frame.reach_m + reach[0]
+        around = surroundings(self._keyframes, expected, reach_m)
+        found = weighed(around, frame, expected, [guess], reach)
+        if found is not None and not found.is_doubtful:
+            return found
+        # What was seen long ago may not lie where it should yet.
+        around = surroundings(self._keyframes, expected, reach_m, self._parameters.submap_scans)
+        again = weighed(around, frame, expected, [guess], reach)
+        return found if again is None or (found and again.is_doubtful) else again
 
     def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
         """Return where a lost robot is, among all that was seen around where it may be."""
-        reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN)
-        return self._among_all(frame, expected, (reach, math.pi), 0.0)
-
-    def _among_all(
-        self, frame: Keyframe, expected: Poses, reach: tuple[float, float], least: float
-    ) -> Match | None:
-        """Return a match of a wide window with the nearest scans of any time."""
-        far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
-        near = np.argsort(far)[:_ALL_SCANS]
-        field = self._keyframes.field(near.tolist(), expected, frame.reach_m + reach[0])
-        submap = _Submap(field, field.pooled(), expected)
-        return self._anywhere(submap, frame, expected, reach, least)
-
-    def _anywhere(
-        self,
-        submap: _Submap,
-        frame: Keyframe,
-        expected: Poses,
-        reach: tuple[float, float],
-        least: float,
-    ) -> Match | None:
-        """Return a match of a wide window if it is about as good as matches usually are."""
-        least = max(least, _BELIEVED * self._usual_score)
-        turn = min(math.pi, reach[1])
-        rough = wide_search(
-            submap.coarse, frame.points_m, expected, reach_m=reach[0], reach_rad=turn, least=least
-        )
-        if rough is None:
+        reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN), math.pi
+        around = surroundings(self._keyframes, expected, frame.reach_m + reach[0])
+        found = weighed(around, frame, expected, [], reach)
+        if found is None or found.is_doubtful:
             return None
-        pose = rough.pose
-        found = refined(submap.field, frame.points_m, pose, Prior(pose, np.zeros((3, 3))))
-        # What fits best at the edge of the window fits better outside of it.
-        inside = math.dist(found.pose[:2], expected[:2]) < _INSIDE * reach[0]
-        return found if inside and found.score > least else None
+        return found if found.score > _BELIEVED * self._usual_score else None
 
     def _current(self, expected: Poses, reach_m: float) -> _Submap:
         known = self._submap

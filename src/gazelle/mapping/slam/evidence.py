@@ -1,0 +1,77 @@
+"""What speaks for a pose and what against it: surfaces that agree, and space known to be free.
+
+How well a scan fits what was seen says little where most of what it sees is new: then a wrong pose
+that lays new walls on old ones fits better than the right one. But it lays others into rooms that
+were seen to be empty, and looks through walls. What lies in the unknown says nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.poses import Poses, compose, transform_points
+from gazelle.mapping.scans import Scan
+from gazelle.mapping.slam.evidence_kernels import contradictions
+from gazelle.mapping.slam.ray_kernels import count_beams
+
+__all__ = ["SeenSpace", "seen_space"]
+
+_CELL_M = 0.1
+_MARGIN_M = 0.3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SeenSpace:
+    """Where beams ended and where they passed.
+
+    Attributes:
+        hits: int32 (height, width), how many ended in each cell.
+        passes: how many reached it.
+        corner_m: lower left.
+    """
+
+    hits: NDArray[np.int32]
+    passes: NDArray[np.int32]
+    corner_m: tuple[float, float]
+
+    def against(self, scan: Scan, points_m: NDArray[np.float64], pose: Poses) -> float:
+        """Return the share of points that contradict what is known of space.
+
+        Args:
+            scan: of which the lidar's mounting counts.
+            points_m: of it, in the robot's frame, (n, 2).
+            pose: of the robot.
+        """
+        lidar = compose(pose, np.array(scan.T_base_laser))
+        ends = transform_points(pose, points_m)
+        corner = (*self.corner_m, _CELL_M)
+        count = contradictions(self.hits, self.passes, *corner, lidar, ends, _MARGIN_M)
+        return float(count) / max(1, len(points_m))
+
+
+def seen_space(
+    scans: Iterable[tuple[Scan, Poses]], center_m: tuple[float, float], half_side_m: float,
+    max_range_m: float,
+) -> SeenSpace:  # fmt: skip
+    """Return what scans at poses say of a square.
+
+    Args:
+        scans: with the robot's poses.
+        center_m: middle of the square.
+        half_side_m: of it.
+        max_range_m: beams that are longer end nowhere.
+    """
+    side = max(3, int(2 * half_side_m / _CELL_M))
+    hits = np.zeros((side, side), np.int32)
+    passes = np.zeros((side, side), np.int32)
+    corner = center_m[0] - half_side_m, center_m[1] - half_side_m
+    for scan, pose in scans:
+        lidar = compose(pose, np.array(scan.T_base_laser))
+        ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
+        directions = pose[2] + scan.bearings_rad
+        count_beams(hits, passes, *corner, _CELL_M, lidar, directions, ranges, max_range_m)
+    return SeenSpace(hits, passes, corner)
