@@ -73,3 +73,14 @@ def test_generation_is_the_environments_without_the_section(monkeypatch) -> None
 def test_what_is_not_understood_is_told_in_ros_words(words: list[str], text: str) -> None:
     with pytest.raises(LaunchError, match=re.escape(text)):
         read_arguments(["--ros-args", *words], "n")
+
+
+def test_parameters_may_have_topics_in_their_names(tmp_path) -> None:
+    name = "qos_overrides./model/blue.subscriber.reliability"
+    path = tmp_path / "params.yaml"
+    path.write_text(f"/**: {{ros__parameters: {{{name}: reliable, a: {{/b: 1}}}}}}")
+    expected = {"qos_overrides/model/blue/subscriber/reliability": "reliable"}
+    words = ["--ros-args", "-p", f"{name}:=reliable"]
+    assert read_arguments(words, "n").params == expected
+    words = ["--ros-args", "--params-file", str(path)]
+    assert read_arguments(words, "n").params == {**expected, "a/b": 1}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -81,7 +82,7 @@ def _section(words: Iterator[str], result: Ros2Words) -> None:
             result.words.append(_remap(_value(words, word)))
         elif word in {"-p", "--param"}:
             name, value = _rule(_value(words, word), word)
-            result.words.append(f"_{name.replace('.', '/')}:={value}")
+            result.words.append(f"_{_slashed(name)}:={value}")
         elif word == "--params-file":
             result.parameter_files.append(Path(_value(words, word)))
         elif word == "--log-level":
@@ -148,5 +149,9 @@ def _flat(name: str, value: Any) -> dict[str, Any]:
 
 def _below(name: str, sub: str) -> str:
     """Files may write ``a.b: 1`` for ``a: {b: 1}``, as launch files do."""
-    inner = sub.replace(".", "/")
-    return f"{name}/{inner}" if name else inner
+    return _slashed(f"{name}/{sub}" if name else sub)
+
+
+def _slashed(name: str) -> str:
+    """Return a name in the form of ROS 1; topics in it, such as those of qos_overrides, have /."""
+    return re.sub("/{2,}", "/", name.replace(".", "/"))

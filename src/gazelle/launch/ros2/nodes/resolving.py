@@ -53,7 +53,8 @@ def node_command(
         place: of the user's file, for messages.
 
     Returns:
-        None when it is compiled code that is not built here: the launch goes on without it.
+        None when it is compiled code that is not built here, or a package of ROS that Gazelle
+        does not bring: the launch goes on without it.
 
     Raises:
         PackageNotFoundError: there is no such package.
@@ -81,13 +82,25 @@ def node_command(
     if missing.code == _COMPILED:
         context.tell(replace(missing, fix=_BUILD))
         return None
+    what = replacement_of(package)
+    if missing.code == _NO_PACKAGE and what:
+        # A package of ROS that is not here: everybody else has it, so the others go on.
+        _tell_of_package(context, missing, what)
+        return None
     if missing.code == _NO_PACKAGE:
         error: Exception = PackageNotFoundError(f"package '{package}' not found")
-        code, fix = "ros2_launch.package-missing", replacement_of(package)
+        code, fix = "ros2_launch.package-missing", ""
     else:
         error = SubstitutionFailure(f"executable '{executable}' not found in package '{package}'")
         code, fix = "ros2_launch.executable-missing", _near(missing)
     raise with_diagnostic(error, code, missing.message, missing.span, fix=fix)
+
+
+def _tell_of_package(context: LaunchContext, missing: Diagnostic, what: str) -> None:
+    found = Diagnostics()
+    message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
+    found.report("ros2_launch.package-missing", message, missing.span, fix=what)
+    context.tell(next(iter(found)))
 
 
 def _near(missing: Diagnostic) -> str:
