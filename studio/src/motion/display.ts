@@ -62,7 +62,7 @@ class MotionDrawer implements Drawer {
 
   constructor(private readonly site: Site) {
     this.store = motionStore(site.connection);
-    this.inverse = new Inverse(this.store, 'goal', () => this.tellInverse());
+    this.inverse = new Inverse(this.store, () => this.tellInverse());
     this.objects = new SceneObjects(site, this.store);
     site.root.add(this.base, this.objects.root);
     this.stops = [
@@ -137,7 +137,7 @@ class MotionDrawer implements Drawer {
     this.dropMarker();
     this.trail = [];
     this.ghosts = null;
-    if (!robot) return;
+    if (!robot) return this.objects.dispose();
     if (!problem) this.site.status('Move Group', 'ok', `${robot.node} plans for ${robot.groups.map((group) => group.name).join(', ')}`);
     const make = (name: string): Ghost => {
       const ghost = new Ghost(robot.scene, name, () => this.site.view.moved());
@@ -204,7 +204,9 @@ class MotionDrawer implements Drawer {
   private drawMarker(): void {
     const { store } = this;
     const { robot, kinematics } = store;
-    const link = robot ? tipOf(groupOf(robot, store.group)) : '';
+    const group = robot ? groupOf(robot, store.group) : undefined;
+    // Fingers that move apart have no one pose that inverse kinematics could reach.
+    const link = group?.is_chain ? tipOf(group) : '';
     const pose = link ? kinematics?.pose(link, store.positions('goal')) : null;
     if (link !== this.markerLink) this.dropMarker();
     this.markerLink = link;
@@ -243,13 +245,13 @@ class MotionDrawer implements Drawer {
 
   private drawPath(): void {
     const { ghosts, store, site } = this;
-    if (!ghosts) return;
+    if (!ghosts || !store.robot) return;
     const positions = store.player.positions();
     ghosts.path.root.visible = positions !== null && site.props.flag('Planned Path/Show Robot Visual');
     if (!positions) return;
     this.place(ghosts.path, positions);
     const own = paint([0.75, 0.78, 0.85], site.props.num('Planned Path/Robot Alpha'));
-    ghosts.path.look(new Set(groupOf(store.robot as never, store.group)?.links), () => own);
+    ghosts.path.look(new Set(groupOf(store.robot, store.group)?.links), () => own);
     if (store.player.trail !== this.trail.length > 0) this.drawTrail();
   }
 

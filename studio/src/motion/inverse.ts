@@ -2,20 +2,23 @@
 import * as THREE from 'three';
 import { inOneLine } from '../errors';
 import { outcomeOf, poseMessage, positionsOf, robotState } from './messages';
-import { groupOf, variablesOf, type Positions } from './robot';
-import type { MotionStore, Query } from './store';
+import { groupOf, variablesOf, type Kinematics, type MotionRobot, type Positions } from './robot';
+import type { MotionStore } from './store';
 
 const ROUNDS = 40;
 const STEP = 1e-4;
 const DAMPING = 0.02;
-const FAR = 0.15;
+const MOST_STEP = 0.15;
+const NEAR = 1e-5;
+const QUERY = 'goal';
 
-/** Takes poses as fast as they come; answers go into the store, the newest wins. */
+/** Takes poses of the goal's tip as fast as they come; answers go into the store, the newest wins. */
 export class Inverse {
   private wanted: THREE.Matrix4 | null = null;
   private asking = false;
 
-  constructor(private readonly store: MotionStore, private readonly query: Query, private readonly told: () => void) {}
+  /** @param told is called after every answer. */
+  constructor(private readonly store: MotionStore, private readonly told: () => void) {}
 
   /** The tip shall be at a pose, of the frame of `Kinematics.poses`. */
   ask(link: string, pose: THREE.Matrix4): void {
@@ -39,45 +42,42 @@ export class Inverse {
   }
 
   private async solve(link: string, pose: THREE.Matrix4): Promise<void> {
-    const { store, query } = this;
+    const { store } = this;
     const { robot, kinematics } = store;
     if (!robot || !kinematics) return;
-    const seed = store.positions(query);
     const answer = await store.service('compute_ik', 'GetPositionIK', {
       ik_request: {
-        group_name: store.group, robot_state: robotState(robot, seed), avoid_collisions: store.collisionAware, ik_link_name: link,
+        group_name: store.group, robot_state: robotState(robot, store.positions(QUERY)), avoid_collisions: store.collisionAware, ik_link_name: link,
         pose_stamped: { header: { frame_id: kinematics.isMobile ? robot.frame : robot.root }, pose: poseMessage(pose) },
       },
     });
     const outcome = outcomeOf(answer);
-    if (outcome.ok) store.setQuery(query, positionsOf(answer['solution']));
+    if (outcome.ok) store.setQuery(QUERY, positionsOf(answer['solution']));
     else if (store.approximate) {
-      store.setQuery(query, nearest(store, link, pose, seed));
+      store.setQuery(QUERY, nearest(store, robot, kinematics, link, pose));
       store.ikProblem = `approximate: ${outcome.text}`;
     } else store.ikProblem = outcome.text;
   }
 }
 
-/** Positions that bring a link as near to a pose as damped least squares gets from a seed. */
-export function nearest(store: MotionStore, link: string, pose: THREE.Matrix4, seed: Positions): Positions {
-  const { robot, kinematics } = store;
-  if (!robot || !kinematics) return seed;
-  const leading = new Set(robot.mimics.map((mimic) => mimic.variable));
-  const single = new Set(groupOf(robot, store.group)?.active);
-  const free = variablesOf(robot, store.group).filter((one) => single.has(one.name) && !leading.has(one.name));
-  const q = { ...seed };
+/** Positions that bring a link as near to a pose as damped least squares gets from where the goal is. */
+function nearest(store: MotionStore, robot: MotionRobot, kinematics: Kinematics, link: string, pose: THREE.Matrix4): Positions {
+  const followers = new Set(robot.mimics.map((mimic) => mimic.variable));
+  const active = new Set(groupOf(robot, store.group)?.active);
+  const free = variablesOf(robot, store.group).filter((one) => active.has(one.name) && !followers.has(one.name));
+  const q = store.positions(QUERY);
   for (let round = 0; round < ROUNDS; round++) {
     const now = kinematics.pose(link, q);
-    if (!now) return seed;
+    if (!now) return q;
     const error = difference(now, pose);
-    if (Math.hypot(...error) < 1e-5) break;
+    if (Math.hypot(...error) < NEAR) break;
     const columns = free.map(({ name }) => {
       const moved = kinematics.pose(link, { ...q, [name]: q[name] + STEP }) as THREE.Matrix4;
       return difference(now, moved).map((value) => value / STEP);
     });
     const change = damped(columns, error);
     free.forEach(({ name, lower, upper }, at) => {
-      const step = Math.max(-FAR, Math.min(FAR, change[at]));
+      const step = Math.max(-MOST_STEP, Math.min(MOST_STEP, change[at]));
       q[name] = Math.max(lower ?? -Infinity, Math.min(upper ?? Infinity, q[name] + step));
     });
   }

@@ -20,7 +20,7 @@ const SUCCESS = 1;
 const TOLERANCE = 1e-4;
 
 /** An answer's error code: whether all went well, and what it says. */
-export interface Outcome { ok: boolean; code: number; text: string }
+export interface Outcome { ok: boolean; text: string; why: string }
 
 /** Read the field `error_code` of a result or response. */
 export function outcomeOf(value: Json | undefined): Outcome {
@@ -28,7 +28,7 @@ export function outcomeOf(value: Json | undefined): Outcome {
   const code = Number(error['val'] ?? 0);
   const why = typeof error['message'] === 'string' ? error['message'] : '';
   const name = `${CODES[code] ?? 'unknown code'} (${code})`;
-  return { ok: code === SUCCESS, code, text: why ? `${name}: ${why}` : name };
+  return { ok: code === SUCCESS, text: why ? `${name}: ${why}` : name, why };
 }
 
 /** A `RobotState` of joints of one variable, and of those of several. */

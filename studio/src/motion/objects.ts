@@ -52,12 +52,13 @@ export async function changeObjects(store: MotionStore, objects: JsonObject[]): 
   await apply(store, { world: { collision_objects: objects }, robot_state: { is_diff: true } });
 }
 
-/** Let the group's tip hold an object, or let go of it. */
+/** Let the group's tip hold an object, which its gripper may touch, or let go of it. */
 export async function attach(store: MotionStore, id: string, on: boolean): Promise<void> {
   const group = store.robot && groupOf(store.robot, store.group);
   const held = store.attached.find((body) => part(body, 'object')['id'] === id);
   const link = held ? String(held['link_name']) : tipOf(group ?? undefined);
-  const body = { link_name: link, object: { id, operation: on ? ADD : REMOVE }, touch_links: on ? [link] : [] };
+  const fingers = group?.effectors.find((one) => one.link === link)?.links ?? [];
+  const body = { link_name: link, object: { id, operation: on ? ADD : REMOVE }, touch_links: on ? [link, ...fingers] : [] };
   await apply(store, { robot_state: { is_diff: true, attached_collision_objects: [body] } });
 }
 

@@ -16,6 +16,7 @@ const MESHES = '.stl,.dae,.obj,.gltf,.glb';
 const SIZES: Record<ShapeName, [string, number][]> = {
   Box: [['x', 0.1], ['y', 0.1], ['z', 0.1]], Sphere: [['radius', 0.05]], Cylinder: [['radius', 0.05], ['length', 0.1]], Cone: [['radius', 0.05], ['length', 0.1]],
 };
+const TOLD_MS = 2000;
 const PLACE = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] as const;
 
 /** RViz's tab Scene Objects. */
@@ -27,7 +28,12 @@ export class ObjectsTab {
   private readonly about = h('div', { class: 'dim' });
   private readonly actions: Record<'attach' | 'remove', HTMLButtonElement>;
   private shape: ShapeName = 'Box';
+  private readonly scale = h('input', { type: 'number', class: 'small', min: 0.000001, step: 'any', value: 1, 'aria-label': 'Mesh scale', title: 'Of mesh files: 0.001 for one in millimetres' });
+  /** What was typed last and the scene has not told yet: typing goes faster than that. */
+  private typed: { id: string; values: number[]; until: number } | null = null;
   private visible = false;
+  /** What was chosen when the tab was last in front. */
+  private kept = '';
 
   constructor(private readonly store: MotionStore, private readonly connection: Connection, private readonly report: (report: Report) => void) {
     const shape = select('Shape', [...SHAPES], 'Box', (name) => { this.shape = name as ShapeName; this.fillSizes(); });
@@ -42,6 +48,7 @@ export class ObjectsTab {
     this.element.append(
       h('div', { class: 'motion-row' }, shape, this.sizes, button('Add', () => void this.add(), { icon: 'plus', title: 'Add the shape to the scene' })),
       h('div', { class: 'motion-row' }, button('Mesh file…', () => void this.addMesh(), { title: 'Add an STL, DAE or OBJ file' }),
+        h('label', { class: 'motion-number' }, h('span', { class: 'dim' }, 'scale'), this.scale),
         button('Export', () => this.save(), { icon: 'save', title: 'Save the scene as a .scene file' }),
         button('Import…', () => void this.load(), { title: 'Add what a .scene file lists' }),
         button('Clear scene', () => void this.clear(), { title: 'Remove all objects' })),
@@ -61,7 +68,11 @@ export class ObjectsTab {
   /** The tab came to the front or went: handles are there only while it is. */
   shown(visible: boolean): void {
     this.visible = visible;
-    if (!visible) this.choose('');
+    if (visible) this.choose(this.kept);
+    else {
+      this.kept = this.store.chosen;
+      this.choose('');
+    }
   }
 
   /** Show what there is. */
@@ -88,11 +99,23 @@ export class ObjectsTab {
     this.actions.attach.disabled = !item && !held;
     setText(this.actions.attach, held ? 'Detach' : 'Attach');
     setText(this.about, item ? `${this.store.chosen} in ${String(part(item, 'header')['frame_id'])}` : '');
-    const values = item ? numbersOf(poseMatrix(item['pose'])) : PLACE.map(() => NaN);
+    const values = this.valuesOf(item);
     this.place.forEach((input, at) => {
       input.disabled = !item;
       if (document.activeElement !== input) input.value = Number.isNaN(values[at]) ? '' : String(Number(values[at].toFixed(4)));
     });
+  }
+
+  /** What the fields say of an object; nothing without one. */
+  private valuesOf(item: JsonObject | undefined): number[] {
+    if (!item) return PLACE.map(() => NaN);
+    const values = numbersOf(poseMatrix(item['pose']));
+    const { typed } = this;
+    const isLate = typed !== null && typed.id === item['id'] && performance.now() < typed.until
+      && typed.values.some((value, at) => Math.abs(value - values[at]) > 1e-6);
+    if (isLate) return typed.values;
+    this.typed = null;
+    return values;
   }
 
   private item(): JsonObject | undefined {
@@ -144,10 +167,12 @@ export class ObjectsTab {
     if (file.name.endsWith('.scene')) return this.read(file);
     const { robot } = this.store;
     if (!robot) return;
+    const scale = Number(this.scale.value);
+    if (!(scale > 0)) return this.report({ level: 'error', text: 'The scale of a mesh must be above 0.' });
     await this.tried(async () => {
       const mesh = await this.connection.call('motion.mesh', { name: file.name, base64: await base64Of(file) });
       const id = freeName(this.store, file.name.replace(/\.[^.]*$/, ''));
-      await this.make(id, meshObject(id, robot.frame, mesh as unknown as MeshValue, 1, new THREE.Matrix4()));
+      await this.make(id, meshObject(id, robot.frame, mesh as unknown as MeshValue, scale, new THREE.Matrix4()));
     });
   }
 
@@ -159,7 +184,9 @@ export class ObjectsTab {
   private async move(): Promise<void> {
     const item = this.item();
     if (!item) return;
-    const [x, y, z, roll, pitch, yaw] = this.place.map((input) => Number(input.value) || 0);
+    const values = this.place.map((input) => Number(input.value) || 0);
+    const [x, y, z, roll, pitch, yaw] = values;
+    this.typed = { id: this.store.chosen, values, until: performance.now() + TOLD_MS };
     const pose = new THREE.Matrix4().makeRotationFromEuler(new THREE.Euler(roll, pitch, yaw, 'ZYX')).setPosition(x, y, z);
     await this.tried(() => changeObjects(this.store, [moveOf(item, pose)]));
   }

@@ -1,8 +1,9 @@
 /** MotionPlanning: RViz's panel of MoveIt. */
-import { isObject, type JsonObject } from '../json';
+import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
-import { activeScene } from '../scene/active';
-import { h, setText } from '../widgets/dom';
+import { onActiveScene, scenePanels } from '../scene/active';
+import type { ScenePanel } from '../scene/scene_panel';
+import { button, h, setText } from '../widgets/dom';
 import '../styles/motion.css';
 import { JointsTab } from './joints_tab';
 import { ObjectsTab } from './objects_tab';
@@ -20,8 +21,12 @@ export class MotionPlanningPanel extends BasePanel {
   private readonly objects: ObjectsTab;
   private readonly tabs: Tabs;
   private readonly result = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'data-level': 'ok' });
-  private readonly inverse = h('div', { class: 'motion-result motion-inverse', role: 'status', 'aria-live': 'polite', 'aria-label': 'Inverse kinematics', 'data-level': 'warn', hidden: true });
+  private readonly inverse = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'aria-label': 'Inverse kinematics', 'data-level': 'warn', hidden: true });
+  private readonly collisions = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'aria-label': 'Collisions', 'data-level': 'error', hidden: true });
+  private readonly view = h('div', { class: 'motion-result', hidden: true }, 'What is planned is seen in RViz\'s view. ');
   private leave: (() => void) | null = null;
+  /** Whether RViz's view shall get the display as soon as there is one. */
+  private unseen = false;
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
@@ -38,16 +43,21 @@ export class MotionPlanningPanel extends BasePanel {
     ], () => host.touched());
     this.element.classList.add('motion');
     this.result.setAttribute('aria-label', 'Result');
-    this.element.append(this.tabs.element, this.inverse, this.result);
+    this.view.append(button('Open RViz', () => host.show('rviz', {}), { title: 'Open RViz beside this panel' }));
+    this.element.append(this.tabs.element, this.view, this.inverse, this.collisions, this.result);
     this.atEnd(this.store.watch((what) => this.heard(what)));
+    this.atEnd(host.graph.watch((graph) => this.store.follow(graph)));
     this.atEnd(() => this.leave?.());
+    // A view that was just made has no displays of its own yet.
+    this.atEnd(onActiveScene(() => this.lookSoon()));
     this.heard('robot');
   }
 
   override open(params: JsonObject): void {
     this.planning.open(params);
     if (typeof params['tab'] === 'string') this.tabs.show(params['tab']);
-    if (isObject(params) && !this.hasDisplay()) this.addDisplay();
+    this.unseen = true;
+    this.lookSoon();
   }
 
   override state(): JsonObject {
@@ -60,14 +70,17 @@ export class MotionPlanningPanel extends BasePanel {
     this.leave = visible ? this.store.use() : null;
   }
 
-  private hasDisplay(): boolean {
-    return Boolean(activeScene('rviz')?.displays.displays.some((display) => display.kind.name === 'MotionPlanning'));
+  private lookSoon(): void {
+    window.setTimeout(() => this.look(), 0);
   }
 
   /** What is planned is seen in RViz's view. */
-  private addDisplay(): void {
-    const scene = activeScene('rviz');
-    if (scene?.kind !== 'rviz') return;
+  private look(): void {
+    const scene = rvizView();
+    this.view.hidden = scene !== null;
+    if (!scene || !this.unseen) return;
+    this.unseen = false;
+    if (scene.displays.displays.some((display) => display.kind.name === 'MotionPlanning')) return;
     scene.displays.add('moveit_rviz_plugin/MotionPlanning');
     scene.choose('Interact');
   }
@@ -83,11 +96,27 @@ export class MotionPlanningPanel extends BasePanel {
       this.planning.refresh();
       this.say(problem ? { level: 'error', text: problem } : { level: 'ok', text: this.store.robot ? '' : 'Looking for move_group …' });
     }
-    if (what === 'query') this.planning.refreshQuery();
+    if (what === 'query' || what === 'look') this.planning.refreshQuery();
     if (what === 'query' || what === 'robot' || what === 'current') this.joints.refresh();
     if (what === 'scene' || what === 'robot') this.objects.refresh();
     if (what === 'play' || what === 'path') this.planning.refreshPath();
-    this.inverse.hidden = !ikProblem;
-    setText(this.inverse, ikProblem ? `IK: ${ikProblem}` : '');
+    note(this.inverse, ikProblem && `IK: ${ikProblem}`);
+    note(this.collisions, this.collisionText());
   }
+
+  private collisionText(): string {
+    const { store } = this;
+    const found = (['start', 'goal'] as const).filter((query) => store.robot && store[query].shown && store[query].collisions);
+    return found.map((query) => `${query === 'goal' ? 'Goal' : 'Start'}: ${store[query].collisions}`).join('; ');
+  }
+}
+
+/** A line that is there only while it says something. */
+function note(line: HTMLElement, text: string): void {
+  line.hidden = !text;
+  setText(line, text);
+}
+
+function rvizView(): ScenePanel | null {
+  return scenePanels().findLast((panel) => panel.kind === 'rviz') ?? null;
 }

@@ -1,5 +1,4 @@
 /** What the buttons do: plan, execute, both, stop. */
-import type { Channel } from '../channel';
 import { list } from '../displays/message';
 import { CallError, inOneLine } from '../errors';
 import type { GraphStore } from '../graph_store';
@@ -20,7 +19,7 @@ export interface PlanOptions {
 }
 
 /** What the result line says. */
-export interface Report { level: 'busy' | 'ok' | 'error'; text: string }
+export interface Report { level: 'busy' | 'ok' | 'warn' | 'error'; text: string }
 
 const OVER = /succeeded|aborted|rejected|cancel(l)?ed|preempted|recalled|lost/i;
 const STRAIGHT_STEP_M = 0.01;
@@ -28,10 +27,12 @@ const SLACK_S = 5;
 
 /** Speaks with move_group's actions. */
 export class Planning {
-  /** The last plan, which Execute executes; null before and after a failure. */
+  /** The plan that Execute executes, once; null before, after a failure and for another group. */
   plan: Json = null;
   busy = '';
-  private channel: Channel | null = null;
+  /** Counts what was begun and stopped: an answer to something older comes too late. */
+  private turn = 0;
+  private cancel: (() => void) | null = null;
 
   constructor(
     private readonly store: MotionStore,
@@ -47,14 +48,14 @@ export class Planning {
     if (this.options.cartesian) return this.straight(robot, execute);
     this.plan = null;
     const goal = {
-      request: this.request(robot),
+      request: this.request(robot, execute),
       planning_options: { plan_only: !execute, planning_scene_diff: { is_diff: true, robot_state: { is_diff: true } } },
     };
     this.begin(execute ? 'Planning and executing …' : 'Planning …');
     const began = performance.now();
     await this.act('MoveGroup', ['move_action', 'move_group'], goal, (result, outcome) => {
       const path = pathOf([result['planned_trajectory'] ?? null], result['trajectory_start']);
-      if (outcome.ok && path.points.length) this.plan = result['planned_trajectory'] ?? null;
+      if (outcome.ok && path.points.length && !execute) this.plan = result['planned_trajectory'] ?? null;
       if (path.points.length) this.store.setPath(path);
       const took = numberOf(result, 'planning_time') || (performance.now() - began) / 1000;
       if (!outcome.ok) this.fail(outcome.text);
@@ -63,14 +64,11 @@ export class Planning {
     });
   }
 
-  /** Execute the last plan. */
+  /** Execute the last plan. As in RViz that can be done once: the robot is elsewhere then. */
   async execute(): Promise<void> {
-    if (this.busy) return;
-    if (!this.plan) {
-      this.fail('There is no plan to execute; press Plan first.');
-      return;
-    }
     const trajectory = this.plan;
+    if (this.busy || !trajectory) return;
+    this.plan = null;
     this.begin('Executing …');
     await this.act('ExecuteTrajectory', ['execute_trajectory'], { trajectory }, (_result, outcome) => {
       if (outcome.ok) this.end('ok', `Executed: ${outcome.text}`);
@@ -81,18 +79,23 @@ export class Planning {
   /** Cancel what goes on; the robot stops. */
   stop(): void {
     const { store } = this;
-    this.channel?.close();
-    this.channel = null;
+    this.turn += 1;
+    this.cancel?.();
     store.connection.call('topic.publish', {
       topic: store.name('trajectory_execution_event'), type: 'std_msgs/msg/String', message: { data: 'stop' },
     }).catch((problem: unknown) => this.fail(inOneLine(problem)));
-    this.end('error', 'Stopped.');
+    this.end('warn', 'Stopped.');
+  }
+
+  /** The plan was for another group. */
+  drop(): void {
+    this.plan = null;
+    this.store.setPath(null);
   }
 
   /** Forget the plan. */
   clear(): void {
-    this.plan = null;
-    this.store.setPath(null);
+    this.drop();
     this.end('ok', '');
   }
 
@@ -104,16 +107,19 @@ export class Planning {
     if (!pose) return this.fail(`The group ${store.group} has no tip that could go straight.`);
     this.plan = null;
     this.begin('Planning a straight path …');
+    const { turn } = this;
     try {
       const answer = await store.service('compute_cartesian_path', 'GetCartesianPath', {
         header: { frame_id: store.kinematics?.isMobile ? robot.frame : robot.root },
-        start_state: this.startState(robot), group_name: store.group, link_name: tip,
+        start_state: this.startState(robot, execute), group_name: store.group, link_name: tip,
         waypoints: [poseMessage(pose)], max_step: STRAIGHT_STEP_M, avoid_collisions: true,
         max_velocity_scaling_factor: options.velocity, max_acceleration_scaling_factor: options.acceleration,
       }, options.time_s + SLACK_S);
+      if (turn !== this.turn) return;
       this.takeStraight(answer);
     } catch (problem) {
-      return this.fail(inOneLine(problem));
+      if (turn === this.turn) this.fail(inOneLine(problem));
+      return;
     }
     if (execute && this.plan) await this.execute();
   }
@@ -126,23 +132,24 @@ export class Planning {
     if (outcome.ok && numberOf(answer, 'fraction') >= 1) {
       this.plan = answer['solution'] ?? null;
       this.end('ok', `Planned ${percent}: ${outcome.text}`);
-    } else this.fail(`Achieved ${percent}: ${outcome.text}`);
+    } else this.fail(`Achieved ${percent}: ${outcome.ok ? outcome.why || 'nobody says why not all of it' : outcome.text}`);
   }
 
-  private request(robot: MotionRobot): JsonObject {
+  private request(robot: MotionRobot, execute: boolean): JsonObject {
     const { store, options } = this;
     return {
       group_name: store.group, pipeline_id: options.pipeline, planner_id: options.planner,
       num_planning_attempts: options.attempts, allowed_planning_time: options.time_s,
       max_velocity_scaling_factor: options.velocity, max_acceleration_scaling_factor: options.acceleration,
-      start_state: this.startState(robot),
+      start_state: this.startState(robot, execute),
       goal_constraints: [jointGoal(store.positions('goal'), groupOf(robot, store.group)?.variables ?? [])],
     };
   }
 
-  private startState(robot: MotionRobot): JsonObject {
+  /** What is executed at once begins where the robot is, as in RViz. */
+  private startState(robot: MotionRobot, execute: boolean): JsonObject {
     const { positions } = this.store.start;
-    return positions ? robotState(robot, this.store.positions('start')) : { is_diff: true };
+    return positions && !execute ? robotState(robot, this.store.positions('start')) : { is_diff: true };
   }
 
   /** Send a goal and wait for its result. */
@@ -155,7 +162,7 @@ export class Planning {
       const finish = (tell: () => void): void => {
         if (over) return;
         over = true;
-        this.channel = null;
+        this.cancel = null;
         tell();
         resolve();
       };
@@ -172,7 +179,10 @@ export class Planning {
         },
         onFailed: lost, onEnded: lost,
       });
-      this.channel = channel;
+      this.cancel = () => {
+        channel.close();
+        finish(() => undefined);
+      };
     });
   }
 
@@ -181,7 +191,7 @@ export class Planning {
     this.report({ level: 'busy', text });
   }
 
-  private end(level: 'ok' | 'error', text: string): void {
+  private end(level: 'ok' | 'warn' | 'error', text: string): void {
     this.busy = '';
     this.report({ level, text });
   }

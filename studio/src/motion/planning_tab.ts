@@ -6,7 +6,7 @@ import { isObject, numberOf, textOf, type JsonObject } from '../json';
 import { button, checkbox, fillSelect, h, select } from '../widgets/dom';
 import { PathBar } from './path_bar';
 import { Planning, plannersOf, type PlanOptions, type Report } from './planning';
-import { groupOf, randomPositions, type Positions } from './robot';
+import { groupOf, randomPositions, type MotionRobot, type Positions } from './robot';
 import type { MotionStore, Query } from './store';
 
 const CURRENT = '<current>', RANDOM = '<random>', VALID = '<random valid>', SAME_START = '<same as start>',
@@ -29,7 +29,9 @@ export class PlanningTab {
   private readonly planner: HTMLSelectElement;
   private readonly commands: Record<'plan' | 'execute' | 'both' | 'stop' | 'clear', HTMLButtonElement>;
   private readonly path: PathBar;
-  private readonly previous: Record<Query, Positions | null> = { start: null, goal: null };
+  private readonly shown: Record<Query, HTMLLabelElement>;
+  /** Where the last plan began. */
+  private previous: Positions | null = null;
   private readonly fields = h('div', { class: 'form-grid motion-form' });
   private scaled = false;
   private plannersFor = '';
@@ -39,16 +41,19 @@ export class PlanningTab {
       this.refreshCommands();
       host.report(report);
     });
-    this.group = select('Planning group', [], '', (name) => { store.setGroup(name); host.touched(); });
+    this.group = select('Planning group', [], '', (name) => { this.planning.drop(); store.setGroup(name); host.touched(); });
     this.states = {
       start: select('Start state', [], CURRENT, (name) => void this.choose('start', name)),
       goal: select('Goal state', [], CURRENT, (name) => void this.choose('goal', name)),
     };
+    const shown = (query: Query): HTMLLabelElement =>
+      checkbox('shown', store[query].shown, (on) => store.show(query, on), `Show the ${query} as a ghost`);
+    this.shown = { start: shown('start'), goal: shown('goal') };
     this.planner = select('Planner', [['', '<default>']], '', (value) => this.choosePlanner(value));
     this.commands = {
-      plan: button('Plan', () => void this.planning.run(false), { class: 'primary', title: 'Plan a path from start to goal' }),
+      plan: button('Plan', () => this.run(false), { class: 'primary', title: 'Plan a path from start to goal' }),
       execute: button('Execute', () => void this.planning.execute(), { title: 'Execute the planned path' }),
-      both: button('Plan & Execute', () => void this.planning.run(true), { title: 'Plan and execute at once' }),
+      both: button('Plan & Execute', () => this.run(true), { title: 'Plan from where the robot is, and execute at once' }),
       stop: button('Stop', () => this.planning.stop(), { icon: 'stop', title: 'Stop the robot' }),
       clear: button('Clear', () => this.planning.clear(), { icon: 'clear', title: 'Forget the planned path' }),
     };
@@ -101,9 +106,10 @@ export class PlanningTab {
     this.refreshCommands();
   }
 
-  /** A state was changed by other means. */
+  /** A state was changed, shown or hidden by other means. */
   refreshQuery(): void {
     for (const query of ['start', 'goal'] as const) {
+      (this.shown[query].querySelector('input') as HTMLInputElement).checked = this.store[query].shown;
       const chosen = this.states[query];
       const named = this.robotStates()[chosen.value];
       if (named && Object.entries(named).every(([name, value]) => Math.abs(this.store.positions(query)[name] - value) < 1e-6)) continue;
@@ -111,11 +117,16 @@ export class PlanningTab {
     }
   }
 
+  private run(execute: boolean): void {
+    this.previous = execute ? { ...this.store.current } : this.store.positions('start');
+    void this.planning.run(execute);
+  }
+
   private refreshCommands(): void {
     const { plan, execute, both, stop, clear } = this.commands;
     const busy = Boolean(this.planning.busy);
     plan.disabled = both.disabled = busy || !this.store.robot;
-    execute.disabled = busy || !this.planning.plan;
+    execute.disabled = busy || !this.planning.plan || !this.store.robot;
     stop.disabled = !this.store.robot;
     clear.disabled = busy || !this.store.player.path;
   }
@@ -137,26 +148,24 @@ export class PlanningTab {
 
   private async choose(query: Query, name: string): Promise<void> {
     const { store } = this;
-    const before = store[query].positions && { ...store.positions(query) };
     const other: Query = query === 'goal' ? 'start' : 'goal';
     if (name === OTHER || !store.robot) return;
     if (name === CURRENT) store.setQuery(query, query === 'start' ? null : { ...store.current });
     else if (name === RANDOM) store.setQuery(query, randomPositions(store.robot, store.group));
-    else if (name === VALID) await this.randomValid(query);
+    else if (name === VALID) await this.randomValid(query, store.robot);
     else if (name === SAME_START || name === SAME_GOAL) store.setQuery(query, store.positions(other));
-    else if (name === PREVIOUS) store.setQuery(query, this.previous[query]);
+    else if (name === PREVIOUS) store.setQuery(query, this.previous);
     else store.setQuery(query, { ...store.positions(query), ...this.robotStates()[name] });
-    this.previous[query] = before;
     if (name in this.robotStates()) this.states[query].value = name;
   }
 
   /** Until one collides with nothing. */
-  private async randomValid(query: Query): Promise<void> {
+  private async randomValid(query: Query, robot: MotionRobot): Promise<void> {
     const { store } = this;
     try {
-      for (let tries = 0; tries < MOST_TRIES && store.robot; tries++) {
-        const drawn = randomPositions(store.robot, store.group);
-        if (!(await store.validity({ ...store.current, ...drawn })).valid) continue;
+      for (let tries = 0; tries < MOST_TRIES; tries++) {
+        const drawn = randomPositions(robot, store.group);
+        if (!(await store.validity(robot, { ...store.current, ...drawn })).valid) continue;
         store.setQuery(query, drawn);
         return;
       }
@@ -188,11 +197,10 @@ export class PlanningTab {
     const { store, options, host } = this;
     const row = (name: string, ...controls: HTMLElement[]): HTMLElement[] =>
       [h('span', { class: 'dim' }, name), h('span', { class: 'motion-row' }, ...controls)];
-    const show = (query: Query): HTMLElement => checkbox('shown', store[query].shown, (on) => store.show(query, on), `Show the ${query} as a ghost`);
     this.fields.replaceChildren(
       ...row('Planning group', this.group),
-      ...row('Start state', this.states.start, show('start')),
-      ...row('Goal state', this.states.goal, show('goal')),
+      ...row('Start state', this.states.start, this.shown.start),
+      ...row('Goal state', this.states.goal, this.shown.goal),
       ...row('Planner', this.planner),
       ...row('Planning time (s)', this.number('Planning time (s)', 'time_s', 0.01, 3600)),
       ...row('Planning attempts', this.number('Planning attempts', 'attempts', 1, 1000)),

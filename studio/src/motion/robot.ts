@@ -16,7 +16,8 @@ export interface MotionGroup {
   active: string[];
   links: string[];
   tips: string[];
-  effectors: { name: string; link: string }[];
+  /** End effectors: the link that carries them, and links of their own. */
+  effectors: { name: string; link: string; links: string[] }[];
   states: Record<string, Positions>;
   is_chain: boolean;
 }

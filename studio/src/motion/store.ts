@@ -1,8 +1,9 @@
 /** What panel and display share: the robot, where it is and shall be, its scene and its planned path. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
+import type { GraphValue } from '../graph_store';
 import { list } from '../displays/message';
-import { asCallError, inOneLine } from '../errors';
+import { inOneLine } from '../errors';
 import { isObject, type Json, type JsonObject } from '../json';
 import { pathOf, robotState, type PlannedPath } from './messages';
 import { Player } from './player';
@@ -13,6 +14,8 @@ export type Query = 'start' | 'goal';
 
 const RETRY_MS = 2000;
 const LOOK_MS = 120;
+const PLAN_SERVICE = 'plan_kinematic_path';
+const MOST_PAIRS = 3;
 
 /** One state that a person asks about. */
 export interface QueryState {
@@ -20,6 +23,8 @@ export interface QueryState {
   positions: Positions | null;
   /** Links and objects that collide there. */
   colliding: Set<string>;
+  /** Which of them, in words; empty when nothing collides. */
+  collisions: string;
   shown: boolean;
 }
 
@@ -43,8 +48,8 @@ export class MotionStore {
   problem = '';
   group = '';
   current: Positions = {};
-  readonly start: QueryState = { positions: null, colliding: new Set(), shown: false };
-  readonly goal: QueryState = { positions: null, colliding: new Set(), shown: true };
+  readonly start: QueryState = { positions: null, colliding: new Set(), collisions: '', shown: false };
+  readonly goal: QueryState = { positions: null, colliding: new Set(), collisions: '', shown: true };
   objects: JsonObject[] = [];
   attached: JsonObject[] = [];
   readonly player = new Player();
@@ -57,6 +62,10 @@ export class MotionStore {
   private names = NAMES;
   private users = 0;
   private channels: Channel[] = [];
+  /** Counts readings of the robot: the answer to an older one is late. */
+  private reading = 0;
+  /** Whether the graph has told of this move_group. */
+  private announced = false;
   private timer = 0;
   private looking = 0;
   private readonly listeners = new Set<(what: Change) => void>();
@@ -141,30 +150,35 @@ export class MotionStore {
     this.tell('path');
   }
 
-  /** Whether a state collides, and with what; says so for the links of ghosts. */
-  async validity(positions: Positions): Promise<{ valid: boolean; bodies: string[]; text: string }> {
-    if (!this.robot) return { valid: false, bodies: [], text: this.problem };
+  /** Whether a state is valid, and the pairs that collide there. */
+  async validity(robot: MotionRobot, positions: Positions): Promise<{ valid: boolean; pairs: [string, string][] }> {
     const answer = await this.service('check_state_validity', 'GetStateValidity', {
-      group_name: this.group, robot_state: robotState(this.robot, positions),
+      group_name: this.group, robot_state: robotState(robot, positions),
     });
-    const contacts = list<JsonObject>(answer, 'contacts');
-    const pairs = contacts.map((one) => [String(one['contact_body_1']), String(one['contact_body_2'])]);
-    const text = pairs.length ? `${pairs[0][0]} collides with ${pairs[0][1]}` : '';
-    return { valid: answer['valid'] === true, bodies: pairs.flat(), text };
+    const pairs = list<JsonObject>(answer, 'contacts').map((one): [string, string] => [String(one['contact_body_1']), String(one['contact_body_2'])]);
+    return { valid: answer['valid'] === true, pairs };
+  }
+
+  /** Who is on the graph now: a move_group that was there may have ended. */
+  follow(graph: GraphValue): void {
+    if (!this.robot) return;
+    const there = graph.services.some((each) => each.name === this.name(PLAN_SERVICE));
+    if (this.announced && !there && this.users) void this.load();
+    this.announced = there;
   }
 
   /** Read the robot; tried again while there is none. */
   private async load(): Promise<void> {
     this.stop();
+    const reading = ++this.reading;
     const { namespace, description } = this.names;
     try {
       const value = await this.connection.call('motion.robot', { namespace, description });
-      if (this.users) this.adopt(value as unknown as MotionRobot);
+      if (this.users && reading === this.reading) this.adopt(value as unknown as MotionRobot);
     } catch (problem) {
-      this.problem = inOneLine(problem);
+      if (reading !== this.reading) return;
       this.robot = null;
-      this.tell('robot');
-      this.again();
+      this.lose(problem);
     }
   }
 
@@ -175,6 +189,7 @@ export class MotionStore {
 
   private adopt(robot: MotionRobot): void {
     this.problem = '';
+    this.announced = false;
     this.robot = robot;
     this.kinematics = new Kinematics(robot);
     this.current = { ...robot.defaults };
@@ -188,13 +203,14 @@ export class MotionStore {
         onData: (value) => {
           if (isObject(value)) this.setPath(pathOf(list<Json>(value, 'trajectory'), value['trajectory_start']));
         },
+        onFailed: lost, onEnded: (problem) => problem && lost(problem),
       }),
     ];
     this.tell('robot');
   }
 
   private lose(problem: unknown): void {
-    this.problem = asCallError(problem).message;
+    this.problem = inOneLine(problem);
     this.tell('robot');
     this.again();
   }
@@ -209,7 +225,9 @@ export class MotionStore {
       this.tell('scene');
       this.lookSoon();
     }
-    if (JSON.stringify(this.current) !== before) this.tell('current');
+    if (JSON.stringify(this.current) === before) return;
+    this.tell('current');
+    this.lookSoon();
   }
 
   private changedQuery(): void {
@@ -221,18 +239,21 @@ export class MotionStore {
   private lookSoon(): void {
     clearTimeout(this.looking);
     this.looking = window.setTimeout(() => {
-      for (const query of ['start', 'goal'] as const) if (this[query].shown && this.robot) void this.look(query);
+      for (const query of ['start', 'goal'] as const) if (this[query].shown && this.robot) void this.look(query, this.robot);
     }, LOOK_MS);
   }
 
-  private async look(query: Query): Promise<void> {
+  private async look(query: Query, robot: MotionRobot): Promise<void> {
+    const state = this[query];
     const positions = this.positions(query);
     try {
-      const { bodies } = await this.validity(positions);
-      this[query].colliding = new Set(bodies);
-    } catch {
-      // Without an answer nothing is known to collide; the next plan tells what is wrong.
-      this[query].colliding = new Set();
+      const { pairs } = await this.validity(robot, positions);
+      const more = pairs.length > MOST_PAIRS ? ` and ${pairs.length - MOST_PAIRS} more` : '';
+      state.colliding = new Set(pairs.flat());
+      state.collisions = pairs.slice(0, MOST_PAIRS).map(([one, other]) => `${one} collides with ${other}`).join(', ') + more;
+    } catch (problem) {
+      state.colliding = new Set();
+      state.collisions = `nobody says what collides: ${inOneLine(problem)}`;
     }
     this.tell('look');
   }

@@ -39,7 +39,7 @@ export function publishHandle(): void {
     points: (display: string, every: number, kind?: 'gazebo' | 'rviz') => points(panelOf(kind), display, every),
     screen: (body: string, kind?: 'gazebo' | 'rviz') => screen(panelOf(kind), body),
     project: (point: [number, number, number], kind?: 'gazebo' | 'rviz') => panelOf(kind).view.toPage(new THREE.Vector3(...point)),
-    handle: (marker: string, control: string) => handle(panelOf('rviz'), marker, control),
+    handle: (marker: string, control: string, end = 1) => handle(panelOf('rviz'), marker, control, end),
     overlays: (mode: Mode) => panelOf('gazebo').assembly.count(mode),
     look: (state: object, kind?: 'gazebo' | 'rviz') => panelOf(kind).view.rig.set(state),
     addDisplay: (name: string, properties: JsonObject, kind?: 'gazebo' | 'rviz') => Boolean(panelOf(kind).displays.add(name, properties)),
@@ -96,18 +96,28 @@ function points(panel: ScenePanel, name: string, every: number): number[] {
   return found;
 }
 
-/** Where on the page a control of a marker can be grasped: the middle of its box's end. */
-function handle(panel: ScenePanel, marker: string, name: string): { x: number; y: number } | null {
+interface PagePoint { x: number; y: number }
+
+/**
+ * Where on the page a control of a marker can be grasped, and where its middle is: an arrow or a ring
+ * at an end (1 or -1) of its longest side.
+ */
+function handle(panel: ScenePanel, marker: string, name: string, end: number): (PagePoint & { middle: PagePoint }) | null {
   const control = panel.view.scene.getObjectByName(marker)?.getObjectByName(name);
   if (!control) return null;
   control.updateWorldMatrix(true, true);
-  const box = new THREE.Box3().setFromObject(control);
+  const [only, ...others] = control.children;
+  const alone = only instanceof THREE.Mesh && !others.length ? only : null;
+  const geometry = alone?.geometry as THREE.BufferGeometry | undefined;
+  geometry?.computeBoundingBox();
+  const box = geometry?.boundingBox ?? new THREE.Box3().setFromObject(control);
+  const toPage = (point: THREE.Vector3): PagePoint => panel.view.toPage(alone ? alone.localToWorld(point) : point);
   const middle = box.getCenter(new THREE.Vector3());
-  const end = box.max.clone().sub(middle);
-  const longest = end.x > end.y && end.x > end.z ? 'x' : end.y > end.z ? 'y' : 'z';
+  const half = box.max.clone().sub(middle);
+  const longest = half.x > half.y && half.x > half.z ? 'x' : half.y > half.z ? 'y' : 'z';
   const point = middle.clone();
-  point[longest] += end[longest] * 0.8;
-  return panel.view.toPage(point);
+  point[longest] += half[longest] * 0.8 * end;
+  return { ...toPage(point), middle: toPage(middle) };
 }
 
 /** The middle of a body's box on the page. */

@@ -93,7 +93,8 @@ def _solved(
     else:
         x, y, z = target[:3, 3]
         text = f"inverse kinematics finds nothing that brings '{link or solver.tip_link}' to "
-        text += f"({x:.3f}, {y:.3f}, {z:.3f}) m in '{problem.scene.robot.frame}'"
+        text += f"({x:.3f}, {y:.3f}, {z:.3f}) m in '{problem.scene.robot.frame}' "
+        text += "(out of reach, or beyond the joint limits)"
     raise MoveGroupError(ErrorCode.NO_IK_SOLUTION, text)
 
 

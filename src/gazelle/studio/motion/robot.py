@@ -22,7 +22,11 @@ _PLAN = "plan_kinematic_path"
 _TYPE = "moveit_msgs/srv/GetMotionPlan"
 _DESCRIPTION = "robot_description"
 _PARTS = ("", "_semantic", "_kinematics", "_planning")
-_START = "start it, in ROS 2 by the launch file of the arm's MoveIt configuration"
+_START = (
+    "start it in a terminal with the launch file of the arm's MoveIt configuration: "
+    "ros2 launch PACKAGE move_group.launch.py, in ROS 1 roslaunch PACKAGE move_group.launch; "
+    "this page looks for it again and again"
+)
 
 
 def get_motion_robot(studio: Studio, params: Params) -> dict[str, Any]:
@@ -149,7 +153,14 @@ def _group_value(robot: RobotModel, group: JointGroup) -> dict[str, Any]:
         "active": list(group.active_joints),
         "links": list(group.moved_links),
         "tips": list(group.tip_links),
-        "effectors": [{"name": one.name, "link": one.parent_link} for one in effectors],
+        "effectors": [
+            {"name": one.name, "link": one.parent_link, "links": list(_links(robot, one.group))}
+            for one in effectors
+        ],
         "states": {name: dict(values) for name, values in group.states.items()},
         "is_chain": group.is_chain,
     }
+
+
+def _links(robot: RobotModel, group: str) -> tuple[str, ...]:
+    return robot.groups[group].links if group in robot.groups else ()

@@ -1,0 +1,1 @@
+var e=[];function t(t){return e.push(t),()=>void e.splice(e.indexOf(t),1)}function n(t){return e.at(-1)?.(t)??``}export{n,t};
