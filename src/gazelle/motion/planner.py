@@ -13,7 +13,7 @@ from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker, CollisionContact
-from gazelle.motion.constraints import PathConstraint
+from gazelle.motion.constraints import Constrained, PathConstraint
 from gazelle.motion.kinematics import Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.planning import ErrorCode, Path, PlanningError, configured, plan
@@ -183,7 +183,7 @@ class Planner:
         if not group:
             return self._checker(None).contacts(full)
         own = self._group(group)
-        checker = CollisionChecker(self.scene.with_positions(full), own)
+        checker = self._checker(own).follow(self.scene.with_positions(full))
         return checker.contacts(own.take(full))
 
     def plan(
@@ -246,7 +246,7 @@ class Planner:
                 acceleration if acceleration_scaling is None else acceleration_scaling
             ),
             method=method,
-            validity=checker,
+            validity=Constrained(checker, tuple(constraints)) if constraints else checker,
         )
         return PlannedMotion(own.name, path, trajectory, (*notes, *path.notes, *trajectory.notes))
 

@@ -135,7 +135,8 @@ def test_all_mistakes_are_told_at_once_with_places(package: Make) -> None:
         "  elbw:\n    max_velocity: 1.0\n"
         "  elbow:\n    max_velocity: 1.0\n    has_acceleration_limits: true\n"
         "    max_acceleration: fast\n    max_jerc: 2.0\n    max_position: -1.5\n"
-        "    min_position: 1.5\n    has_jerk_limits: true\n    max_jerk: -1\n",
+        "    min_position: 1.5\n    has_jerk_limits: true\n    max_jerk: -1\n"
+        "    has_deceleration_limits: true\n    max_deceleration: 2.0\n",
     )
     made.write(
         "config/kinematics.yaml", "amr:\n  kinematics_solver: kdl\narm:\n  kinematics_sovler: k\n"
@@ -161,6 +162,7 @@ def test_all_mistakes_are_told_at_once_with_places(package: Make) -> None:
         " mean 'max_jerk'",
         "min_position 1.5 is above max_position -1.5; both are ignored [moveit.bad-limit]",
         "max_jerk is -1, limits are above 0",
+        "max_deceleration is 2, decelerations are below 0",
         "kinematics.yaml:1:1: warning: robot_description_kinematics names group 'amr'; the SRDF"
         " has no such group",
         "kinematics.yaml:4:3: warning: robot_description_kinematics.arm.kinematics_sovler is not",

@@ -8,8 +8,16 @@ from typing import Any
 
 import pytest
 
+from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
-from gazelle.description.srdf import Chain, CollisionPair, EndEffector, load_srdf
+from gazelle.description.srdf import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    link_names,
+    load_srdf,
+)
+from gazelle.description.urdf import read_urdf
 from gazelle.diagnostics import Diagnostics
 
 Reader = Callable[[str], Any]
@@ -49,6 +57,27 @@ def test_every_element_is_read(read: Reader) -> None:
     assert srdf.enabled_pairs == (CollisionPair("hand", "base"),)
     assert srdf.disabled_pairs == (CollisionPair("base", "upper", "Adjacent"),)
     assert srdf.joint_properties == {"wrist": {"angular_distance_weight": "0.5"}}
+
+
+def test_root_link_world_is_a_link_as_in_moveit(tmp_path: Path) -> None:
+    text = (
+        '<robot name="r"><link name="world"/><link name="a"/><joint name="fixed" type="fixed">'
+        '<parent link="world"/><child link="a"/></joint></robot>'
+    )
+    diagnostics = Diagnostics()
+    robot = read_urdf(text, context=ReadContext(None, diagnostics, "r.urdf"))
+    assert robot is not None and link_names(robot) == ["world", "a"]
+    file = tmp_path / "r.srdf"
+    file.write_text(
+        '<robot name="r"><group name="g"><chain base_link="world" tip_link="a"/></group>'
+        '<virtual_joint name="v" type="fixed" parent_frame="map" child_link="world"/></robot>',
+        encoding="utf-8",
+    )
+    srdf = load_srdf(file, robot=robot, workspace=None, diagnostics=diagnostics)
+    assert srdf is not None
+    assert srdf.groups[0].chains == (Chain("world", "a"),)
+    assert srdf.virtual_joints[0].child_link == "world"
+    assert not diagnostics.by_code("parameters.srdf-name")
 
 
 def test_all_unknown_names_are_told_at_once_with_places(read: Reader) -> None:

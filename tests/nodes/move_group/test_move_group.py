@@ -28,6 +28,10 @@ def test_a_joint_goal_is_planned_and_executed(
     assert list(points[0].positions) == pytest.approx(READY, abs=1e-6)
     assert list(points[-1].positions) == pytest.approx(UP, abs=1e-3)
     assert [arm.robot.positions[f"joint_{i}"] for i in range(1, 7)] == pytest.approx(UP, abs=1e-3)
+    # Views listen below the node's name in ROS 1.
+    for name in ("display_planned_path", "monitored_planning_scene"):
+        assert arm.bench.graph.publisher_count(f"/{name}") == 1
+        assert arm.bench.graph.publisher_count(f"/move_group/{name}") == (generation == 1)
 
 
 def test_goal_pose_obstacle_and_attached_object_in_one_scene(arm: ArmBench) -> None:

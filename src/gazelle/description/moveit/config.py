@@ -24,7 +24,7 @@ from gazelle.description.moveit.pipelines import (
     read_pipelines,
 )
 from gazelle.description.moveit.settings import Places, Settings
-from gazelle.description.srdf import Srdf, load_srdf
+from gazelle.description.srdf import Srdf, link_names, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
 
@@ -123,7 +123,7 @@ def typed_config(tree: Settings, description: str, robot: Model, srdf: Srdf) -> 
     """Read all that is not robot or SRDF from the parameters of ``move_group``."""
     groups = [group.name for group in srdf.groups]
     joints = [joint.name for joint in robot.joints]
-    links = [link.name for link in robot.links]
+    links = link_names(robot)
     virtual = [joint.name for joint in srdf.virtual_joints]
     planning = tree.branch(f"{description}_planning")
     pipelines, default = read_pipelines(tree, groups)

@@ -30,6 +30,7 @@ class JointLimit:
         has_velocity: False when there is no velocity limit, None when the URDF's stays.
         has_acceleration: the same of acceleration; the URDF has none.
         has_jerk: the same of jerk.
+        max_deceleration: below zero; Pilz' planner brakes PTP with it, nothing else knows it.
     """
 
     min_position: float | None = None
@@ -40,6 +41,7 @@ class JointLimit:
     max_acceleration: float | None = None
     has_jerk: bool | None = None
     max_jerk: float | None = None
+    max_deceleration: float | None = None
     span: SourceSpan | None = None
 
 
@@ -68,7 +70,20 @@ def _read_limit(settings: Settings) -> JointLimit:
         settings.diagnostics.report("moveit.bad-limit", message, settings.span("min_position"))
         low = high = None
     velocity, acceleration, jerk = (_read_maximum(settings, item) for item in _QUANTITIES)
-    return JointLimit(low, high, *velocity, *acceleration, *jerk, span=settings.span())
+    braking = _read_deceleration(settings)
+    return JointLimit(low, high, *velocity, *acceleration, *jerk, braking, settings.span())
+
+
+def _read_deceleration(settings: Settings) -> float | None:
+    flag, value = settings.flag("has_deceleration_limits"), settings.number("max_deceleration")
+    if not flag or value is None:
+        return None
+    if value >= 0:
+        message = f"{settings.name('max_deceleration')} is {value:g}, decelerations are below 0; "
+        message += "it is ignored, Pilz' planner ends here"
+        settings.diagnostics.report("moveit.bad-limit", message, settings.span("max_deceleration"))
+        return None
+    return value
 
 
 def _read_maximum(settings: Settings, quantity: str) -> tuple[bool | None, float | None]:

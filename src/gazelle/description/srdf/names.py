@@ -9,13 +9,22 @@ from gazelle.description.model import Joint, Model
 from gazelle.description.xml import Tag, attribute_span
 from gazelle.diagnostics import Diagnostics, did_you_mean
 
-__all__ = ["Names"]
+__all__ = ["Names", "link_names"]
+
+_WORLD = "world"
 
 _PHRASES = {
     "link": "Link '{}' is not known to URDF",
     "joint": "Joint '{}' is not known to the URDF",
     "group": "Group '{}' is not known",
 }
+
+
+def link_names(robot: Model) -> list[str]:
+    """Return a robot's links; a root link ``world``, which models have not, is one in MoveIt."""
+    names = [link.name for link in robot.links]
+    is_root = _WORLD not in names and any(joint.parent == _WORLD for joint in robot.joints)
+    return [_WORLD, *names] if is_root else names
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +59,7 @@ class Names:
 
     def link(self, tag: Tag, attribute: str) -> str:
         """Return the link that an attribute names; empty (reported) when there is none."""
-        known = [link.name for link in self.robot.links] if self.robot else None
+        known = link_names(self.robot) if self.robot else None
         return self._known(tag, attribute, "link", known)
 
     def joint(self, tag: Tag, attribute: str) -> str:

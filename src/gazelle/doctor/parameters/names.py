@@ -18,6 +18,7 @@ from gazelle.control.checks import (
 )
 from gazelle.control.robot import JointResource
 from gazelle.description.model import Model
+from gazelle.description.srdf import link_names
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.parameters.controllers import (
@@ -119,7 +120,7 @@ def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics
         check_control(joints, known, source, diagnostics, moveit=found.moveit, span=model.span)
         check_claims(found.controllers, hardware, diagnostics)
     for root in found.srdfs:
-        check_srdf(root, [link.name for link in model.links], joints, diagnostics)
+        check_srdf(root, link_names(model), joints, diagnostics)
     for document in found.documents:
         _check_moveit(document, joints, found.srdfs, diagnostics)
     rows = tuple(_rows(found, model, hardware))

@@ -22,7 +22,7 @@ from gazelle.nodes.move_group.planning import RequestPlanner
 from gazelle.nodes.move_group.planning_scene_messages import apply_scene
 from gazelle.nodes.move_group.problem import ProblemMaker
 from gazelle.nodes.move_group.robot_states import robot_state_message
-from gazelle.nodes.move_group.scene_monitor import SceneMonitor
+from gazelle.nodes.move_group.scene_monitor import SceneMonitor, told_topics
 from gazelle.nodes.move_group.state_monitor import StateMonitor
 
 __all__ = ["MoveGroupContext", "make_context"]
@@ -43,7 +43,7 @@ class MoveGroupContext:
         maker: makes collision models and solvers.
         planner: plans requests.
         executor: sends trajectories to controllers; None where that is not allowed.
-        display: planned trajectories for views.
+        displays: planned trajectories for views.
     """
 
     node: Node
@@ -54,7 +54,7 @@ class MoveGroupContext:
     maker: ProblemMaker
     planner: RequestPlanner
     executor: TrajectoryExecutor | None
-    display: Publisher
+    displays: tuple[Publisher, ...]
 
     def fresh_scene(self, diff: Any = None) -> PlanningScene:
         """Return the scene with a state that is new, and a ``PlanningScene`` laid over it.
@@ -91,7 +91,8 @@ class MoveGroupContext:
         message: Any = message_type("moveit_msgs/msg/DisplayTrajectory")(model_id=self.robot.name)
         message.trajectory = [trajectory]
         message.trajectory_start = self.state_message(start)
-        self.display.publish(message)
+        for one in self.displays:
+            one.publish(message)
 
     def tell(self, what: str, error: MoveGroupError) -> None:
         """Log a failure with its code and why."""
@@ -121,16 +122,17 @@ def make_context(
         generation: of names and wires.
     """
     states = StateMonitor(node, str(parameters.get("joint_state_topic", "joint_states")))
-    monitor = SceneMonitor(node, robot, states)
+    monitor = SceneMonitor(node, robot, states, generation=generation)
     maker = ProblemMaker(config, robot)
     executor = None
     if parameters.get("allow_trajectory_execution", True) is not False:
         executor = _executor(node, config, robot, states)
-    display = node.create_publisher(
-        "display_planned_path", "moveit_msgs/msg/DisplayTrajectory", latch=True
+    displays = tuple(
+        node.create_publisher(name, "moveit_msgs/msg/DisplayTrajectory", latch=True)
+        for name in told_topics("display_planned_path", generation)
     )
     return MoveGroupContext(
-        node, generation, config, robot, monitor, maker, RequestPlanner(maker), executor, display
+        node, generation, config, robot, monitor, maker, RequestPlanner(maker), executor, displays
     )
 
 

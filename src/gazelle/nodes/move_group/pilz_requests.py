@@ -74,8 +74,19 @@ def _planner(config: MoveItConfig, problem: GroupProblem, link: str) -> PilzPlan
         problem.solver,
         link=link,
         cartesian=config.cartesian_limits,
+        deceleration=_decelerations(config, problem),
         validity=problem.checker,
     )
+
+
+def _decelerations(config: MoveItConfig, problem: GroupProblem) -> FloatArray:
+    """Return ``max_deceleration`` of each joint, its acceleration where there is none."""
+    found = problem.group.space.acceleration.copy()
+    for place, name in enumerate(problem.group.variables):
+        limit = config.joint_limits.get(name)
+        if limit is not None and limit.max_deceleration is not None:
+            found[place] = -limit.max_deceleration
+    return found
 
 
 def _command(

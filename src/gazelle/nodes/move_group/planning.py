@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.motion.constraints import PathConstraint
+from gazelle.motion.constraints import Constrained, PathConstraint
 from gazelle.motion.planning import Path, PlanningError, plan
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
@@ -115,9 +115,8 @@ class RequestPlanner:
         along = problem.constraints(request.path_constraints)
         goals = _goals(problem, request.goal_constraints)
         path = self._best_path(problem, choice, request, along, goals)
-        trajectory, notes = timed(
-            path, problem, choice, _scaling(request, "velocity"), _scaling(request, "acceleration")
-        )
+        scaling = _scaling(request, "velocity"), _scaling(request, "acceleration")
+        trajectory, notes = timed(path, problem, choice, *scaling, along=along)
         return trajectory, (*choice.notes, *path.notes, *notes)
 
     def _best_path(
@@ -177,8 +176,13 @@ def timed(
     choice: PlannerChoice,
     velocity: float,
     acceleration: float,
+    *,
+    along: tuple[PathConstraint, ...] = (),
 ) -> tuple[Trajectory, tuple[str, ...]]:
-    """Return a path with times, as the pipeline's adapters ask for them."""
+    """Return a path with times, as the pipeline's adapters ask for them.
+
+    Corners are rounded only so far that what must hold along the path still does.
+    """
     method, notes = method_of(choice.adapters)
     values = choice.values
     made = parameterise(
@@ -189,7 +193,7 @@ def timed(
         method=method,
         resample_dt_s=_positive(values, "resample_dt", 0.1),
         path_tolerance=_positive(values, "path_tolerance", 0.1),
-        validity=problem.checker,
+        validity=Constrained(problem.checker, along) if along else problem.checker,
     )
     return made, (*notes, *made.notes)
 

@@ -11,7 +11,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.constraints import PathConstraint
-from gazelle.motion.kinematics import Solver
+from gazelle.motion.kinematics import Solver, warm_up
 from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
@@ -119,6 +119,7 @@ class ProblemMaker:
 
     def warm_up(self, scene: PlanningScene) -> None:
         """Build collision models and compile kernels, so that no request has to wait for them."""
+        warm_up()
         self.checker(scene)
         for group in self.robot.groups.values():
             self.checker(scene, group.name)

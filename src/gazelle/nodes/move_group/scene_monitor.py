@@ -23,10 +23,15 @@ from gazelle.nodes.move_group.planning_scene_messages import (
 from gazelle.nodes.move_group.scene_messages import apply_attached, apply_object
 from gazelle.nodes.move_group.state_monitor import StateMonitor
 
-__all__ = ["SceneMonitor"]
+__all__ = ["SceneMonitor", "told_topics"]
 
 _NAME = "(noname)"
 _PERIOD_S = 0.25
+
+
+def told_topics(name: str, generation: int) -> tuple[str, ...]:
+    """Return the names of a topic that views listen to: MoveIt 1 has them below the node's."""
+    return (name, f"~{name}") if generation == 1 else (name,)
 
 
 class SceneMonitor:
@@ -38,8 +43,17 @@ class SceneMonitor:
         version: counts changes of everything but joint states.
     """
 
-    def __init__(self, node: Node, robot: RobotModel, states: StateMonitor) -> None:
-        """Begin with an empty scene."""
+    def __init__(
+        self, node: Node, robot: RobotModel, states: StateMonitor, *, generation: int = 2
+    ) -> None:
+        """Begin with an empty scene.
+
+        Args:
+            node: listens and tells.
+            robot: the robot.
+            states: where its joints are.
+            generation: 1 for MoveIt 1's names of topics too.
+        """
         self.robot = robot
         self.states = states
         self.version = 0
@@ -52,9 +66,10 @@ class SceneMonitor:
         self._listener = TransformListener(self._buffer, node)
         self._changed = threading.Event()
         self._is_new = True
-        self._out = node.create_publisher(
-            "monitored_planning_scene", "moveit_msgs/msg/PlanningScene", queue_size=100
-        )
+        self._outs = [
+            node.create_publisher(name, "moveit_msgs/msg/PlanningScene", queue_size=100)
+            for name in told_topics("monitored_planning_scene", generation)
+        ]
         states.on_change(self._changed.set)
 
     @property
@@ -130,7 +145,7 @@ class SceneMonitor:
         while not stop.is_set():
             if self._changed.wait(_PERIOD_S):
                 self._changed.clear()
-                if self._out.matched:
+                if any(one.matched for one in self._outs):
                     self._publish()
             stop.wait(_PERIOD_S)
 
@@ -138,12 +153,16 @@ class SceneMonitor:
         with self._lock:
             everything, self._is_new = self._is_new, False
         if everything:
-            self._out.publish(self.message(Components.asked(0)))
+            self._tell(self.message(Components.asked(0)))
             return
         diff = self.message(Components.SCENE_SETTINGS | Components.ROBOT_STATE)
         diff.is_diff = diff.robot_state.is_diff = True
         diff.robot_state.attached_collision_objects = []
-        self._out.publish(diff)
+        self._tell(diff)
+
+    def _tell(self, message: Any) -> None:
+        for one in self._outs:
+            one.publish(message)
 
     def _change(self, change: Callable[[PlanningScene], PlanningScene]) -> None:
         try:
