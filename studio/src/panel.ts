@@ -53,6 +53,8 @@ export interface PanelKind {
   readonly group: PanelGroup;
   /** Other names for it: `rqt_tf_tree` for `view_frames`. */
   readonly aliases?: readonly string[];
+  /** The kind below which it goes where that is open, not over what is looked at. */
+  readonly below?: string;
   /** Whether there can be only one. */
   readonly single?: boolean;
   /** A short line for the menu's tooltip. */

@@ -301,15 +301,82 @@ def test_maps_come_with_updates_and_move_with_their_frame(
          data=[0, 100, -1, 1, 2, 3])  # fmt: skip
     frame = stream.next()
     assert (frame.kind, frame.number) == (21, 6)
-    head = struct.unpack_from("<8f2I", frame.payload)
+    head = struct.unpack_from("<8f7I", frame.payload)
     assert head[:8] == (11, 0, 0, 0, 0, 0, 1, 0.5)
-    assert head[8:] == (3, 2)
-    assert list(frame.payload[48:]) == [0, 100, 255, 1, 2, 3]
+    number = head[10]
+    assert head[8:] == (3, 2, number, 0, 0, 3, 2)
+    assert list(frame.payload[64:]) == [0, 100, 255, 1, 2, 3]
     talk("/map_updates", "map_msgs/OccupancyGridUpdate", x=1, y=1, width=2, height=1,
          data=[7, 8])  # fmt: skip
-    assert list(stream.next().payload[48:]) == [0, 100, 255, 1, 7, 8]
+    assert _part(stream.next()) == (number, (1, 1, 2, 1), [7, 8])
     move("world", "map", (2, 0, 0))
-    assert struct.unpack_from("<f", stream.next().payload) == (12,)
+    moved = stream.next()
+    assert struct.unpack_from("<f", moved.payload) == (12,)
+    assert _part(moved) == (number, (0, 0, 0, 0), [])
+
+
+def _part(frame: Binary) -> tuple[int, tuple[int, ...], list[int]]:
+    assert frame.kind == 30
+    _, _, number, *rect = struct.unpack_from("<7I", frame.payload, 32)
+    return number, tuple(rect), list(frame.payload[64:])
+
+
+def test_of_a_map_that_comes_again_only_what_changed_is_sent(
+    page: Page, talk: Talk, move: Move
+) -> None:
+    move("world", "map", (0, 0, 0))
+    stream = page.display("Map", "/map", "world")
+    cells = np.zeros((400, 400), np.int8)
+
+    def publish() -> None:
+        height, width = cells.shape
+        info = {"resolution": 0.05, "width": width, "height": height}
+        talk("/map", "nav_msgs/OccupancyGrid", header={"frame_id": "map"}, info=info,
+             data=cells.ravel().tolist())  # fmt: skip
+
+    publish()
+    first = stream.next()
+    assert first.kind == 21
+    number = struct.unpack_from("<I", first.payload, 40)[0]
+    cells[10:12, 20:23] = 100
+    cells[11, 20] = 0
+    publish()
+    assert _part(stream.next()) == (number, (20, 10, 3, 2), [100, 100, 100, 0, 100, 100])
+    # An update that came before a whole map is part of it, or of a map that is no more.
+    for x, y in ((400, 0), (-1, 0), (0, 399)):
+        talk("/map_updates", "map_msgs/OccupancyGridUpdate", x=x, y=y, width=1, height=2,
+             data=[1, 1])  # fmt: skip
+    cells = np.pad(cells, 1)
+    publish()
+    grown = stream.until(lambda frame: frame.kind == 21)
+    assert struct.unpack_from("<2I", grown.payload, 32) == (402, 402)
+    assert struct.unpack_from("<I", grown.payload, 40)[0] != number
+    assert np.array_equal(np.frombuffer(grown.payload[64:], np.int8), cells.ravel())
+
+
+def test_updates_of_a_map_are_kept_while_its_page_asks_for_nothing(
+    page: Page, talk: Talk, move: Move
+) -> None:
+    move("world", "map", (0, 0, 0))
+    stream = page.open("display", acks=False, display="Map", topic="/map", fixed_frame="world")
+    info = {"resolution": 1.0, "width": 40, "height": 10}
+    talk("/map", "nav_msgs/OccupancyGrid", header={"frame_id": "map"}, info=info, data=[0] * 400)
+    assert stream.next().kind == 21
+    for i in range(400):
+        talk("/map_updates", "map_msgs/OccupancyGridUpdate", x=i % 40, y=i // 40, width=1,
+             height=1, data=[1 + i % 100])  # fmt: skip
+    shown = np.zeros(400, int)
+    wanted = np.array([1 + i % 100 for i in range(400)])
+
+    def take(frame: Binary) -> bool:
+        _, (x, y, width, height), cells = _part(frame)
+        place = shown.reshape(10, 40)[y : y + height, x : x + width]
+        place[...] = np.array(cells, int).reshape(height, width)
+        stream.ack()
+        return np.array_equal(shown, wanted)
+
+    stream.ack()
+    stream.until(take)
 
 
 def test_plain_displays_carry_the_pose_of_their_frame(page: Page, talk: Talk, move: Move) -> None:

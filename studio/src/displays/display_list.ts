@@ -14,10 +14,19 @@ export interface DisplayValue {
   properties: JsonObject;
 }
 
+/** A tool as `rviz.open` and layouts write it. */
+export interface ToolValue {
+  class: string;
+  topic: string;
+  properties: JsonObject;
+}
+
 /** The list behind the Displays panel. */
 export class DisplayList {
   readonly displays: Display[] = [];
   backgroundColour = '48; 48; 48';
+  /** What a `.rviz` file says of tools. */
+  tools: readonly ToolValue[] = [];
   private readonly listeners = new Set<(what: 'list' | 'status' | 'properties', display?: Display) => void>();
 
   constructor(readonly stage: Stage) {
@@ -76,6 +85,7 @@ export class DisplayList {
     [...this.displays].forEach((display) => this.remove(display));
     const unknown: string[] = [];
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
+    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as ToolValue[];
     if (textOf(value, 'background')) this.setBackground(textOf(value, 'background'));
     const displays = Array.isArray(value['displays']) ? value['displays'] : [];
     for (const each of displays.filter(isObject)) {
@@ -94,7 +104,8 @@ export class DisplayList {
     const displays = this.displays.map((each) => ({
       class: each.kind.name, name: each.name, enabled: each.enabled, properties: each.props.toObject(),
     }));
-    return { fixed_frame: this.fixedFrame, background: this.backgroundColour, displays: displays as unknown as Json };
+    const [shown, tools] = [displays, this.tools] as unknown as Json[];
+    return { fixed_frame: this.fixedFrame, background: this.backgroundColour, displays: shown, tools };
   }
 
   dispose(): void {

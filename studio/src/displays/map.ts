@@ -3,9 +3,12 @@ import * as THREE from 'three';
 import { floats, type Frame } from '../frame';
 import { place } from '../model/shapes';
 import type { DisplayKind, Drawer, Site } from './display';
+import { Swatches, type Look } from './map_swatches';
 import { choice, flag, num } from './properties';
 
-const HEADER_BYTES = 48;
+const HEADER_BYTES = 64;
+/** The kind of frames that bring a part. */
+const PART = 30;
 
 /** RViz's Map. */
 export const MAP: DisplayKind = {
@@ -22,89 +25,71 @@ export const MAP: DisplayKind = {
 };
 
 class MapDrawer implements Drawer {
-  private readonly material = new THREE.MeshBasicMaterial({ transparent: true, side: THREE.DoubleSide, depthWrite: false });
-  private readonly mesh = new THREE.Mesh(new THREE.PlaneGeometry(1, 1).translate(0.5, 0.5, 0), this.material);
-  private texture: THREE.DataTexture | null = null;
-  private pixels = new Uint8Array(0);
-  private values = new Int8Array(0);
-  private width = 0;
-  private height = 0;
+  private readonly swatches: Swatches;
+  private number = 0;
 
   constructor(private readonly site: Site) {
-    this.mesh.visible = false;
-    this.mesh.renderOrder = -2;
-    this.mesh.raycast = () => undefined;
-    site.root.add(this.mesh);
+    this.swatches = new Swatches(site.view.renderer, this.look());
+    this.swatches.root.visible = false;
+    site.root.add(this.swatches.root);
   }
 
   frame(frame: Frame): void {
     const head = floats(frame, 8);
-    const view = new DataView(frame.buffer, frame.offset + 28);
-    const resolution = view.getFloat32(0, true);
-    const width = view.getUint32(4, true);
-    const height = view.getUint32(8, true);
+    const [width, height, number, x, y, columns, rows] = new Uint32Array(frame.buffer, frame.offset + 32, 7);
     const { frames, status } = this.site;
-    this.mesh.visible = !Number.isNaN(head[0]) && width > 0 && height > 0;
+    const { root } = this.swatches;
+    // A part of a grid that was shown before, of another topic.
+    if (frame.kind === PART && number !== this.number) return;
+    root.visible = !Number.isNaN(head[0]) && width > 0 && height > 0;
     if (Number.isNaN(head[0])) return status('Transform', 'error', `No transform to [${frames.fixed}]`);
     status('Transform', 'ok', 'Transform OK');
-    if (!this.mesh.visible) return status('Map', 'error', `The map is empty (${width} x ${height})`);
-    status('Map', 'ok', `Map received: ${width} x ${height} at ${resolution.toFixed(3)} m`);
+    if (!root.visible) return status('Map', 'error', `The map is empty (${width} x ${height})`);
+    status('Map', 'ok', `Map received: ${width} x ${height} at ${head[7].toFixed(3)} m`);
     place(this.site.root, head);
-    this.mesh.scale.set(width * resolution, height * resolution, 1);
-    this.values = new Int8Array(frame.buffer, frame.offset + HEADER_BYTES, width * height);
-    this.resize(width, height);
-    this.paint();
+    root.scale.set(head[7], head[7], 1);
+    this.number = number;
+    this.swatches.resize(width, height);
+    this.swatches.put({ x, y, width: columns, height: rows }, new Uint8Array(frame.buffer, frame.offset + HEADER_BYTES, columns * rows));
     this.site.view.invalidate();
   }
 
-  changed(path: string): void {
-    this.material.opacity = this.site.props.num('Alpha');
-    this.material.depthTest = !this.site.props.flag('Draw Behind');
-    this.mesh.renderOrder = this.site.props.flag('Draw Behind') ? -50 : -2;
-    if (path === 'Color Scheme') this.paint();
+  changed(): void {
+    this.swatches.restyle(this.look());
   }
 
   clear(): void {
-    this.mesh.visible = false;
+    this.swatches.root.visible = false;
+    this.number = 0;
   }
 
   dispose(): void {
-    this.texture?.dispose();
-    this.material.dispose();
+    this.swatches.dispose();
   }
 
   counts(): Record<string, number> {
-    return { width: this.mesh.visible ? this.width : 0, height: this.mesh.visible ? this.height : 0 };
+    const { root, width, height } = this.swatches;
+    const known = root.visible ? this.swatches.count((value) => value <= 100) : 0;
+    return { width: root.visible ? width : 0, height: root.visible ? height : 0, known };
   }
 
-  private resize(width: number, height: number): void {
-    if (this.texture && width === this.width && height === this.height) return;
-    this.texture?.dispose();
-    [this.width, this.height] = [width, height];
-    this.pixels = new Uint8Array(width * height * 4);
-    this.texture = new THREE.DataTexture(this.pixels, width, height);
-    this.material.map = this.texture;
-    this.material.needsUpdate = true;
-  }
-
-  private paint(): void {
-    if (!this.texture) return;
-    const table = PALETTES[this.site.props.text('Color Scheme')] ?? PALETTES.map;
-    const target = new Uint32Array(this.pixels.buffer);
-    for (let i = 0; i < this.values.length; i++) target[i] = table[this.values[i] & 255];
-    this.texture.needsUpdate = true;
+  private look(): Look {
+    const { props } = this.site;
+    const palette = PALETTES[props.text('Color Scheme')] ?? PALETTES.map;
+    return { alpha: props.num('Alpha'), palette, behind: props.flag('Draw Behind') };
   }
 }
 
-function palette(colour: (value: number) => [number, number, number, number]): Uint32Array {
-  const table = new Uint32Array(256);
-  const bytes = new Uint8Array(table.buffer);
+function palette(colour: (value: number) => [number, number, number, number]): THREE.DataTexture {
+  const bytes = new Uint8Array(4 * 256);
   for (let value = 0; value < 256; value++) bytes.set(colour(value), value * 4);
-  return table;
+  const texture = new THREE.DataTexture(bytes, 256, 1);
+  texture.needsUpdate = true;
+  return texture;
 }
 
 /** RViz's palettes: 0 to 100 known, 101 to 127 and 128 to 254 not legal, 255 unknown. */
-const PALETTES: Record<string, Uint32Array> = {
+const PALETTES: Record<string, THREE.DataTexture> = {
   map: palette((v) => {
     if (v <= 100) return [255 - (255 * v) / 100, 255 - (255 * v) / 100, 255 - (255 * v) / 100, 255];
     return illegal(v, [0x70, 0x89, 0x86, 255]);

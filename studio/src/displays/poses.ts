@@ -5,7 +5,7 @@ import type { JsonObject } from '../json';
 import { Covariance, covarianceProperties } from './covariance';
 import type { DisplayKind, Drawer, Site } from './display';
 import { list, numbers, part, poseMatrix, vector } from './message';
-import { colour, num } from './properties';
+import { colour, num, type Properties } from './properties';
 import { InstancePool, PoseShapes, shapeProperties } from './shapes';
 
 /** RViz's Pose. */
@@ -22,9 +22,32 @@ export const POSE_ARRAY: DisplayKind = {
   name: 'PoseArray',
   about: 'Many poses: the particles of a localization.',
   types: ['geometry_msgs/PoseArray'],
-  properties: shapeProperties('Arrow (Flat)', '', true),
-  make: (site) => new PosesDrawer(site, (message) => list(message, 'poses').map((pose) => poseMatrix(pose as never))),
+  properties: [...shapeProperties('Arrow (Flat)', '', true), num('Arrow Length', 0.3, 'Length of a flat arrow, metres.', { min: 0 })],
+  make: (site) => new PosesDrawer(site, (message) => list(message, 'poses').map((pose) => poseMatrix(pose as never)), null, 'Arrow Length'),
 };
+
+/** Nav2's ParticleCloud: the likelier a particle the longer its arrow. */
+export const PARTICLE_CLOUD: DisplayKind = {
+  name: 'ParticleCloud',
+  about: 'The particles of a localization with their weights.',
+  types: ['nav2_msgs/ParticleCloud'],
+  properties: [
+    ...shapeProperties('Arrow (Flat)', '', true),
+    num('Min Arrow Length', 0.02, 'Length of the least likely one, metres.', { min: 0 }),
+    num('Max Arrow Length', 0.3, 'Length of the likeliest one, metres.', { min: 0.001 }),
+  ],
+  make: (site) => new PosesDrawer(site, (message) => particles(message, site.props), null, 'Max Arrow Length'),
+};
+
+function particles(message: JsonObject, props: Properties): THREE.Matrix4[] {
+  const found = list<{ pose: JsonObject; weight: number }>(message, 'particles');
+  const most = found.reduce((top, each) => Math.max(top, each.weight), 0) || 1;
+  const [least_m, most_m] = [props.num('Min Arrow Length'), props.num('Max Arrow Length')];
+  return found.map(({ pose, weight }) => {
+    const part = Math.max(least_m / most_m, weight / most);
+    return poseMatrix(pose).scale(new THREE.Vector3(part, part, part));
+  });
+}
 
 /** RViz's PoseWithCovariance. */
 export const POSE_WITH_COVARIANCE: DisplayKind = {
@@ -48,8 +71,9 @@ class PosesDrawer implements Drawer {
     site: Site,
     private readonly posesOf: (message: JsonObject) => THREE.Matrix4[],
     private readonly covarianceOf: ((message: JsonObject) => number[]) | null = null,
+    flatLength = '',
   ) {
-    this.shapes = new PoseShapes(site.root, site.props);
+    this.shapes = new PoseShapes(site.root, site.props, '', flatLength);
     this.covariance = covarianceOf ? new Covariance(site.root, site.props) : null;
   }
 

@@ -11,14 +11,14 @@ import { MARKER, MARKER_ARRAY } from './markers';
 import { ODOMETRY } from './odometry';
 import { PATH, POLYGON } from './path';
 import { POINT_KINDS } from './points';
-import { POINT_STAMPED, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE } from './poses';
+import { PARTICLE_CLOUD, POINT_STAMPED, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE } from './poses';
 import { ROBOT_MODEL } from './robot_model';
 import { GRID_CELLS, IMU, RANGE, WRENCH } from './sensors';
 import { TF } from './tf';
 
 const KINDS: readonly DisplayKind[] = [
   AXES, CAMERA, EFFORT, GRID, GRID_CELLS, IMAGE, IMU, INTERACTIVE_MARKERS, MAP, MARKER, MARKER_ARRAY,
-  MOTION_PLANNING, ODOMETRY, PATH, POINT_STAMPED, ...POINT_KINDS, POLYGON, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE,
+  MOTION_PLANNING, ODOMETRY, PARTICLE_CLOUD, PATH, POINT_STAMPED, ...POINT_KINDS, POLYGON, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE,
   RANGE, ROBOT_MODEL, TF, WRENCH,
 ].sort((a, b) => a.name.localeCompare(b.name));
 

@@ -1,6 +1,6 @@
 /** Many equal things at once: pools that grow, and the arrows and axes of RViz's Shape property. */
 import * as THREE from 'three';
-import { arrowGeometry, axesGeometry } from '../model/geometry';
+import { arrowGeometry, axesGeometry, flatArrowGeometry } from '../model/geometry';
 import { choice, colour, num, type Properties, type PropertySpec } from './properties';
 
 /** Instances of one geometry; grows by doubling, never shrinks. */
@@ -94,21 +94,27 @@ export function shapeProperties(shape: 'Arrow' | 'Axes' | 'Arrow (Flat)', prefix
   ];
 }
 
-/** Arrows or axes at any number of poses, by the properties of `shapeProperties`. */
+/**
+ * Arrows or axes at any number of poses, by the properties of `shapeProperties`. Flat arrows have
+ * the length of the property `flatLength`.
+ */
 export class PoseShapes {
   private readonly arrowPaint = new THREE.MeshPhongMaterial({ color: 0xffffff });
+  private readonly flatPaint = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
   private readonly axesPaint = new THREE.MeshPhongMaterial({ vertexColors: true });
   private readonly arrows: InstancePool;
+  private readonly flat: InstancePool;
   private readonly axes: InstancePool;
 
-  constructor(parent: THREE.Object3D, private readonly props: Properties, private readonly prefix = '') {
+  constructor(parent: THREE.Object3D, private readonly props: Properties, private readonly prefix = '', private readonly flatLength = '') {
     this.arrows = new InstancePool(parent, new THREE.BufferGeometry(), this.arrowPaint);
+    this.flat = new InstancePool(parent, new THREE.BufferGeometry(), this.flatPaint);
     this.axes = new InstancePool(parent, new THREE.BufferGeometry(), this.axesPaint);
     this.restyle();
   }
 
   get count(): number {
-    return this.arrows.count + this.axes.count;
+    return this.arrows.count + this.flat.count + this.axes.count;
   }
 
   /** Take changed properties. */
@@ -116,9 +122,12 @@ export class PoseShapes {
     const n = (name: string): number => Math.max(1e-4, this.props.num(this.prefix + name));
     const [r, g, b] = this.props.colour(`${this.prefix}Color`);
     const alpha = this.props.num(`${this.prefix}Alpha`);
-    this.arrowPaint.color.setRGB(r, g, b);
-    this.arrowPaint.opacity = alpha;
-    this.arrowPaint.transparent = alpha < 1;
+    for (const paint of [this.arrowPaint, this.flatPaint]) {
+      paint.color.setRGB(r, g, b);
+      paint.opacity = alpha;
+      paint.transparent = alpha < 1;
+    }
+    if (this.flatLength) this.flat.reshape(flatArrowGeometry(n(this.flatLength)));
     this.arrows.reshape(arrowGeometry(n('Shaft Length'), n('Shaft Radius'), n('Head Length'), n('Head Radius')));
     this.axes.reshape(axesGeometry(n('Axes Length'), n('Axes Radius')));
   }
@@ -126,16 +135,15 @@ export class PoseShapes {
   /** Show these poses (matrices in the parent's frame). */
   set(poses: readonly THREE.Matrix4[]): void {
     const shape = this.props.text(this.prefix ? this.prefix.slice(0, -1) : 'Shape');
-    const [used, unused] = shape === 'Axes' ? [this.axes, this.arrows] : [this.arrows, this.axes];
-    unused.begin();
-    unused.end();
-    used.begin();
-    poses.forEach((pose) => used.put(pose));
-    used.end();
+    const used = shape === 'Axes' ? this.axes : shape === 'Arrow (Flat)' && this.flatLength ? this.flat : this.arrows;
+    for (const pool of [this.arrows, this.flat, this.axes]) {
+      pool.begin();
+      if (pool === used) poses.forEach((pose) => pool.put(pose));
+      pool.end();
+    }
   }
 
   dispose(): void {
-    this.arrows.dispose();
-    this.axes.dispose();
+    for (const pool of [this.arrows, this.flat, this.axes]) pool.dispose();
   }
 }

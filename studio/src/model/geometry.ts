@@ -41,6 +41,19 @@ export function arrowGeometry(
   return joined([shaft, head]);
 }
 
+/** A flat arrow along +x in the plane of x and y: few triangles, for thousands of poses. */
+export function flatArrowGeometry(length: number): THREE.BufferGeometry {
+  const [half, wide, neck] = [length * 0.02, length * 0.14, length * 0.7];
+  const corners = [0, -half, neck, -half, neck, half, 0, half, neck, -wide, length, 0, neck, wide];
+  const places = new Float32Array((corners.length / 2) * 3);
+  for (let i = 0; i < corners.length / 2; i++) places.set([corners[2 * i], corners[2 * i + 1], 0], 3 * i);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(places, 3));
+  geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(places.length).map((_, i) => Number(i % 3 === 2)), 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3, 4, 5, 6]);
+  return geometry;
+}
+
 /** Three coloured axes of a length and radius, in one geometry with vertex colours. */
 export function axesGeometry(length: number, radius: number): THREE.BufferGeometry {
   const parts = AXIS_COLOURS.map((colour, axis) => {

@@ -33,6 +33,10 @@ export const SCENE: readonly PanelKind[] = [
     make: async (connection, host) => new (await import('../displays/displays_panel')).DisplaysPanel(connection, host),
   },
   {
+    kind: 'navigation', title: 'Navigation', group: 'Visualization', aliases: ['nav2'], single: true, below: 'displays', about: "Goals, waypoints and Nav2's states: RViz's panel Navigation 2, for move_base too",
+    make: async (connection, host) => new (await import('../navigation/panel')).NavigationPanel(connection, host),
+  },
+  {
     kind: 'motion_planning', title: 'MotionPlanning', group: 'Visualization', aliases: ['moveit'], single: true, about: 'Plans and executes motions of an arm with MoveIt',
     make: async (connection, host) => new (await import('../motion/panel')).MotionPlanningPanel(connection, host),
   },

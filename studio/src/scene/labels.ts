@@ -27,11 +27,22 @@ export function label(text: string, look: LabelLook = {}): THREE.Sprite {
   const sprite = new THREE.Sprite(material);
   const height = (look.height ?? 0.1) * drawn.lines * (look.pixels ? 1 / 700 : 1);
   sprite.scale.set(height * drawn.aspect, height, 1);
+  if (look.pixels) sprite.onBeforeRender = (renderer, _scene, camera) => keepPixels(sprite, renderer, camera, height, drawn.aspect);
   sprite.name = text;
   sprite.userData.text = text;
   sprite.renderOrder = look.onTop ? 20 : 5;
   sprite.raycast = () => undefined;
   return sprite;
+}
+
+/** A camera without perspective knows no size by distance: the scale makes the pixels there. */
+function keepPixels(sprite: THREE.Sprite, renderer: THREE.WebGLRenderer, camera: THREE.Camera, height: number, aspect: number): void {
+  const isFlat = camera instanceof THREE.OrthographicCamera;
+  const perPixel = isFlat ? (camera.top - camera.bottom) / (renderer.domElement.clientHeight || 1) : 1 / 700;
+  const size = height * 700 * perPixel;
+  if (sprite.scale.y === size) return;
+  sprite.scale.set(size * aspect, size, 1);
+  sprite.updateMatrixWorld();
 }
 
 /** Free what one label holds alone. */

@@ -63,7 +63,7 @@ export class Dock {
     if (kind.single && this.openIn(kind.kind, params)) return;
     this.api.addPanel({
       id: this.freshId(kind.kind), component: kind.kind, title: kind.title, params: { state: params },
-      ...(place ? this.position(place) : {}),
+      ...this.position(place ?? placeBelow(kind.below && this.has(kind.below) ? kind.below : undefined, kind.kind)),
     });
   }
 
@@ -200,7 +200,8 @@ export class Dock {
     return this.api.panels.find((panel) => panel.view.contentComponent === name);
   }
 
-  private position(place: Place): object {
+  private position(place: Place | undefined): object {
+    if (!place) return {};
     const beside = place.beside ? this.panelOf(place.beside) : undefined;
     const reference = beside ? { referencePanel: beside.id } : place.group ? { referenceGroup: place.group } : {};
     return {
@@ -209,4 +210,8 @@ export class Dock {
       ...(place.height ? { initialHeight: place.height } : {}),
     };
   }
+}
+
+function placeBelow(beside: string | undefined, kind: string): Place | undefined {
+  return beside === undefined ? undefined : { kind, beside, direction: 'below' };
 }

@@ -51,7 +51,7 @@ export class Layouts {
     const wanted = asked ? asked.split(',').filter(Boolean) : panels;
     const kept = wanted.length === 0 ? this.store.tab() : null;
     this.commands = kept?.commands ?? wanted;
-    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands));
+    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
     for (const name of panels) this.awaited.add(findPanel(name)?.kind ?? name);
     this.begun = true;
   }
@@ -76,7 +76,7 @@ export class Layouts {
 
   private reset(): void {
     this.store.forgetLast(this.commands);
-    this.dock.arrange(placesForAll(this.commands));
+    this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
   }
 
   private async saveAs(): Promise<void> {

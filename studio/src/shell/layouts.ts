@@ -49,9 +49,10 @@ export function companionsOf(command: string): readonly Place[] {
 
 /**
  * The places for all commands that asked for a panel. The first command that has a layout of its
- * own gives the frame; the panels of the others go into tabs at its right.
+ * own gives the frame; the panels of the others go into tabs at its right, their trees beside them
+ * where the page is roomy, else into the tabs of the frame's tree.
  */
-export function placesForAll(commands: readonly string[]): readonly Place[] {
+export function placesForAll(commands: readonly string[], isRoomy: boolean): readonly Place[] {
   if (commands.length === 0) return STUDIO;
   const framed = commands.find((command) => command in BY_COMMAND) ?? commands[0];
   const places = [...placesFor(framed)];
@@ -62,6 +63,10 @@ export function placesForAll(commands: readonly string[]): readonly Place[] {
     if (command === framed || !kind || places.some((place) => findPanel(place.kind)?.kind === kind)) continue;
     places.push(last ? { kind, beside: last, direction: 'within' } : { kind, beside: anchor, direction: 'right', width: 480 });
     last = kind;
+    for (const each of companionsOf(command)) {
+      if (places.some((place) => place.kind === each.kind)) continue;
+      places.push(isRoomy || !places.some((place) => place.kind === 'entities') ? each : { kind: each.kind, beside: 'entities', direction: 'within' });
+    }
   }
   return places;
 }

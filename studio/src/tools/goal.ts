@@ -3,7 +3,9 @@ import * as THREE from 'three';
 import { aim, thinArrow } from '../displays/sensors';
 import type { JsonObject } from '../json';
 import { groundPoint } from '../scene/picking';
-import { stampedHeader, typeFor } from './publish';
+import type { ToolValue } from '../displays/display_list';
+import { takeGoal } from './goal_takers';
+import { speaksRos2, stampedHeader, typeFor } from './publish';
 import type { Bench, Tool } from './tool';
 
 interface Goal {
@@ -11,18 +13,25 @@ interface Goal {
   key: string;
   about: string;
   colour: number;
-  publish(bench: Bench, pose: JsonObject): void;
+  /** Returns where it went. */
+  publish(bench: Bench, pose: JsonObject): string;
 }
+
+const GOAL_TOPICS = ['/move_base_simple/goal', '/goal_pose'] as const;
+/** RViz's: half a metre, fifteen degrees. */
+const VARIANCES = { x: 0.25, y: 0.25, yaw: 0.06853891909122467 };
 
 /** Tells the localization where the robot is. */
 export function poseEstimate(bench: Bench): Tool {
   return arrowTool(bench, {
     name: '2D Pose Estimate', key: 'p', about: 'Press where the robot is, drag where it looks: /initialpose.', colour: 0x3ecf5a,
     publish(to, pose) {
+      const told = settings(to, 'SetInitialPose');
       const covariance = new Array<number>(36).fill(0);
-      covariance[0] = covariance[7] = 0.25;
-      covariance[35] = 0.06853891909122467;
-      send(to, '/initialpose', 'geometry_msgs/PoseWithCovarianceStamped', { pose: { pose, covariance } });
+      covariance[0] = variance(told, 'X', 'x');
+      covariance[7] = variance(told, 'Y', 'y');
+      covariance[35] = variance(told, 'Theta', 'yaw');
+      return send(to, told?.topic || '/initialpose', 'geometry_msgs/PoseWithCovarianceStamped', { pose: { pose, covariance } });
     },
   });
 }
@@ -32,16 +41,40 @@ export function navGoal(bench: Bench): Tool {
   return arrowTool(bench, {
     name: '2D Nav Goal', key: 'g', about: 'Press where the robot shall go, drag where it shall look: the goal.', colour: 0xff2fd0,
     publish(to, pose) {
-      send(to, '/move_base_simple/goal', 'geometry_msgs/PoseStamped', { pose });
-      send(to, '/goal_pose', 'geometry_msgs/PoseStamped', { pose });
+      const taken = takeGoal({ header: stampedHeader(to.displays.fixedFrame), pose });
+      return taken || goalTopics(to).map((topic) => send(to, topic, 'geometry_msgs/PoseStamped', { pose })).join(', ');
     },
   });
 }
 
-/** Publish in the fixed frame. */
-function send(bench: Bench, topic: string, type: string, body: JsonObject): void {
+/** What a `.rviz` file says of a tool. */
+function settings(bench: Bench, name: string): ToolValue | undefined {
+  return bench.displays.tools.find((tool) => tool.class === name);
+}
+
+/** ROS 1's files write deviations, ROS 2's variances. */
+function variance(told: ToolValue | undefined, ros1: string, ros2: keyof typeof VARIANCES): number {
+  const deviation = Number(told?.properties[`${ros1} std deviation`] ?? NaN);
+  const value = Number(told?.properties[`Covariance ${ros2}`] ?? NaN);
+  return Number.isFinite(deviation) ? deviation * deviation : Number.isFinite(value) ? value : VARIANCES[ros2];
+}
+
+/** The file's topic, else those that somebody listens to, else the one of the graph's ROS. */
+function goalTopics(bench: Bench): readonly string[] {
+  const told = settings(bench, 'SetGoal')?.topic;
+  const heard = GOAL_TOPICS.filter((name) => isHeard(bench, name));
+  return told ? [told] : heard.length ? heard : [GOAL_TOPICS[speaksRos2(bench.graph) ? 1 : 0]];
+}
+
+function isHeard(bench: Bench, name: string): boolean {
+  return bench.graph.value.topics.some((topic) => topic.name === name && topic.subscribers.length > 0);
+}
+
+/** Publish in the fixed frame; returns what is to be said of it. */
+function send(bench: Bench, topic: string, type: string, body: JsonObject): string {
   const message = { header: stampedHeader(bench.displays.fixedFrame), ...body };
   bench.connection.call('topic.publish', { topic, type: typeFor(bench.graph, type), message }).catch(bench.fail);
+  return isHeard(bench, topic) ? topic : `${topic}, to which nobody listens`;
 }
 
 function arrowTool(bench: Bench, goal: Goal): Tool {
@@ -85,10 +118,10 @@ function arrowTool(bench: Bench, goal: Goal): Tool {
     up() {
       if (!from) return false;
       const position = { x: from.x, y: from.y, z: 0 };
-      goal.publish(bench, { position, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } });
+      const where = goal.publish(bench, { position, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } });
       const shown = `[${from.x.toFixed(3)}, ${from.y.toFixed(3)}], yaw ${yaw.toFixed(3)}`;
       bench.done();
-      bench.say(`${goal.name} in ${bench.displays.fixedFrame}: ${shown}`);
+      bench.say(`${goal.name} in ${bench.displays.fixedFrame}: ${shown} → ${where}`);
       return true;
     },
   };

@@ -1,7 +1,7 @@
 /** What can be done with the world from a view: insert, delete, follow, view one model. */
 import * as THREE from 'three';
 import { asCallError } from '../errors';
-import { isObject, textOf, type JsonObject } from '../json';
+import { isObject, textOf, textsOf, type JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import type { Entity } from '../model/body';
 import { MODES, type Mode } from '../model/modes';
@@ -128,6 +128,7 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
     const value = await panel.connection.call('rviz.open', file);
     if (!isObject(value)) return;
     panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
+    openPanels(panel, value);
     if (panel.displays.displays.some((display) => display.kind.name === MOTION_PLANNING.name)) {
       panel.choose('Interact');
       // As in RViz below the displays, unless Gazebo's panels leave little room there.
@@ -136,6 +137,20 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
   } catch (problem) {
     panel.fail(asCallError(problem));
   }
+}
+
+const RVIZ_PANELS = /^rviz(_common)?\/|^$/;
+const PANELS: Record<string, string> = { 'nav2_rviz_plugins/Navigation 2': 'navigation' };
+const TOOLS = ['MoveCamera', 'Interact', 'Select', 'FocusCamera', 'Measure', 'SetInitialPose', 'SetGoal', 'PublishPoint', 'GoalTool'];
+
+/** Panels of plug-ins that a `.rviz` file names; those of RViz itself are parts of this page. */
+function openPanels(panel: ScenePanel, value: JsonObject): void {
+  const names = textsOf(value, 'panels').filter((name) => !RVIZ_PANELS.test(name));
+  const tools = panel.displays.tools.map((tool) => tool.class).filter((name) => !TOOLS.includes(name));
+  for (const name of names) if (PANELS[name]) panel.host.show(PANELS[name], {});
+  const unknown = names.filter((name) => !PANELS[name]);
+  if (unknown.length) panel.host.tell(`The file's panels ${unknown.join(', ')} do not exist here.`);
+  if (tools.length) panel.host.tell(`The file's tools ${tools.join(', ')} do not exist here.`);
 }
 
 async function copyPose(panel: ScenePanel, model: string): Promise<void> {

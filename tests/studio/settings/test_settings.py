@@ -45,6 +45,10 @@ Visualization Manager:
   Global Options: {Fixed Frame: map}
   Views:
     Current: {Class: rviz_default_plugins/TopDownOrtho, Scale: 80, X: 1.5, Y: -2, Angle: 0}
+  Tools:
+    - {Class: rviz_default_plugins/SetInitialPose, Covariance x: 0.5, Topic: {Value: initialpose}}
+    - {Class: nav2_rviz_plugins/GoalTool}
+Panels: [{Class: rviz_common/Displays}, {Class: nav2_rviz_plugins/Navigation 2}]
 Mystery: {}
 """
 
@@ -56,11 +60,13 @@ def test_rviz_file_of_ros1_gives_displays_groups_and_view() -> None:
     assert laser["class"] == "LaserScan" and laser["topic"] == "/scan"
     assert laser["properties"] == {"Size (m)": 0.03}
     assert (camera["topic"], camera["enabled"]) == ("/camera/image_raw", False)
+    assert [laser["name"], camera["name"]] == ["Laser", "Sensors/Camera"]
     assert robot["topic"] == "/robot_description"
     assert value["view"] == {
         "kind": "Orbit", "distance": 3.5, "pitch": 0.4, "yaw": 1.2, "focal": [1.0, 2.0, 0.0],
     }  # fmt: skip
-    assert value["tools"] == ["MoveCamera", "SetGoal"]
+    assert [tool["class"] for tool in value["tools"]] == ["MoveCamera", "SetGoal"]
+    assert value["tools"][1]["topic"] == "/move_base_simple/goal"
 
 
 def test_rviz_file_of_ros2_is_the_same_display() -> None:
@@ -71,6 +77,11 @@ def test_rviz_file_of_ros2_is_the_same_display() -> None:
     ]
     assert value["view"]["focal"] == [1.5, -2.0, 0.0]
     assert value["unknown"] == ["Mystery"]
+    assert value["tools"] == [
+        {"class": "SetInitialPose", "topic": "/initialpose", "properties": {"Covariance x": 0.5}},
+        {"class": "GoalTool", "topic": "", "properties": {}},
+    ]
+    assert value["panels"] == ["rviz_common/Displays", "nav2_rviz_plugins/Navigation 2"]
 
 
 def test_files_of_turtlebot3_and_luck_are_read(workspaces_dir: Path) -> None:

@@ -34,6 +34,7 @@ DISPLAYS: dict[str, Callable[[Site], OpenStream]] = {
     "Marker": open_markers,
     "MarkerArray": open_markers,
     "Odometry": open_plain,
+    "ParticleCloud": open_plain,
     "Path": open_plain,
     "PointCloud": open_points,
     "PointCloud2": open_points,

@@ -39,7 +39,7 @@ def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
 
 
 def rviz_value(text: str, name: str) -> dict[str, Any]:
-    """Return fixed frame, displays, view and tools of a ``.rviz`` file of either generation.
+    """Return fixed frame, displays, view, tools and panels of a ``.rviz`` file of either generation.
 
     Raises:
         StudioError: it is no such file; says where.
@@ -57,7 +57,8 @@ def rviz_value(text: str, name: str) -> dict[str, Any]:
         "background": str(options.get("Background Color", "")),
         "displays": list(_displays(manager.get("Displays"))),
         "view": _view(_mapping(_mapping(manager.get("Views")).get("Current"))),
-        "tools": [_short(tool.get("Class", "")) for tool in _list(manager.get("Tools"))],
+        "tools": [_tool(tool) for tool in _list(manager.get("Tools"))],
+        "panels": [str(panel.get("Class", "")) for panel in _list(content.get("Panels"))],
         "unknown": sorted(str(key) for key in content if key not in _KNOWN_PARTS),
     }
 
@@ -74,13 +75,14 @@ def _content(text: str, name: str) -> Mapping[str, Any]:
     return content
 
 
-def _displays(found: Any, *, enabled: bool = True) -> Iterator[dict[str, Any]]:
-    """Yield all displays; a group's go with the others, and are off where the group is."""
+def _displays(found: Any, group: str = "", *, enabled: bool = True) -> Iterator[dict[str, Any]]:
+    """Yield all displays; those of a group have its name before theirs, and are off where it is."""
     for item in _list(found):
         short = _short(item.get("Class", ""))
         on = enabled and bool(item.get("Enabled", item.get("Value", True)))
+        name = f"{group}{item.get('Name', short)}"
         if short in _GROUPS:
-            yield from _displays(item.get("Displays"), enabled=on)
+            yield from _displays(item.get("Displays"), f"{name}/", enabled=on)
             continue
         topic = next((_topic(item[key]) for key in _TOPICS if _topic(item.get(key))), "")
         skipped = {"Class", "Enabled", "Name", "Value", *_TOPICS}
@@ -89,11 +91,20 @@ def _displays(found: Any, *, enabled: bool = True) -> Iterator[dict[str, Any]]:
             topic = _absolute(str(item["Robot Description"]))
         yield {
             "class": short,
-            "name": str(item.get("Name", short)),
+            "name": name,
             "enabled": on,
             "topic": topic,
             "properties": properties,
         }
+
+
+def _tool(item: Mapping[str, Any]) -> dict[str, Any]:
+    skipped = {"Class", "Topic"}
+    return {
+        "class": _short(item.get("Class", "")),
+        "topic": _topic(item.get("Topic")),
+        "properties": {str(key): _plain(item[key]) for key in item if key not in skipped},
+    }
 
 
 def _view(current: Mapping[str, Any]) -> dict[str, Any]:
