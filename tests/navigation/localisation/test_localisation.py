@@ -17,6 +17,7 @@ from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, mo
 from gazelle.navigation.localisation.clusters import best_cluster, statistics
 from gazelle.navigation.localisation.field import LikelihoodMap
 from gazelle.navigation.localisation.kernels import cast_ray, resample
+from gazelle.navigation.localisation.refining import Refiner
 from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
 
 _QUIET = AmclOptions(
@@ -180,8 +181,8 @@ def test_the_heavier_group_is_the_pose_also_across_180_degrees() -> None:
     one = np.array([1.0, 1.0, math.pi]) + rng.normal(0, 0.05, (300, 3))
     other = np.array([4.0, 1.0, 0.0]) + rng.normal(0, 0.05, (200, 3))
     particles = np.vstack([one, other])
-    mean, weight = best_cluster(particles, np.full(500, 1 / 500))
-    assert weight == pytest.approx(0.6, abs=0.03)
+    mean, spread = best_cluster(particles, np.full(500, 1 / 500))
+    np.testing.assert_allclose(np.diag(spread), 0.05**2, rtol=0.25)
     np.testing.assert_allclose(mean[:2], (1.0, 1.0), atol=0.02)
     assert abs(math.remainder(mean[2] - math.pi, math.tau)) < 0.02
     _mean, covariance = statistics(one, np.full(300, 1.0))
@@ -220,6 +221,47 @@ def test_a_kidnapped_robot_is_found_after_spreading_everywhere() -> None:
     assert found is not None
     last = true - np.array([0.1, 0.02, 0.25])
     assert math.hypot(found.pose[0] - last[0], found.pose[1] - last[1]) < 0.15
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_kidnapped_robot_is_found_at_once_with_amcls_default_model(seed: int) -> None:
+    amcl = Amcl(AmclOptions(max_particles=1000, resample_interval=1, laser_max_beams=60), seed)
+    amcl.set_map(_room())
+    amcl.spread_everywhere()
+    assert np.ptp(amcl.particles[:, 0]) > 3.0
+    for _ in range(2):
+        amcl.request_update()
+        found = amcl.update((0.0, 0.0, 0.0), _scan((1.0, 1.0, 0.3)))
+    assert found is not None
+    assert math.hypot(found.pose[0] - 1.0, found.pose[1] - 1.0) < 0.1
+    assert abs(found.pose[2] - 0.3) < 0.05
+
+
+def test_scans_that_say_nothing_leave_the_particles_everywhere() -> None:
+    amcl = Amcl(AmclOptions(max_particles=1000, resample_interval=1), 0)
+    amcl.set_map(_room())
+    amcl.spread_everywhere()
+    nothing = Scan(0, 0.0, math.tau / 90, np.full(90, np.nan, np.float32), 0.1, 3.5)
+    assert amcl.update((0.0, 0.0, 0.0), nothing) is not None
+    assert np.ptp(amcl.particles[:, 0]) > 3.0
+
+
+def test_the_pose_is_where_the_scan_fits_best_near_the_particles() -> None:
+    refiner = Refiner(LikelihoodMap.of_grid(_room(), 2.0))
+    ends = chosen_beams(_scan((1.2, 1.6, 0.4)), AmclOptions(laser_max_beams=90)).ends
+    mean, wide = np.array([1.27, 1.55, 0.45]), np.diag([0.01, 0.01, 0.01])
+    np.testing.assert_allclose(refiner.refine(mean, wide, ends), (1.2, 1.6, 0.4), atol=0.025)
+    np.testing.assert_array_equal(refiner.refine(mean, wide, ends[:0]), mean)
+
+
+def test_along_a_corridor_the_mean_of_the_particles_stays() -> None:
+    cells = np.zeros((40, 200), np.int8)
+    cells[[0, -1]] = 100
+    refiner = Refiner(LikelihoodMap.of_grid(OccupancyGrid(cells, 0.05), 2.0))
+    along = np.linspace(-1, 1, 41)
+    ends = np.vstack([np.column_stack([along, np.full(41, side)]) for side in (-0.975, 0.975)])
+    found = refiner.refine(np.array([5.0, 1.05, 0.02]), np.diag([0.02, 0.02, 0.01]), ends)
+    np.testing.assert_allclose(found, (5.0, 1.0, 0.0), atol=0.03)
 
 
 def test_recovery_alphas_throw_in_random_poses_when_scans_no_longer_fit() -> None:

@@ -32,8 +32,8 @@ def statistics(
 
 def best_cluster(
     particles: NDArray[np.float64], weights: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], float]:
-    """Return mean pose and weight of the heaviest group of particles.
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return mean pose (3,) and covariance (3, 3) of the heaviest group of particles.
 
     Particles of neighbouring cells of 0.5 m × 0.5 m × 10° belong together.
     """
@@ -42,7 +42,7 @@ def best_cluster(
     low = cells[:, :2].min(axis=0)
     size = cells[:, :2].max(axis=0) - low + 1
     if int(size[0]) * int(size[1]) * _ANGLES > _MOST_CELLS:
-        return statistics(particles, weights)[0], float(weights.sum())
+        return statistics(particles, weights)
     # One slice more on either side of the angles, so that neighbours across ±180° are seen.
     held = np.zeros((size[0], size[1], _ANGLES + 1), bool)
     column, row, angle = cells[:, 0] - low[0], cells[:, 1] - low[1], cells[:, 2]
@@ -57,4 +57,4 @@ def best_cluster(
     sums = np.bincount(groups, weights)
     best = int(sums.argmax())
     chosen = groups == best
-    return statistics(particles[chosen], weights[chosen])[0], float(sums[best])
+    return statistics(particles[chosen], weights[chosen])

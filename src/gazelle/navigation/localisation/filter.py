@@ -14,12 +14,15 @@ from gazelle.navigation.localisation.clusters import best_cluster, statistics
 from gazelle.navigation.localisation.field import LikelihoodMap
 from gazelle.navigation.localisation.motion import moved
 from gazelle.navigation.localisation.options import AmclOptions
-from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
+from gazelle.navigation.localisation.refining import Refiner
+from gazelle.navigation.localisation.searching import chances_of, places_like
+from gazelle.navigation.localisation.sensor import Beams, ScanModel, chosen_beams
 
 __all__ = ["Amcl", "Estimate"]
 
 Pose = tuple[float, float, float]
 _TOGETHER_M = 0.5
+_FOUND_M = 0.2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +30,8 @@ class Estimate:
     """Where the robot is.
 
     Attributes:
-        pose: of the heaviest group of particles, in the map's frame.
+        pose: of the heaviest group of particles, in the map's frame, moved to where the scan fits
+            best near there.
         covariance: of all particles, (3, 3).
         resampled: the particles were drawn anew.
     """
@@ -51,12 +55,13 @@ class Amcl:
         self._random = np.random.default_rng(seed)
         self._map: LikelihoodMap | None = None
         self._model: ScanModel | None = None
+        self._refiner: Refiner | None = None
         self._odometry: Pose | None = None
         self._lasers: set[str] = set()
         self._pending: set[str] = set()
         self._particles: NDArray[np.float64] = np.zeros((0, 3))
         self._weights: NDArray[np.float64] = np.zeros(0)
-        self._forced = False
+        self._forced = self._lost = False
         self._updates = 0
         self._slow = self._fast = 0.0
         o = options
@@ -90,6 +95,7 @@ class Amcl:
         """Take a map; the particles stay where they are."""
         self._map = LikelihoodMap.of_grid(grid, self._options.laser_likelihood_max_dist)
         self._model = ScanModel(self._map, self._options)
+        self._refiner = Refiner(self._map)
 
     def initialise(self, pose: Pose, covariance: NDArray[np.float64]) -> None:
         """Spread the particles around a pose.
@@ -108,12 +114,18 @@ class Amcl:
     def spread_everywhere(self) -> None:
         """Spread the particles over all free ground (service ``global_localization``).
 
+        The next scan is compared with many more places than there are particles, which go to
+        those that look like it. Until they are together, they are weighed by how well scans fit
+        beam by beam, as amcl's likelihoods tell places that look alike apart only slowly, and
+        chance decides before.
+
         Raises:
             ValueError: there is no map, or it has no free cell.
         """
         if self._map is None:
             raise ValueError("there is no map yet")
         self._begin_with(self._map.random_poses(self._options.max_particles, self._random))
+        self._lost = True
 
     def request_update(self) -> None:
         """Let the next scan count although the robot stands (``request_nomotion_update``)."""
@@ -131,7 +143,7 @@ class Amcl:
             Where the robot is, when that changed; None while it has not moved far enough, or
             before there is a map.
         """
-        if self._model is None:
+        if self._model is None or self._map is None or self._refiner is None:
             return None
         first = self._odometry is None
         self._lasers.add(laser)
@@ -150,16 +162,22 @@ class Amcl:
                 self._particles, self._odometry, odometry, self._options, self._random
             )
         self._odometry = odometry
-        self._weigh(scan)
+        beams = chosen_beams(scan, self._options)
+        if self._lost and first:
+            self._particles = places_like(
+                beams.ends, self._map, self._refiner, len(self._particles), self._random
+            )
+        self._weigh(beams)
         self._updates += 1
         resampled = self._updates % self._options.resample_interval == 0
         if resampled:
             self._resample()
-        return self.estimate(resampled=resampled)
+        return self._estimate(beams, resampled)
 
-    def estimate(self, *, resampled: bool = False) -> Estimate:
-        """Return where the robot is by the particles as they are."""
-        mean, _weight = best_cluster(self._particles, self._weights)
+    def _estimate(self, beams: Beams, resampled: bool) -> Estimate:
+        mean, spread = best_cluster(self._particles, self._weights)
+        if self._refiner is not None:
+            mean = self._refiner.refine(mean, spread, beams.ends)
         _mean, covariance = statistics(self._particles, self._weights)
         return Estimate((float(mean[0]), float(mean[1]), float(mean[2])), covariance, resampled)
 
@@ -168,6 +186,7 @@ class Amcl:
         self._weights = np.full(len(particles), 1.0 / len(particles))
         self._slow = self._fast = 0.0
         self._odometry = None
+        self._lost = False
 
     def _moved_enough(self, odometry: Pose) -> bool:
         o, last = self._options, self._odometry
@@ -176,12 +195,15 @@ class Amcl:
         way = max(abs(odometry[0] - last[0]), abs(odometry[1] - last[1]))
         return self._forced or way > o.update_min_d or turn > o.update_min_a
 
-    def _weigh(self, scan: Scan) -> None:
+    def _weigh(self, beams: Beams) -> None:
         assert self._model is not None
+        assert self._refiner is not None
         o = self._options
-        beams = chosen_beams(scan, o)
         converged = o.do_beamskip and self._together()
-        likelihoods = self._model.weights(self._particles, beams, converged=converged)
+        if self._lost:
+            likelihoods = chances_of(self._refiner.log_fits(self._particles, beams.ends))
+        else:
+            likelihoods = self._model.weights(self._particles, beams, converged=converged)
         weights = self._weights * likelihoods
         total = float(weights.sum())
         if not total > 0:
@@ -218,6 +240,7 @@ class Amcl:
         cumulative[-1] = 1.0
         self._particles = resample(
             self._particles, cumulative, self._random.random(count), draws, elsewhere,
-            min(o.min_particles, count), count, o.kld_err, o.kld_z,
+            count if self._lost else min(o.min_particles, count), count, o.kld_err, o.kld_z,
         )  # fmt: skip
         self._weights = np.full(len(self._particles), 1.0 / len(self._particles))
+        self._lost &= bool(self._particles[:, :2].std(axis=0).max() > _FOUND_M)

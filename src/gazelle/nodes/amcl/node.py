@@ -8,6 +8,7 @@ import zlib
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GraphError
@@ -15,7 +16,7 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces import service_type
 from gazelle.mapping.poses import between, compose, inverse
-from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions
+from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, Estimate
 from gazelle.nodes.amcl.outputs import Outputs
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.spawned import SpawnHint
@@ -153,7 +154,8 @@ class AmclNode:
 
     def close(self) -> None:
         """Listen no more."""
-        self._running = False
+        with self._lock:
+            self._running = False
         if self._hint is not None:
             self._hint.close()
 
@@ -318,6 +320,18 @@ class AmclNode:
         with self._lock:
             estimate = self._filter.update(odometry, scan, frame)
             particles, weights = self._filter.particles, self._filter.weights
+            # Not after `close`, which takes the topics off the graph.
+            if self._running:
+                self._publish(estimate, odometry, stamp_ns, particles, weights)
+
+    def _publish(
+        self,
+        estimate: Estimate | None,
+        odometry: PlanePose,
+        stamp_ns: int,
+        particles: NDArray[np.float64],
+        weights: NDArray[np.float64],
+    ) -> None:
         if estimate is not None:
             if estimate.resampled or self._T_map_odom is None:
                 self._out.pose(estimate, stamp_ns)
