@@ -19,6 +19,10 @@ _MOVEIT = "compiled code of MoveIt; `moveit_ros_move_group` and MotionPlanning i
 _NAV2 = "compiled code of Nav2; its planner, controller, amcl and map_server are here"
 _BRINGUP = "launch files of Nav2: put navigation2's folder into src; its nodes are here"
 _MODELS = "a robot and worlds for examples of Nav2: put its folder into the workspace's src"
+_COLLISION = (
+    "the last stop of cmd_vel in Nav2 before the robot, which is not here: let velocity_smoother "
+    "send to cmd_vel by remapping its cmd_vel_smoothed"
+)
 
 _KNOWN = {
     **dict.fromkeys(("usb_cam", "v4l2_camera", "uvc_camera", "cv_camera", "camera_ros"), _CAMERA),
@@ -43,9 +47,10 @@ _KNOWN = {
     ),
     **dict.fromkeys(("ros2_control_test_assets", "controller_interface"), _CONTROL),
     **dict.fromkeys(("moveit_servo", "moveit_setup_assistant", "moveit_hybrid_planning"), _MOVEIT),
-    **dict.fromkeys(("nav2_collision_monitor", "nav2_route", "opennav_docking"), _NAV2),
+    **dict.fromkeys(("nav2_route", "opennav_docking"), _NAV2),
     **dict.fromkeys(("nav2_loopback_sim", "nav2_smac_planner"), _NAV2),
     **dict.fromkeys(("nav2_minimal_tb3_sim", "nav2_minimal_tb4_sim"), _MODELS),
+    "nav2_collision_monitor": _COLLISION,
     "nav2_bringup": _BRINGUP,
     "twist_mux": "chooses one of several cmd_vel topics; remap one of them to the robot's",
 }

@@ -11,7 +11,10 @@ from typing import Any, Literal
 from gazelle.graph.names import join, parse_command_line
 from gazelle.nodes.ros2_words import file_params, split_words
 
-__all__ = ["NodeArguments", "read_arguments"]
+__all__ = ["ABSENT_NODES", "NodeArguments", "read_arguments"]
+
+ABSENT_NODES = "GAZELLE_ABSENT_NODES"
+"""Variable with full names of nodes that the launch could not start."""
 
 
 def _nobody_waits() -> None:

@@ -12,6 +12,7 @@ import yaml
 from tests.nodes.navigation.plane_world import PlaneWorld, room
 
 from gazelle.graph.actions import ActionClient
+from gazelle.nodes.arguments import ABSENT_NODES
 
 _COSTMAP = {
     "robot_base_frame": "base_footprint",
@@ -61,7 +62,7 @@ _PARAMETERS: dict[str, Any] = {
     "lifecycle_manager_navigation": {
         "autostart": True,
         "node_names": ["controller_server", "planner_server", "behavior_server", "bt_navigator",
-                       "waypoint_follower"],
+                       "route_server", "waypoint_follower"],
     },
 }  # fmt: skip
 _NESTED = {
@@ -90,7 +91,10 @@ def world(bench: Any, tmp_path: Path) -> Iterator[PlaneWorld]:
 
 
 @pytest.fixture
-def start(bench: Any, world: PlaneWorld, tmp_path: Path) -> Any:
+def start(bench: Any, world: PlaneWorld, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    # A manager does not wait for a node that the launch could not start.
+    monkeypatch.setenv(ABSENT_NODES, "/route_server")
+
     def started(**changes: dict[str, Any]) -> None:
         sections = {name: {"ros__parameters": {"use_sim_time": True, **values}}
                     for name, values in _PARAMETERS.items()}  # fmt: skip

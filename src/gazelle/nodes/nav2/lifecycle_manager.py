@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
+from collections.abc import Iterable
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.errors import ServiceCallError
 from gazelle.interfaces import service_type
-from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.nav2.starting import log_findings, offer_parameters, start
 from gazelle.nodes.nav2.tables import LIFECYCLE_MANAGER
 from gazelle.nodes.navigation.settings import Settings
@@ -53,7 +55,7 @@ class _Manager:
         diagnostics = Diagnostics()
         settings = Settings(LIFECYCLE_MANAGER, tree, node.name, diagnostics)
         self._node, self._stop = node, stop
-        self._names = list(settings.texts("node_names"))
+        self._names = self._present(settings.texts("node_names"))
         self._away_s = settings.number("bond_timeout")
         self._comes_back = settings.flag("attempt_respawn_reconnection")
         self._lock = threading.RLock()
@@ -66,6 +68,15 @@ class _Manager:
         node.create_service("~/is_active", service_type("std_srvs/srv/Trigger"), self._on_active)
         if settings.flag("autostart"):
             threading.Thread(target=lambda: self.do(0), name="autostart", daemon=True).start()
+
+    def _present(self, names: Iterable[str]) -> list[str]:
+        """Leave out nodes that the launch could not start: nobody else could be waited for."""
+        absent = os.environ.get(ABSENT_NODES, "").split()
+        missing = [name for name in names if self._node.resolve_name(name) in absent]
+        for name in missing:
+            text = f"{name} was not started by the launch and is left out; ROS 2 would wait for it"
+            self._node.log("warn", text)
+        return [name for name in names if name not in missing]
 
     def do(self, command: int) -> bool:
         """Do what a command says to all nodes; tells whether all of it went well."""

@@ -223,39 +223,6 @@ def test_launch_goes_on_without_compiled_nodes(run: Run, package: Path) -> None:
     assert "build it with colcon" in found.fix
 
 
-def test_a_file_of_parameters_that_is_not_there_is_told(run: Run, package: Path) -> None:
-    (package / "driver.yaml").write_text("")
-    ran = run(_show(parameters=[str(package / "drivers.yaml")]))
-    (found,) = ran.context.diagnostics
-    assert (ran.code, found.code) == (0, "ros2_launch.parameter-file")
-    assert str(found.severity) == "warning"
-    assert found.fix == "did you mean 'driver.yaml'?"
-    assert found.span is not None and found.span.file == __file__
-    assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: " in ran.text
-
-
-@pytest.mark.parametrize(
-    ("package_name", "what"),
-    [
-        ("usb_cam", "the driver of a real camera"),
-        ("rosbridge_server", "rosbridge_server is a bridge to programs outside of ROS"),
-        ("rqt_xyz", "rqt_xyz is a panel of rqt"),
-        ("nav2_bringup", "put navigation2's folder into src"),
-        ("some_robot", "put the package's sources into the workspace's src"),
-    ],
-)
-def test_packages_of_ros_that_are_not_here_are_explained(
-    run: Run, package: Path, package_name: str, what: str
-) -> None:
-    ran = run(a.Node(package=package_name, executable="node"), _show())
-    (found,) = ran.context.diagnostics.errors
-    goes_on = "the others go on" in found.message
-    assert (ran.code, len(_words(ran))) == ((0, 1) if goes_on else (1, 0))
-    assert goes_on is (package_name != "some_robot")
-    assert found.code == "ros2_launch.package-missing"
-    assert what in found.fix
-
-
 @_row
 def PushROSNamespace(run: Run, package: Path) -> None:
     group = launch.GroupAction([a.PushROSNamespace("one"), a.PushROSNamespace("two"), _show()])

@@ -37,6 +37,7 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from gazelle.nodes.arguments import ABSENT_NODES
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
@@ -248,12 +249,21 @@ class Node(ExecuteProcess):
         assert isinstance(what, NodeExecutable)
         if not what.find(context, self.__package, self.__executable, self.place):
             # Compiled code: that has been said, and the launch goes on without it.
+            self.__note_absence(context)
             return None
         what.add_words([*self.__own_words(context), *(self.__ros_words or ())])
         carry_graph()
         found = super().execute(context)
         self.__count_name(context)
         return found
+
+    def __note_absence(self, context: LaunchContext) -> None:
+        """Let nodes that wait for others, such as lifecycle managers, know who does not come."""
+        space = self.__expanded_namespace
+        base = "" if space == self.UNSPECIFIED_NODE_NAMESPACE else space.rstrip("/")
+        if self.__name is not None:
+            known = context.environment.get(ABSENT_NODES, "").split()
+            context.environment[ABSENT_NODES] = " ".join([*known, f"{base}/{self.__expanded_name}"])
 
     def __own_words(self, context: LaunchContext) -> list[Any]:
         rules: dict[str, Any] = {}
