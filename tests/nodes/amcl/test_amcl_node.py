@@ -75,6 +75,27 @@ class _Robot:
         message.header.frame_id = frame
         self.scans.publish(message)
 
+    def jump(self, bench: Any, metres: float) -> None:
+        """Be somewhere else all of a sudden, and back."""
+        for x in (0.0, metres, 0.0):
+            self.now_ns += 100_000_000
+            at = Pose((x, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+            self.tf.send(StampedPose("odom", "base_footprint", self.now_ns, at))
+            self.scans.publish(_scan(_TRUE, self.now_ns))
+
+    def look_at_nothing(self, bench: Any) -> None:
+        """Send a scan without a single number."""
+        self.now_ns += 100_000_000
+        self.tf.send(StampedPose("odom", "base_footprint", self.now_ns, Pose()))
+        message = _scan(_TRUE, self.now_ns)
+        message.ranges = [math.nan] * len(message.ranges)
+        self.scans.publish(message)
+
+    def place_odometry(self, parent: str) -> None:
+        """Say what odometry's frame is below."""
+        self.now_ns += 100_000_000
+        self.tf.send(StampedPose(parent, "odom", self.now_ns, Pose()))
+
 
 def _initial(offset: float = 0.2) -> Any:
     message = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")()
@@ -142,6 +163,58 @@ def test_scans_in_unknown_frames_are_told_and_the_node_stays(bench: Any, capfd: 
         return "a scan in frame 'lidar_link' is left out" in "".join(said)
 
     bench.eventually(told)
+    assert bench.stop() == [0]
+
+
+def test_bad_input_is_told_and_the_robot_is_found_afterwards(bench: Any, capfd: Any) -> None:
+    robot = _Robot(bench)
+    bench.start(
+        "amcl/amcl", "_base_frame_id:=base_footprint", "_use_map_topic:=true",
+        "_resample_interval:=1", "_max_particles:=800", "_initial_pose_x:=-7.0",
+    )  # fmt: skip
+    poses = bench.listen("/amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped")
+    kind = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
+    given = bench.node.create_publisher("/initialpose", kind)
+    bench.eventually(lambda: given.matched and robot.scans.matched)
+    said: list[str] = []
+
+    def told(words: str, again: Any = lambda: None) -> None:
+        def found() -> bool:
+            again()
+            said.extend(capfd.readouterr())
+            return words in "".join(said)
+
+        bench.eventually(found)
+
+    told("the initial pose (-7.00, 0.00) is off the map, which is from (0.00, 0.00) to (4.00")
+    broken = message_of_grid(_room(), "map", 0)
+    broken.info.resolution = 0.0
+    told("a map is not taken: resolution_m is 0.0, it must be above 0",
+         lambda: robot.maps.publish(broken))  # fmt: skip
+    wall = _initial()
+    wall.pose.pose.position.x, wall.pose.pose.position.y = 3.0, 2.2
+    given.publish(wall)
+    told("the initial pose (3.00, 2.20) is in a wall of the map")
+    nan = _initial()
+    nan.pose.pose.position.x = math.nan
+    given.publish(nan)
+    told("Received initial pose that is no number; it is not taken")
+    robot.look(bench)
+    robot.jump(bench, 40.0)
+    told("odometry jumped by 40.00 m", lambda: robot.jump(bench, 40.0))
+    robot.place_odometry("base_footprint")
+    told("its place is not known: The tf tree is invalid because it contains a loop",
+         lambda: robot.look(bench))  # fmt: skip
+    robot.place_odometry("map")
+    given.publish(_initial())
+
+    def found() -> bool:
+        bench.call("/request_nomotion_update", "std_srvs/srv/Empty")
+        robot.look_at_nothing(bench)
+        robot.look(bench)
+        return bool(poses) and _near(poses[-1])
+
+    bench.eventually(found)
     assert bench.stop() == [0]
 
 

@@ -55,6 +55,18 @@ class LikelihoodMap:
             reach_m,
         )
 
+    def problem_at(self, x_m: float, y_m: float) -> str:
+        """Return why a robot cannot be at a place, empty when it can."""
+        x, y = self.origin
+        height, width = self.blocked.shape
+        column = int(np.floor((x_m - x) / self.resolution_m))
+        row = int(np.floor((y_m - y) / self.resolution_m))
+        if not (0 <= column < width and 0 <= row < height):
+            right, top = x + width * self.resolution_m, y + height * self.resolution_m
+            return f"off the map, which is from ({x:.2f}, {y:.2f}) to ({right:.2f}, {top:.2f})"
+        kind = int(self.blocked[row, column])
+        return ("", "in a wall of the map", "where the map is unknown")[kind]
+
     def random_poses(self, count: int, random: np.random.Generator) -> NDArray[np.float64]:
         """Return poses anywhere on free ground, (count, 3).
 

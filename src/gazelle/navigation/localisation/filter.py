@@ -83,6 +83,10 @@ class Amcl:
         """Whether there is a map."""
         return self._map is not None
 
+    def problem_at(self, x_m: float, y_m: float) -> str:
+        """Return why a robot cannot be at a place of the map, empty when it can."""
+        return "" if self._map is None else self._map.problem_at(x_m, y_m)
+
     def set_options(self, options: AmclOptions) -> None:
         """Go on with other parameters; the particles stay."""
         if options.laser_likelihood_max_dist != self._options.laser_likelihood_max_dist:

@@ -223,6 +223,9 @@ class AmclNode:
             )
         with self._lock:
             self._filter.set_map(grid)
+        o = self._options
+        if self._was_given():
+            self._tell_problem((o.initial_pose_x, o.initial_pose_y, o.initial_pose_a))
         size = f"{grid.width} X {grid.height}"
         self._node.log("info", f"Received a {size} map @ {grid.resolution_m:.3f} m/pix")
 
@@ -278,9 +281,20 @@ class AmclNode:
             self._filter.initialise(pose, covariance)
             if self._forces:
                 self._filter.request_update()
+        self._tell_problem(pose)
         self._placed = True
         if self._hint is not None:
             self._hint.close()
+
+    def _tell_problem(self, pose: PlanePose) -> None:
+        """Say when no robot can be at an initial pose."""
+        problem = self._filter.problem_at(pose[0], pose[1])
+        if problem:
+            self._node.log(
+                "warn",
+                f"the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) is {problem}: is it "
+                "another map's, or does the map's frame begin elsewhere?",
+            )
 
     def _moved_since(self, pose: PlanePose, stamp_ns: int) -> PlanePose:
         """Return a pose, moved along with odometry since its time."""
