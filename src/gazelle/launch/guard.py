@@ -20,7 +20,7 @@ __all__ = ["Guard", "end_groups", "guard"]
 
 _PATIENCE_S = 2.0
 _POLL_S = 0.05
-_LONGEST_S = 2 * _PATIENCE_S
+_LONGEST_S = 4.0
 
 
 class Guard:
@@ -33,7 +33,7 @@ class Guard:
     def __init__(self) -> None:
         # -I and -S: it needs only what Python itself brings, and starts in no time.
         self.popen = subprocess.Popen(
-            [sys.executable, "-I", "-S", __file__],
+            [sys.executable, "-I", "-S", __file__, str(_PATIENCE_S)],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             start_new_session=True,
@@ -67,7 +67,7 @@ class Guard:
             self.popen.stdin.flush()
 
 
-def guard(stream: TextIO) -> None:
+def guard(stream: TextIO, patience_s: float = _PATIENCE_S) -> None:
     """Follow the launcher's messages to their end, then end what is left."""
     groups: set[int] = set()
     for line in stream:
@@ -76,7 +76,7 @@ def guard(stream: TextIO) -> None:
             groups.add(number)
         else:
             groups.discard(-number)
-    end_groups(groups)
+    end_groups(groups, patience_s)
 
 
 def end_groups(groups: set[int], patience_s: float = _PATIENCE_S) -> None:
@@ -102,4 +102,4 @@ def _signalled(group: int, number: int) -> bool:
 if __name__ == "__main__":
     for ignored in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(ignored, signal.SIG_IGN)
-    guard(sys.stdin)
+    guard(sys.stdin, float(sys.argv[1]))

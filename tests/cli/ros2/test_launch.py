@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import signal
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
 from gazelle.cli.ros2.launch.command import launch_arguments, main
 from gazelle.cli.tool import ToolError
+from gazelle.launch.ros2 import logging
 from gazelle.workspace.ament_index import known_workspace
 
 Run = Callable[..., Any]
@@ -59,22 +62,56 @@ def ros2(gazelle: Run, tmp_path: Path) -> Run:
     return run
 
 
-def test_arguments_reach_the_file_wherever_it_is_named(ros2: Run, tmp_path: Path) -> None:
+class Ran(NamedTuple):
+    """The command, run in the test's own process: exit code and text of the terminal."""
+
+    code: int
+    text: str
+
+
+@pytest.fixture
+def here(
+    ros2: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Iterator[Callable[..., Ran]]:
+    """Runs ``ros2 launch WORDS…`` in this process, which is ten times as fast as a new one."""
+    before = dict(os.environ)
+    monkeypatch.chdir(tmp_path / "ws")
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    monkeypatch.setattr(sys, "meta_path", list(sys.meta_path))
+
+    def run(*words: str) -> Ran:
+        known_workspace.cache_clear()
+        logging.reset()
+        code = main(list(words))
+        shown = capsys.readouterr()
+        return Ran(code, shown.out + shown.err)
+
+    yield run
+    logging.reset()
+    known_workspace.cache_clear()
+    os.environ.clear()
+    os.environ.update(before)
+
+
+def test_arguments_reach_the_file_wherever_it_is_named(
+    ros2: Run, here: Callable[..., Ran], tmp_path: Path
+) -> None:
     ran = ros2("bringup", "say.launch.py", "name:=me", "word:=a", "word:=good day", "-a")
     assert ran.wait() == 0
     # With -a all output is shown.
     assert "[sh-1] good day" in ran.text
     file = str(tmp_path / "ws/src/bringup/launch/say.launch.py")
-    assert ros2("--noninteractive", file, "name:=me").wait() == 0
-    xml = ros2("bringup", "say.launch.xml", "word:=this")
-    assert xml.wait() == 0
+    assert here("--noninteractive", file, "name:=me").code == 0
+    xml = here("bringup", "say.launch.xml", "word:=this")
+    assert xml.code == 0
     assert "[INFO] [launch.user]: xml says this" in xml.text
 
 
-def test_arguments_are_listed_with_defaults_and_conditions(ros2: Run) -> None:
-    shown = ros2("bringup", "say.launch.py", "--show-args")
-    assert shown.wait() == 0
-    assert shown.lines == [
+def test_arguments_are_listed_with_defaults_and_conditions(here: Callable[..., Ran]) -> None:
+    shown = here("bringup", "say.launch.py", "--show-args")
+    assert shown.code == 0
+    assert shown.text.splitlines() == [
         "Arguments (pass arguments as '<name>:=<value>'):", "",
         "    'word':", "        what is said", "        (default: 'hello')", "",
         "    'name':", "        who says it", "",
@@ -83,29 +120,29 @@ def test_arguments_are_listed_with_defaults_and_conditions(ros2: Run) -> None:
     ]  # fmt: skip
 
 
-def test_tree_is_printed_and_nothing_is_started(ros2: Run) -> None:
-    shown = ros2("bringup", "say.launch.py", "-p")
-    assert shown.wait() == 0
-    assert "LaunchDescription object at" in shown.lines[0]
+def test_tree_is_printed_and_nothing_is_started(here: Callable[..., Ran]) -> None:
+    shown = here("bringup", "say.launch.py", "-p")
+    assert shown.code == 0
+    assert "LaunchDescription object at" in shown.text.splitlines()[0]
     assert "ExecuteProcess(cmd=['sh', '-c', 'echo ' + LaunchConfig('word') + " in shown.text
     assert "process started" not in shown.text
 
 
-def test_prefix_goes_before_what_its_filter_finds(ros2: Run) -> None:
+def test_prefix_goes_before_what_its_filter_finds(here: Callable[..., Ran]) -> None:
     prefix = ("--launch-prefix", "env GZ_LAUNCHED=prefixed")
-    ran = ros2("bringup", "say.launch.py", "name:=me", "-a", *prefix)
-    assert ran.wait() == 0 and "] hello prefixed" in ran.text
-    filtered = ros2("bringup", "say.launch.py", "name:=me", "-a", *prefix,
+    ran = here("bringup", "say.launch.py", "name:=me", "-a", *prefix)
+    assert ran.code == 0 and "] hello prefixed" in ran.text
+    filtered = here("bringup", "say.launch.py", "name:=me", "-a", *prefix,
                     "--launch-prefix-filter", "bash")  # fmt: skip
-    assert filtered.wait() == 0 and "prefixed" not in filtered.text
-    refused = ros2("bringup", "say.launch.py", "--launch-prefix-filter", "x")
-    assert refused.wait() == 1
+    assert filtered.code == 0 and "prefixed" not in filtered.text
+    refused = here("bringup", "say.launch.py", "--launch-prefix-filter", "x")
+    assert refused.code == 1
     assert "--launch-prefix must be specified if --launch-prefix-filter is" in refused.text
 
 
-def test_debug_tells_of_every_event(ros2: Run) -> None:
-    ran = ros2("bringup", "say.launch.py", "name:=me", "-d")
-    assert ran.wait() == 0
+def test_debug_tells_of_every_event(here: Callable[..., Ran]) -> None:
+    ran = here("bringup", "say.launch.py", "name:=me", "-d")
+    assert ran.code == 0
     assert "[DEBUG] [launch]: processing event: '<" in ran.text
 
 
@@ -124,19 +161,12 @@ def test_debug_tells_of_every_event(ros2: Run) -> None:
         (["bringup", "say.launch.py", "word=x"], "fix: word:=x"),
     ],
 )
-@pytest.mark.usefixtures("ros2")
 def test_mistakes_of_the_command_line_are_told(
-    words: list[str],
-    message: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    words: list[str], message: str, here: Callable[..., Ran]
 ) -> None:
-    monkeypatch.chdir(tmp_path / "ws")
-    known_workspace.cache_clear()
-    assert main(words) == 1
-    known_workspace.cache_clear()
-    assert message in capsys.readouterr().err
+    ran = here(*words)
+    assert ran.code == 1
+    assert message in ran.text
 
 
 @pytest.mark.parametrize(
@@ -149,16 +179,18 @@ def test_mistakes_of_the_command_line_are_told(
         (["node.launch.py"], ["Cannot locate node of type [no] in package [bringup]"]),
     ],
 )
-def test_mistakes_of_the_launch_are_told(ros2: Run, words: list[str], messages: list[str]) -> None:
-    ran = ros2("bringup", *words)
-    assert ran.wait() == 1
+def test_mistakes_of_the_launch_are_told(
+    here: Callable[..., Ran], words: list[str], messages: list[str]
+) -> None:
+    ran = here("bringup", *words)
+    assert ran.code == 1
     assert [text for text in messages if text not in ran.text] == []
     assert "Traceback" not in ran.text
 
 
-def test_exception_in_a_launch_file_is_shown_at_its_line(ros2: Run) -> None:
-    ran = ros2("bringup", "wrong.launch.py")
-    assert ran.wait() == 1
+def test_exception_in_a_launch_file_is_shown_at_its_line(here: Callable[..., Ran]) -> None:
+    ran = here("bringup", "wrong.launch.py")
+    assert ran.code == 1
     assert "wrong.launch.py:10: error: KeyError: 'arm' [ros2_launch.exception]" in ran.text
     assert "return LaunchDescription([robot['arm']])" in ran.text
     assert "/gazelle/" not in ran.text
@@ -180,12 +212,12 @@ def test_launcher_that_is_killed_leaves_nothing(ros2: Run) -> None:
     ran.eventually(lambda: not ran.processes())
 
 
-def test_files_of_one_name_are_both_named(ros2: Run, tmp_path: Path) -> None:
+def test_files_of_one_name_are_both_named(here: Callable[..., Ran], tmp_path: Path) -> None:
     folder = tmp_path / "ws/src/bringup"
     (folder / "old").mkdir()
     (folder / "old" / "say.launch.py").write_text("")
-    ran = ros2("bringup", "say.launch.py")
-    assert ran.wait() == 1
+    ran = here("bringup", "say.launch.py")
+    assert ran.code == 1
     assert "was found more than once" in ran.text
     assert f"fix: ros2 launch {folder}/launch/say.launch.py" in ran.text
 

@@ -17,7 +17,7 @@ import pytest
 
 from gazelle.launch.ros2 import LaunchDescription, LaunchService, logging
 from gazelle.launch.ros2 import actions as a
-from gazelle.launch.ros2.event_handlers import OnProcessIO, OnProcessStart
+from gazelle.launch.ros2.event_handlers import OnProcessIO
 from gazelle.launch.ros2.events import process as process_events
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
 
@@ -207,13 +207,15 @@ def test_cached_output_has_to_be_asked_for(run: Run) -> None:
 
 
 def test_signal_events_go_to_the_process_alone(run: Run) -> None:
-    process = a.ExecuteProcess(cmd=["sh", "-c", "trap 'exit 7' USR1; sleep 1 & wait $!; exit 1"])
+    code = "trap 'exit 7' USR1; sleep 60 >/dev/null 2>&1 & echo up; wait $!; exit 1"
+    process = a.ExecuteProcess(cmd=["sh", "-c", code])
     event = process_events.SignalProcess(
         signal_number=signal.SIGUSR1, process_matcher=process_events.matches_executable("sh")
     )
-    send = a.TimerAction(period=0.3, actions=[a.EmitEvent(event=event)])
-    start = OnProcessStart(target_action=process, on_start=[send])
-    run(a.RegisterEventHandler(start), process)
+    ready = OnProcessIO(
+        target_action=process, on_stdout=lambda _: a.EmitEvent(event=event), handle_once=True
+    )
+    run(a.RegisterEventHandler(ready), process)
     assert process.return_code == 7
 
 
@@ -230,7 +232,7 @@ def test_signal_events_go_to_the_process_alone(run: Run) -> None:
 def test_a_signal_to_the_launcher_ends_everything_in_order(
     run: Run, number: signal.Signals, words: str
 ) -> None:
-    process = a.ExecuteProcess(cmd=["sh", "-c", "echo up; trap '' INT; sleep 60; echo no"])
+    process = a.ExecuteProcess(cmd=["sh", "-c", "echo up; trap '' INT; exec sleep 60"])
     inner = a.ExecuteProcess(cmd=[sys.executable, "-c", _STUBBORN.format(signals="()")])
     ready = OnProcessIO(
         target_action=inner,
@@ -278,8 +280,10 @@ def test_what_a_process_left_behind_ends_with_the_launch(run: Run, tmp_path: Pat
 
 
 _LAUNCHER = """
+from gazelle.launch import guard
 from gazelle.launch.ros2 import LaunchDescription, LaunchService
 from gazelle.launch.ros2.actions import ExecuteProcess
+guard._PATIENCE_S = 0.2
 service = LaunchService()
 code = "trap '' INT TERM; sleep 60 & echo pids $$ $!; wait"
 service.include_launch_description(LaunchDescription([

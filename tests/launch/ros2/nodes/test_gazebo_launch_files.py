@@ -6,7 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import pytest
+from gazelle.launch.ros2 import LaunchContext
+from gazelle.launch.ros2.actions import IncludeLaunchDescription
+from gazelle.launch.ros2.launch_description_sources import PythonLaunchDescriptionSource
+from gazelle.workspace.ament_index import get_package_share_directory
 
 _BOX = '<sdf version="1.6"><model name="box"><link name="link"/></model></sdf>'
 _INCLUDE = """
@@ -65,23 +68,18 @@ def test_launch_ends_with_a_server_that_is_required(gazelle: Callable[..., Any])
     assert "[INFO] [gzserver-1]: process has finished cleanly" in world.text
 
 
-@pytest.mark.parametrize(
-    ("package", "file", "argument"),
-    [
-        ("ros_gz_sim", "gz_sim.launch.py", "gz_args"),
-        ("ros_ign_gazebo", "ign_gazebo.launch.py", "ign_args"),
-    ],
-)
 def test_new_gazebo_takes_models_and_its_topics_are_bridged(
-    gazelle: Callable[..., Any], tmp_path: Path, package: str, file: str, argument: str
+    gazelle: Callable[..., Any], tmp_path: Path
 ) -> None:
+    """The names with ign, of packages and nodes; a launch file of that name includes gz_sim's."""
+    package, file = "ros_gz_sim", "gz_sim.launch.py"
     node = f"""
-        Node(package='{package}', executable='create', arguments=['-string', '''{_BOX}''',
+        Node(package='ros_ign_gazebo', executable='create', arguments=['-string', '''{_BOX}''',
              '-name', 'crate', '-x', '2'], output='screen'),
-        Node(package='{package.replace("gazebo", "bridge").replace("sim", "bridge")}',
+        Node(package='ros_ign_bridge',
              executable='parameter_bridge', remappings=[('/clock', '/sim/clock')],
              arguments=['/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock'], output='screen')"""
-    world = gazelle("ros2", "launch", _file(tmp_path, package, file, node, **{argument: "-r"}))
+    world = gazelle("ros2", "launch", _file(tmp_path, package, file, node, ign_args="-r"))
     world.wait_for_line(r"\[create-\d\] .*Entity creation successful\.")
     assert "crate" in _model_names(world)
     clock = world.messages({"/sim/clock": 1})["/sim/clock"][0]
@@ -117,3 +115,13 @@ def test_world_and_bridge_are_nodes_without_containers(
     assert world.messages({"/ticks": 1})["/ticks"]
     assert "/ticker" in world.graph.node_names()
     assert world.stop() == 0
+
+
+def test_older_names_of_launch_files_include_the_new_ones(context: LaunchContext) -> None:
+    share = get_package_share_directory("ros_ign_gazebo")
+    source = PythonLaunchDescriptionSource(f"{share}/launch/ign_gazebo.launch.py")
+    (include,) = source.get_launch_description(context).entities
+    assert isinstance(include, IncludeLaunchDescription)
+    include.execute(context)
+    new = get_package_share_directory("ros_gz_sim")
+    assert include.launch_description_source.location == f"{new}/launch/gz_sim.launch.py"

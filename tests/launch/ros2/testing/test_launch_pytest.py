@@ -86,10 +86,6 @@ def _pytest(folder: Path, text: str) -> str:
     return ran.stdout + ran.stderr
 
 
-def test_launches_are_fixtures(tmp_path: Path) -> None:
-    assert "7 passed" in _pytest(tmp_path, _TESTS)
-
-
 _WRONG = """
 @launch_pytest.fixture
 def wrong():
@@ -123,8 +119,8 @@ def test_unnamed(): pass
 """
 
 
-def test_mistakes_are_told(tmp_path: Path) -> None:
-    text = _pytest(tmp_path, _WRONG)
+def test_launches_are_fixtures_and_mistakes_are_told(tmp_path: Path) -> None:
+    text = _pytest(tmp_path, _TESTS + _WRONG)
     for words in (
         "launch_pytest fixture 'wrong' has to return a launch description, or a sequence",
         "the launch of 'short' ended before it was ready",
@@ -133,4 +129,4 @@ def test_mistakes_are_told(tmp_path: Path) -> None:
         "only tests with @pytest.mark.launch(fixture=…) have a launch",
     ):
         assert words in text
-    assert "2 failed, 3 errors" in text
+    assert "2 failed, 7 passed, 3 errors" in text

@@ -100,10 +100,10 @@ def launch_test(
     return run
 
 
-def _pytest(folder: Path, text: str) -> Finished:
+def _pytest(folder: Path, text: str, *more: str) -> Finished:
     (folder / "check.py").write_text(_HEAD + text, encoding="utf-8")
     return subprocess.run(
-        [sys.executable, *_PYTEST],
+        [sys.executable, *_PYTEST, *more],
         cwd=folder,
         capture_output=True,
         text=True,
@@ -127,11 +127,11 @@ def test_each_value_has_its_launch_and_its_tests(
 
 
 def test_pytest_runs_marked_files(tmp_path: Path) -> None:
-    ran = _pytest(tmp_path, _TWO_RUNS)
-    assert "1 passed" in ran.stdout, ran.stdout + ran.stderr
     failing = _TWO_RUNS.replace('checker.assertInStdout("end', 'checker.assertInStdout("never')
-    ran = _pytest(tmp_path, failing)
+    (tmp_path / "good.py").write_text(_HEAD + _TWO_RUNS, encoding="utf-8")
+    ran = _pytest(tmp_path, failing, "good.py")
     assert ran.returncode == 1
+    assert "1 failed, 1 passed" in ran.stdout, ran.stdout + ran.stderr
     assert "FAIL: check.Behind.test_order[one]" in ran.stdout
     assert "'never one' not found in sequence after previous match" in ran.stdout
 
