@@ -18,6 +18,7 @@ from tests.nodes.move_group.fake_robot import FakeRobot
 from gazelle.compat.moveit.py import planning
 from gazelle.compat.moveit.py.kinematic_constraints import construct_joint_constraint
 from gazelle.compat.moveit.py.robot import RobotState
+from gazelle.compat.moveit.py.scene import PlanningScene
 from gazelle.interfaces import fill, message_type
 from gazelle.nodes.move_group.execution import ExecutionStatus
 
@@ -85,6 +86,44 @@ def test_scene_and_states(moveit: planning.MoveItPy) -> None:
     with monitor.read_write() as scene:
         scene.remove_all_collision_objects()
     assert arm.plan()
+
+
+def test_scene_of_ones_own_knows_frames_paths_and_limits(moveit: planning.MoveItPy) -> None:
+    model = moveit.get_robot_model()
+    scene = PlanningScene(model)
+    state = RobotState(model)
+    state.joint_positions = {**dict(zip(JOINTS, READY, strict=True)), "finger_joint": 0.04}
+    scene.current_state = state
+    assert scene.is_state_valid(state, "arm")
+    box: Any = message_type("moveit_msgs/msg/CollisionObject")()
+    fill(box, box_object("crate", [0.2, 0.2, 0.2], [0.178, 0.0, 0.32]))
+    scene.apply_collision_object(box)
+    assert scene.knows_frame_transform("crate") and not scene.knows_frame_transform("crat")
+    assert scene.get_frame_transform("crate")[:3, 3] == pytest.approx([0.178, 0.0, 0.32])
+    assert scene.is_state_colliding("arm") and not scene.is_state_valid(state, "arm")
+    other = RobotState(model)
+    assert not scene.is_path_valid([other, state], "arm")
+    names = [one.id for one in scene.planning_scene_message.world.collision_objects]
+    assert names == ["crate"]
+    scene.remove_all_collision_objects()
+    assert scene.is_path_valid([other, state], "arm")
+    other.joint_positions = {"joint_2": 3.0}
+    assert not scene.is_state_valid(other, "arm")
+
+
+def test_trajectories_are_executed_in_every_way_of_calling(moveit: planning.MoveItPy) -> None:
+    arm = moveit.get_planning_component("arm")
+    for number, call in enumerate((
+        lambda plan: moveit.execute(plan, []),
+        lambda plan: moveit.execute(plan, controllers=[]),
+        lambda plan: moveit.execute("arm", plan, True),
+        lambda plan: moveit.execute(plan, blocking=True, controllers=["arm_controller"]),
+    )):  # fmt: skip
+        arm.set_start_state_to_current_state()
+        arm.set_goal_state(configuration_name=("up", "ready")[number % 2])
+        assert call(arm.plan().trajectory) is ExecutionStatus.SUCCEEDED
+    arm.set_goal_state(configuration_name="up")
+    assert moveit.execute(arm.plan().trajectory, blocking=False) is None
 
 
 def test_states_solve_kinematics(moveit: planning.MoveItPy) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+import threading
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.compat.moveit.py.robot import RobotModel, RobotState, RobotTrajectory
+from gazelle.compat.moveit.py.scene import PlanningSceneMonitor
 from gazelle.compat.moveit.targets import joint_constraints, pose_constraints
 from gazelle.description.moveit import config_from_parameters, nested_parameters
 from gazelle.diagnostics import Diagnostics, did_you_mean
@@ -21,7 +22,6 @@ from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
 from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.scene_interface import offer_scene_topics
-from gazelle.nodes.move_group.scene_messages import apply_attached, apply_object
 from gazelle.workspace import Workspace
 
 __all__ = [
@@ -135,19 +135,44 @@ class MoveItPy:
         return self._monitor
 
     def execute(
-        self, robot_trajectory: Any, controllers: list[str] | None = None
-    ) -> ExecutionStatus:
-        """Execute a trajectory and wait for its end.
+        self,
+        robot_trajectory: Any = None,
+        *more: Any,
+        group_name: str = "",
+        blocking: bool = True,
+        controllers: list[str] | None = None,
+    ) -> ExecutionStatus | None:
+        """Execute a trajectory.
+
+        Args:
+            robot_trajectory: of `PlanningComponent.plan`, or a message.
+            more: the controllers; where the first word is a group's name, as in Humble, the
+                trajectory and `blocking`.
+            group_name: the trajectory knows its joints by itself.
+            blocking: wait for the end.
+            controllers: names of the controllers to use, any when empty.
 
         Returns:
-            How it ended; the log says why when that is not well.
+            How it ended, None where that is not waited for; the log says why when it is not well.
         """
-        trajectory = robot_trajectory
+        del group_name
+        if isinstance(robot_trajectory, str):
+            robot_trajectory, *rest = more
+            blocking = rest[0] if rest else blocking
+        elif more:
+            controllers = more[0]
+        words = (robot_trajectory, list(controllers or ()))
+        if blocking:
+            return self._execute(*words)
+        threading.Thread(target=self._execute, args=words, daemon=True).start()
+        return None
+
+    def _execute(self, trajectory: Any, controllers: list[str]) -> ExecutionStatus:
         if isinstance(trajectory, RobotTrajectory):
             trajectory = trajectory.get_robot_trajectory_msg()
         own = convert(trajectory, message_type("moveit_msgs/msg/RobotTrajectory"))
         assert self._context.executor is not None
-        outcome = self._context.executor.execute(own.joint_trajectory, controllers or ())
+        outcome = self._context.executor.execute(own.joint_trajectory, controllers)
         if outcome.why:
             self._node.log("error", f"execution: {outcome.status.value}: {outcome.why}")
         return outcome.status
@@ -313,86 +338,3 @@ class PlanningComponent:
 
 def _duration_s(response: MotionPlanResponse) -> float:
     return response.trajectory.duration if response.trajectory is not None else float("inf")
-
-
-class _SceneHandle:
-    """A planning scene as moveit_py's users see it."""
-
-    def __init__(self, context: MoveGroupContext) -> None:
-        self._context = context
-        self.scene = context.monitor.scene
-
-    @property
-    def current_state(self) -> RobotState:
-        """Where the robot is."""
-        state = RobotState(RobotModel(self._context.robot))
-        state._positions = self.scene.positions
-        return state
-
-    @property
-    def planning_frame(self) -> str:
-        """The frame that everything is planned in."""
-        return self._context.robot.frame
-
-    def apply_collision_object(self, collision_object_msg: Any, color_msg: Any = None) -> bool:
-        """Add, move or remove an object.
-
-        Raises:
-            MoveGroupError: that cannot be done, with why.
-        """
-        del color_msg
-        kind = message_type("moveit_msgs/msg/CollisionObject")
-        own = convert(collision_object_msg, kind)
-        self.scene = apply_object(self.scene, own, self._context.monitor.frame_of)
-        return True
-
-    def process_attached_collision_object(self, object: Any) -> bool:
-        """Attach an object or let it go.
-
-        Raises:
-            MoveGroupError: that cannot be done, with why.
-        """
-        own = convert(object, message_type("moveit_msgs/msg/AttachedCollisionObject"))
-        self.scene = apply_attached(self.scene, own, self._context.monitor.frame_of)
-        return True
-
-    def remove_all_collision_objects(self) -> None:
-        """Remove all objects that are not attached."""
-        for name in tuple(self.scene.objects):
-            self.scene = self.scene.without_object(name)
-
-    def is_state_colliding(
-        self,
-        robot_state: RobotState | None = None,
-        joint_model_group_name: str = "",
-        verbose: bool = False,
-    ) -> bool:
-        """Return whether anything collides, with the robot where it is or elsewhere."""
-        state = robot_state or self.current_state
-        checker = self._context.maker.checker(self.scene, joint_model_group_name)
-        q = state._positions
-        if joint_model_group_name:
-            q = self._context.robot.group(joint_model_group_name).take(q)
-        found = checker.contacts(q)
-        for contact in found if verbose else ():
-            self._context.node.log("info", str(contact))
-        return bool(found)
-
-
-class PlanningSceneMonitor:
-    """The scene of a `MoveItPy`."""
-
-    def __init__(self, context: MoveGroupContext) -> None:
-        self._context = context
-
-    @contextmanager
-    def read_only(self) -> Iterator[_SceneHandle]:
-        """Give the scene as it is now."""
-        yield _SceneHandle(self._context)
-
-    @contextmanager
-    def read_write(self) -> Iterator[_SceneHandle]:
-        """Give the scene and take it back with what was changed in it."""
-        handle = _SceneHandle(self._context)
-        yield handle
-        self._context.monitor.replace(handle.scene)
