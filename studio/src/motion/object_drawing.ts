@@ -46,6 +46,8 @@ export class SceneObjects {
     for (const item of this.store.objects) this.add(item, free, false);
     for (const body of this.store.attached) this.add(part(body, 'object'), carried, true, String(body['link_name']));
     this.follow();
+    // Handles can be grasped before they are drawn.
+    this.root.updateMatrixWorld(true);
     this.site.view.moved();
   }
 

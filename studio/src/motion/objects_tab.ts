@@ -177,8 +177,11 @@ export class ObjectsTab {
   }
 
   private async make(id: string, item: JsonObject): Promise<void> {
-    this.store.chosen = id;
-    await this.tried(() => changeObjects(this.store, [item]), `Added ${id}.`);
+    await this.tried(async () => {
+      await changeObjects(this.store, [item]);
+      // Until the scene tells of it there is nothing to be typed into.
+      this.choose(id);
+    }, `Added ${id}.`);
   }
 
   private async move(): Promise<void> {

@@ -43,7 +43,7 @@ export class MotionPlanningPanel extends BasePanel {
     ], () => host.touched());
     this.element.classList.add('motion');
     this.result.setAttribute('aria-label', 'Result');
-    this.view.append(button('Open RViz', () => host.show('rviz', {}), { title: 'Open RViz beside this panel' }));
+    this.view.append(button('Open RViz', () => host.show('rviz', {}, 'motion_planning'), { title: 'Open RViz below this panel' }));
     this.element.append(this.tabs.element, this.view, this.inverse, this.collisions, this.result);
     this.atEnd(this.store.watch((what) => this.heard(what)));
     this.atEnd(host.graph.watch((graph) => this.store.follow(graph)));

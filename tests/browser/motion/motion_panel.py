@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -97,24 +98,56 @@ class MotionPanel:
         """Where the goal has joints, as the tab Joints tells."""
         return [float(self.panel.get_by_label(f"{name} position").input_value()) for name in joints]
 
-    def drag(self, axis: str, by: float, marker: str = "goal") -> None:
-        """Pull a marker's arrow outwards by so many of its lengths; below 0 the one at its back."""
+    def drag(
+        self,
+        axis: str,
+        by: float,
+        marker: str = "goal",
+        at: tuple[float, float, float] | None = None,
+    ) -> None:
+        """Pull a marker's arrow outwards by so many of its lengths.
+
+        Args:
+            axis: of the arrow.
+            by: below 0 the arrow at the back is pulled.
+            marker: its name.
+            at: where in the fixed frame the page shall have it first.
+        """
         control = f"gazelle.handle('{marker}', 'move_{axis}', {1 if by > 0 else -1})"
-        at = self.eventually(lambda: self.page.evaluate(control))
-        along = [abs(by) * (at[side] - at["middle"][side]) for side in "xy"]
+
+        def grasp() -> Any:
+            found = self.page.evaluate(control)
+            if not found or at is None:
+                return found
+            x, y = self.rviz.project(*at)
+            is_there = math.dist((x, y), (found["middle"]["x"], found["middle"]["y"])) < 3
+            return is_there and found
+
+        begin = self.eventually(grasp)
+        along = [abs(by) * (begin[side] - begin["middle"][side]) for side in "xy"]
         mouse = self.page.mouse
-        mouse.move(at["x"], at["y"])
+        mouse.move(begin["x"], begin["y"])
         mouse.down()
-        mouse.move(at["x"] + along[0], at["y"] + along[1], steps=6)
+        mouse.move(begin["x"] + along[0], begin["y"] + along[1], steps=6)
         mouse.up()
+
+    def names(self) -> list[str]:
+        """The objects that the tab Scene Objects lists."""
+        rows = self.panel.locator("[data-object]")
+        return list(rows.evaluate_all("rows => rows.map((row) => row.dataset.object)"))
 
     def add_solid(self, shape: str, **sizes: float) -> None:
         """Add a shape in the tab Scene Objects."""
         self.choose("Shape", shape)
         for name, size in sizes.items():
             self.panel.get_by_label(f"{shape} {name} (m)").fill(str(size))
+        chosen = self.panel.locator("[data-object][aria-selected=true]")
+        before = self.names()
         self.press("Add")
-        self.says("Added ")
+        self.eventually(lambda: len(self.names()) > len(before))
+        self.eventually(
+            lambda: chosen.count() and chosen.get_attribute("data-object") not in before
+        )
 
     def place_object(self, **numbers: float) -> None:
         """Type where the chosen object shall be."""
