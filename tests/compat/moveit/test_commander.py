@@ -102,6 +102,9 @@ def test_mistakes_are_told_in_moveits_words(arm: ArmBench, capfd: Any) -> None:
         group.set_pose_target([1.0, 2.0])
     with pytest.raises(error, match="There is no joint named elbow"):
         commander.RobotCommander().get_joint("elbow")
+    for refused in (group.pick, group.place, group.set_support_surface_name):
+        with pytest.raises(error, match=r"no actions 'pickup' and 'place' here.*attach_object\(\)"):
+            refused("cube")
     group.set_position_target([2.0, 0.0, 0.3])
     assert not group.go()
     assert "Fail: ABORTED: inverse kinematics finds no" in capfd.readouterr().err

@@ -192,6 +192,22 @@ def test_planners_are_listed_and_take_parameters(arm: ArmBench) -> None:
     assert arm.move(plan_only=True, goal_constraints=joint_goal([0.0] * 6)).error_code.val == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "plugin"),
+    [("chomp", "chomp_interface/CHOMPPlanner"), ("stomp", "stomp_moveit/StompPlanner")],
+)
+def test_pipelines_of_other_planners_say_who_plans(
+    make_arm: Any, capsys: pytest.CaptureFixture[str], name: str, plugin: str
+) -> None:
+    arm = make_arm(planning_pipelines=["ompl", name], **{name: {"planning_plugin": plugin}})
+    result = arm.move(
+        plan_only=True, pipeline_id=name, planner_id="CHOMP", goal_constraints=joint_goal([0.0] * 6)
+    )
+    assert result.error_code.val == 1, result.error_code
+    text = f"the planning plug-in '{plugin}' of pipeline '{name}' is not here; RRTConnect plans"
+    assert text in capsys.readouterr().err
+
+
 def test_a_cancelled_goal_stops_the_controllers(arm: ArmBench) -> None:
     arm.robot.servers[0].close()
     arm.robot.follow("arm_controller", lambda goal: goal.ended.wait(PATIENCE_S))

@@ -9,11 +9,13 @@ from typing import Any
 from gazelle.description.moveit import MoveItConfig, Pipeline
 from gazelle.diagnostics import Diagnostic, Diagnostics, did_you_mean
 from gazelle.motion.planning import PlannerSettings, configured
+from gazelle.motion.planning.planners import DEFAULT
 from gazelle.motion.space import JointSpace
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 
 __all__ = ["PILZ", "PlannerChoice", "choose_planner", "pipeline_of"]
 
+_ELSEWHERE = frozenset({"chomp", "stomp"})
 PILZ = "pilz_industrial_motion_planner"
 """Name of the pipeline of PTP, LIN and CIRC, which its plug-ins have in their names too."""
 
@@ -85,9 +87,12 @@ def choose_planner(
     if found.name == PILZ or any(PILZ in plugin for plugin in found.plugins):
         name = planner or found.default_planner or "PTP"
         return PlannerChoice(found.name, name, is_pilz=True, adapters=adapters, values=found.values)
-    diagnostics = Diagnostics()
+    diagnostics, foreign = Diagnostics(), _foreign(found)
+    if foreign:
+        # Its planners' names mean nothing to those of OMPL.
+        found, planner = replace(found, planner_configs={}, groups={}), ""
     chosen = configured(_with(found, group, changed or {}), group, planner, space, diagnostics)
-    notes = tuple(_told(finding) for finding in diagnostics)
+    notes = (*foreign, *(_told(finding) for finding in diagnostics))
     return PlannerChoice(
         found.name,
         chosen.planner,
@@ -96,6 +101,17 @@ def choose_planner(
         values=found.values,
         notes=notes,
     )
+
+
+def _foreign(pipeline: Pipeline) -> tuple[str, ...]:
+    """Say who plans in place of a plug-in that is neither OMPL's nor Pilz'."""
+    known = [one for one in pipeline.plugins if "ompl" in one.lower()]
+    name = next(iter(pipeline.plugins), "")
+    if known or not (name or pipeline.name in _ELSEWHERE):
+        return ()
+    what = f"planning plug-in '{name}'" if name else "planner"
+    text = f"the {what} of pipeline '{pipeline.name}' is not here; {DEFAULT} plans instead "
+    return (f"{text}(there are the pipelines of OMPL and of Pilz: PTP, LIN and CIRC)",)
 
 
 def _with(

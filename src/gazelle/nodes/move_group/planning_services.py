@@ -54,6 +54,8 @@ def _plan(context: MoveGroupContext, request: Any) -> Any:
         context.tell("plan_kinematic_path", error)
         answer.error_code = code_message(error.code, error.why)
         return response
+    for note in planned.notes:
+        context.node.log("warn", note)
     answer.trajectory_start = context.state_message(planned.start)
     answer.trajectory = robot_trajectory(planned.trajectory, frame=context.robot.frame)
     answer.planning_time = planned.time_s

@@ -20,6 +20,11 @@ __all__ = ["MoveGroupCommander", "PlanResult"]
 
 _MOVE = action_type("moveit_msgs/MoveGroup")
 _SUCCESS = 1
+_NO_PICK = (
+    "cannot {}: move_group offers no actions 'pickup' and 'place' here. The same in steps: go() "
+    "above it, compute_cartesian_path() down, the gripper's group to its closed state, "
+    "attach_object(), compute_cartesian_path() up; examples/arm_ws has a whole program"
+)
 
 
 class PlanResult(tuple[bool, Any, float, Any]):
@@ -202,6 +207,32 @@ class MoveGroupCommander(GroupTargets):
         kind = message_type("moveit_msgs/msg/RobotTrajectory")
         result = self._client.execute(convert(found, kind), wait=wait)
         return result is None or self._is_good(result, "execute")
+
+    def pick(self, object_name: str, grasp: Any = (), plan_only: bool = False) -> int:
+        """Refuse: MoveIt's pick and place pipeline is not here.
+
+        Raises:
+            MoveItCommanderException: always, with what does the same.
+        """
+        del grasp, plan_only
+        raise MoveItCommanderException(_NO_PICK.format(f"pick '{object_name}'"))
+
+    def place(self, object_name: str, location: Any = None, plan_only: bool = False) -> int:
+        """Refuse, see `pick`.
+
+        Raises:
+            MoveItCommanderException: always, with what does the same.
+        """
+        del location, plan_only
+        raise MoveItCommanderException(_NO_PICK.format(f"place '{object_name}'"))
+
+    def set_support_surface_name(self, value: str) -> None:
+        """Refuse, see `pick`.
+
+        Raises:
+            MoveItCommanderException: always, with what does the same.
+        """
+        raise MoveItCommanderException(_NO_PICK.format(f"use '{value}' as a support surface"))
 
     def attach_object(
         self, object_name: str, link_name: str = "", touch_links: Sequence[str] = ()
