@@ -105,11 +105,11 @@ class MotionPanel:
         marker: str = "goal",
         at: tuple[float, float, float] | None = None,
     ) -> None:
-        """Pull a marker's arrow outwards by so many of its lengths.
+        """Pull an arrow of a marker outwards.
 
         Args:
             axis: of the arrow.
-            by: below 0 the arrow at the back is pulled.
+            by: in lengths of the arrow; below 0 the one at its other end is pulled.
             marker: its name.
             at: where in the fixed frame the page shall have it first.
         """

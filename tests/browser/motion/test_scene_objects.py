@@ -47,10 +47,10 @@ def test_solids_are_added_moved_and_removed(desk: Any) -> None:
     ui.shows(objects=4)
     assert ui.panel.locator("[data-object]").count() == 4
 
-    # By its handles; the numbers follow.
+    # By the upper one of its blue arrows; the numbers follow.
     ui.panel.locator("[data-object=Cone]").click()
     before = _place(desk.objects()["Cone"])
-    ui.drag("z", 1, marker="Cone", at=(-0.6, 0.6, 0.3))
+    ui.drag("z", -1, marker="Cone", at=(-0.6, 0.6, 0.3))
     ui.eventually(lambda: _place(desk.objects()["Cone"])[2] > before[2] + 0.02)
     after = _place(desk.objects()["Cone"])
     assert after[:2] == pytest.approx(before[:2], abs=1e-6)
