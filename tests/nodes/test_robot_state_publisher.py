@@ -99,7 +99,7 @@ def test_node_of_ros2_publishes_its_description(bench: Any, tmp_path: Path, way:
         (tmp_path / "r.urdf").write_text(ROBOT)
         words = [str(tmp_path / "r.urdf"), "--ros-args", "-p", "frame_prefix:=r1/"]
     else:
-        values = {"robot_description": ROBOT, "frame_prefix": "r1/"}
+        values = {"robot_description": ROBOT, "frame_prefix": "r1/", "use_sim_time": True}
         text = yaml.dump({"/**": {"ros__parameters": values}})
         (tmp_path / "p.yaml").write_text(text)
         words = ["--ros-args", "--params-file", str(tmp_path / "p.yaml")]
@@ -109,6 +109,9 @@ def test_node_of_ros2_publishes_its_description(bench: Any, tmp_path: Path, way:
     bench.eventually(lambda: text and static)
     assert text[0].data == ROBOT
     assert static[0].transforms[0].child_frame_id == "r1/cam"
+    stamp = static[0].transforms[0].header.stamp
+    # Before /clock simulated time is 0, not that of the wall.
+    assert (stamp.sec == 0) is (way == "parameters")
     assert bench.stop() == [0]
 
 

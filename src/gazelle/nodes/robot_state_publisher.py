@@ -55,7 +55,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         for link in sorted(one.name for one in model.links):
             node.log("info", f"got segment {link}")
         _publish_description(node)
-    _connect(node, states, bool(private(node, arguments, "use_tf_static", True)))
+    is_static = bool(private(node, arguments, "use_tf_static", True))
+    _connect(node, states, is_static, _begin_ns(node, arguments))
     stop.wait()
     node.shutdown()
     return 0
@@ -140,12 +141,18 @@ class StateToTf:
         return f"{self._prefix}{name}"
 
 
-def _connect(node: Node, states: StateToTf, use_tf_static: bool) -> None:
+def _begin_ns(node: Node, arguments: NodeArguments) -> int:
+    """Return the time of transforms that hold always; simulated time is 0 before ``/clock``."""
+    wants_sim_time = private(node, arguments, "use_sim_time", False) is True
+    return 0 if wants_sim_time and not node.clock.use_sim_time else node.clock.now_ns()
+
+
+def _connect(node: Node, states: StateToTf, use_tf_static: bool, begin_ns: int) -> None:
     tf_message: Any = message_type("tf2_msgs/msg/TFMessage")
     tf = node.create_publisher("/tf", tf_message, queue_size=100)
     static = node.create_publisher("/tf_static", tf_message, latch=True) if use_tf_static else None
     if static is not None:
-        static.publish(tf_message(transforms=states.fixed(node.clock.now_ns())))
+        static.publish(tf_message(transforms=states.fixed(begin_ns)))
 
     def on_joint_states(message: Any) -> None:
         transforms = states.moving(message)

@@ -61,6 +61,18 @@ def test_parameter_file_with_errors_is_told(tmp_path: Path) -> None:
         parse_ros_arguments(["--ros-args", "--params-file", str(file)]).parameters("/n")
 
 
+def test_parameter_file_without_ros__parameters_is_told_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "p.yaml"
+    file.write_text("ok:\n  a: 1\n")
+    for name in ("/ok", "/other"):
+        parse_ros_arguments(["--ros-args", "--params-file", str(file)]).parameters(name)
+    shown = capsys.readouterr().err
+    assert shown.count("ros__parameters") >= 1
+    assert shown.count(f"{file}:1") == 1
+
+
 @pytest.mark.parametrize(
     ("words", "text"),
     [

@@ -5,13 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
 from gazelle.errors import GraphError
 
+if TYPE_CHECKING:
+    from gazelle.diagnostics import Diagnostic
+
 __all__ = ["RosArguments", "parse_ros_arguments"]
+
+
+_TOLD: set[Diagnostic] = set()
 
 
 class _Rule(NamedTuple):
@@ -76,6 +82,7 @@ class RosArguments:
                     if section.matches(full_name):
                         values.update(_flat("", section.values))
             diagnostics.raise_if_errors()
+            _tell_once(diagnostics)
         base = full_name.rpartition("/")[2]
         for rule in self.params:
             if rule.node in ("", base, full_name):
@@ -85,6 +92,16 @@ class RosArguments:
     def _special(self, word: str, node: str) -> str | None:
         found = [r.value for r in self.remaps if r.name == word and r.node in ("", node)]
         return str(found[-1]) if found else None
+
+
+def _tell_once(found: Iterable[Diagnostic]) -> None:
+    """Show what is odd in parameter files, once for all nodes of a process."""
+    new = [one for one in found if one not in _TOLD]
+    if new:
+        from gazelle.diagnostics import render
+
+        _TOLD.update(new)
+        render(new)
 
 
 def parse_ros_arguments(arguments: Sequence[str]) -> RosArguments:
