@@ -98,7 +98,7 @@ class Slam:
     """
 
     def __init__(self, parameters: SlamParameters | None = None) -> None:
-        """Start with no map; the first scan will be at the map's origin."""
+        """Start with no map; the first scan will be at the map's origin; see `begin`."""
         self.parameters = parameters or SlamParameters()
         self.keyframes = Keyframes(self.parameters)
         self.edges: Edges = no_edges()
@@ -115,6 +115,10 @@ class Slam:
     def pose(self) -> Poses:
         """Where the robot is, in the map's frame."""
         return self._pose.copy()
+
+    def begin(self, pose: ArrayLike) -> None:
+        """Let the first scan be at a pose of the map's frame."""
+        self._pose = np.array(pose, dtype=float)
 
     def resume(self, pose: ArrayLike) -> None:
         """Go on from a pose in the map; the next scan is looked for around it."""
@@ -185,9 +189,9 @@ class Slam:
         return SlamResult(stamps, self.trajectory(), self.grid(resolution_m), self.loops)
 
     def _first(self, frame: Keyframe) -> Update:
-        self.keyframes.append(frame, np.zeros(3))
-        self._track.add(frame.scan.stamp_ns, np.zeros(3))
-        return Update(np.zeros(3), True, True, False)
+        self.keyframes.append(frame, self.pose)
+        self._track.add(frame.scan.stamp_ns, self.pose)
+        return Update(self.pose, True, True, False)
 
     def _is_new(self) -> bool:
         away = between(self.keyframes.poses[-1], self._pose)

@@ -130,6 +130,9 @@ class Mapper:
 
     def _map(self, one: PlacedScan) -> None:
         self._follow(one)
+        if not len(self.engine.keyframes):
+            # As slam_gmapping, slam_karto and slam_toolbox: map and odometry agree at the start.
+            self.engine.begin(one.odometry)
         update = self.engine.add(one.scan, self._drive)
         self._T_map_odom = compose(update.pose, inverse(one.odometry))
         self._tell(one, is_matched=update.is_matched)
