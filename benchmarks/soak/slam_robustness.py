@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -53,7 +53,7 @@ def varied(seed: int) -> SlamParameters:
     """Return parameters around the defaults."""
     rng = np.random.default_rng(1000 + seed)
     plain = SlamParameters()
-    changed = {}
+    changed: dict[str, Any] = {}
     for one in fields(SlamParameters):
         value = getattr(plain, one.name)
         if one.name not in FIXED:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ def _buildings() -> Any:
 
 b = _buildings()
 BAD = b.Wheels(0.1, 0.15, 0.02, 0.01, 0.01, 10)
-CASES = {
+CASES: dict[str, tuple[Callable[[], Any], float]] = {
     "a house, a short-sighted lidar": (lambda: b.log_of(b.house(0), b.LDS), 0.06),
     "a house, wheels that slip": (lambda: b.log_of(b.house(1), b.LDS, BAD, 1), 0.08),
     "a corridor longer than one sees": (lambda: b.log_of(b.corridor(20, 0), b.LDS), 0.4),

@@ -19,6 +19,7 @@ _GROW_M = 10.0
 _MOVED_CELLS = 0.5
 _MOVED_RAD = 0.004
 _OCCUPIED = 0.25
+_TAIL = 0.1
 
 
 def draw(
@@ -32,7 +33,8 @@ class MapDrawer:
     """Draws maps of a growing set of scans, only what is new since the last time.
 
     A cell is occupied when more than a share of the beams that reached it ended in it (0.25, as
-    gmapping's ``occ_thresh``), free when fewer did, unknown when none reached it.
+    gmapping's ``occ_thresh``), free when fewer did, unknown when none reached it. So are cells
+    in which hardly any beams ended next to one in which many did: they lie behind a wall.
     """
 
     def __init__(self, resolution_m: float = 0.05, occupied_share: float = _OCCUPIED) -> None:
@@ -114,7 +116,20 @@ class MapDrawer:
         occupied = self._hits > self._share * reached
         cells = np.where(occupied, 100, 0).astype(np.int8)
         cells[self._passes == 0] = -1
+        cells[self._tails(occupied)] = -1
         return OccupancyGrid(*_cropped(cells, self._corner, self._resolution_m))
+
+    def _tails(self, occupied: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return occupied cells, rows and columns, that only the lidar's noise reached.
+
+        Nothing passes through a wall, so that a single beam would fill the cell behind it.
+        """
+        rows, columns = np.nonzero(occupied)
+        padded = np.pad(self._hits, 1)
+        around = [padded[rows + i, columns + j] for i in range(3) for j in range(3)]
+        most = np.max(around, axis=0, initial=0)
+        tail = self._hits[rows, columns] < _TAIL * most
+        return rows[tail], columns[tail]
 
 
 def _cropped(
