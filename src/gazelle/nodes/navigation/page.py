@@ -16,7 +16,7 @@ from gazelle.nodes.nav2.trees.loading import NODE_TYPES
 from gazelle.nodes.navigation.assembling import COSTMAP_TABLES
 from gazelle.nodes.navigation.table import Row, Table
 
-__all__ = ["page"]
+__all__ = ["page", "section"]
 
 _INTRODUCTION = (
     "# Navigation: parameters\n\nGenerated from the tables that the nodes read; do not edit"
@@ -30,11 +30,11 @@ def page() -> str:
     """Return the page."""
     parts = [_INTRODUCTION, "## ROS 1"]
     tables = (MOVE_BASE, *planner_tables(), *local_planner_tables(), CLEAR, ROTATE, SLOW)
-    parts += [_section(table) for table in tables]
+    parts += [section(table) for table in tables]
     parts += ["## Costmaps of both generations"]
-    parts += [_section(table) for table in COSTMAP_TABLES]
+    parts += [section(table) for table in COSTMAP_TABLES]
     parts += ["## Nav2"]
-    parts += [_section(table) for table in _nav2_tables()]
+    parts += [section(table) for table in _nav2_tables()]
     parts += ["## What is not there", _refused()]
     parts += ["## Nodes of behaviour trees", _nodes()]
     return "\n\n".join(parts) + "\n"
@@ -52,7 +52,8 @@ def _nav2_tables() -> list[Table]:
     return [*servers, *planners, *controllers]
 
 
-def _section(table: Table) -> str:
+def section(table: Table) -> str:
+    """Return the section of one table."""
     lines = [f"### {table.family}", "", table.summary, ""]
     if table.types:
         lines += ["Types: " + ", ".join(f"`{name}`" for name in table.types), ""]

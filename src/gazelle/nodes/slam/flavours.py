@@ -179,9 +179,42 @@ _CARTOGRAPHER = _flavour(
         used("max_range", 30.0, "max_range_m", "longest beams that count, at most 30", 0.1, "m"),
         used("resolution", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
         used("submap_publish_period_sec", 0.3, "map_period_s", "between two maps", 0.0, "s"),
+        used("publish_to_tf", True, "publishes_tf", "whether the transform is sent"),
         used("pose_publish_period_sec", 5e-3, "tf_period_s", "between two transforms", 0.0, "s"),
     ),
-    (),
+    (
+        *why_not(
+            _OWN_MATCHER, "TRAJECTORY_BUILDER_2D", "TRAJECTORY_BUILDER", "use_pose_extrapolator"
+        ),
+        *why_not(_OWN_SOLVER, "POSE_GRAPH", "MAP_BUILDER"),
+        *why_not(
+            "odometry comes by tf from published_frame to tracking_frame; without any, let "
+            "both be the robot's frame",
+            "use_odometry",
+            "provide_odom_frame",
+            "odom_frame",
+        ),
+        *why_not(
+            "one lidar in the plane is used, on the topic scan",
+            "use_nav_sat",
+            "use_landmarks",
+            "num_laser_scans",
+            "num_multi_echo_laser_scans",
+            "num_subdivisions_per_laser_scan",
+            "num_point_clouds",
+        ),
+        *why_not(
+            "every scan is used as soon as tf knows where it was taken",
+            "lookup_transform_timeout_sec",
+            "rangefinder_sampling_ratio",
+            "odometry_sampling_ratio",
+            "fixed_frame_pose_sampling_ratio",
+            "imu_sampling_ratio",
+            "landmarks_sampling_ratio",
+        ),
+        *why_not("the transform lies in the plane always", "publish_frame_projected_to_2d"),
+        *why_not(_SHOWS, "trajectory_publish_period_sec", "publish_tracked_pose"),
+    ),
     replace(_DEFAULTS, map_period_s=1.0),
 )
 

@@ -13,17 +13,10 @@ from gazelle.errors import LaunchError
 __all__ = ["read_lua"]
 
 _ASSIGNED = re.compile(
-    r"^\s*([A-Za-z_][\w.]*)\s*=\s*(\"[^\"]*\"|-?[\d.]+(?:e-?\d+)?)", re.MULTILINE
+    r"^\s*([A-Za-z_][\w.]*)\s*=\s*(\"[^\"]*\"|true\b|false\b|-?[\d.]+(?:e-?\d+)?)", re.MULTILINE
 )
 _COMMENT = re.compile(r"--[^\n]*")
-_WANTED = {
-    "map_frame": "map_frame",
-    "tracking_frame": "tracking_frame",
-    "published_frame": "published_frame",
-    "submap_publish_period_sec": "submap_publish_period_sec",
-    "pose_publish_period_sec": "pose_publish_period_sec",
-    "TRAJECTORY_BUILDER_2D.max_range": "max_range",
-}
+_RENAMED = {"TRAJECTORY_BUILDER_2D.max_range": "max_range"}
 _LARGEST = 1_000_000
 
 
@@ -48,6 +41,11 @@ def read_lua(words: Sequence[str]) -> dict[str, Any]:
         ) from None
     found: dict[str, Any] = {}
     for key, value in _ASSIGNED.findall(_COMMENT.sub("", text)):
-        if key in _WANTED:
-            found[_WANTED[key]] = value[1:-1] if value.startswith('"') else float(value)
+        found[_RENAMED.get(key, key)] = _value(value)
     return found
+
+
+def _value(word: str) -> str | float | bool:
+    if word.startswith('"'):
+        return word[1:-1]
+    return word == "true" if word in ("true", "false") else float(word)

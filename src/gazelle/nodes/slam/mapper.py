@@ -155,6 +155,9 @@ class Mapper:
                 )
                 motion = np.zeros(3)
             self._drive = compose(self._drive, motion)
+        elif self._T_map_odom is not None:
+            # Time has gone back, as when a simulation is reset: the robot is where odometry says.
+            self.engine.resume(compose(self._T_map_odom, odometry))
         self._last = odometry, stamp_ns
 
     def _tell(self, one: PlacedScan, *, is_matched: bool) -> None:

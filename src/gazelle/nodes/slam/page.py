@@ -1,0 +1,26 @@
+"""The page of SLAM's parameters: ``python -m gazelle.nodes.slam.page > docs/slam.md``."""
+
+from __future__ import annotations
+
+import sys
+
+from gazelle.nodes.navigation.page import section
+from gazelle.nodes.slam.flavours import FLAVOURS
+
+__all__ = ["page"]
+
+_INTRODUCTION = (
+    "# SLAM: parameters\n\nGenerated from the tables that the nodes read; do not edit"
+    " (`python -m gazelle.nodes.slam.page > docs/slam.md`). One engine answers to all these names"
+    " ([how](howto/slam.md)). Parameters without effect are told when they are set, with the"
+    " reason, and so are names that are not listed. cartographer_node's are those of its Lua file."
+)
+
+
+def page() -> str:
+    """Return the page."""
+    return "\n\n".join([_INTRODUCTION, *(section(one.table) for one in FLAVOURS.values())]) + "\n"
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page())
