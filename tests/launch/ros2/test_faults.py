@@ -210,6 +210,13 @@ def test_a_syntax_error_is_shown_with_its_column(include: Include) -> None:
             2,
         ),
         ("a.launch.yaml", "", "ros2_launch.bad-file", "Expected only one root", 1),
+        (
+            "a.launch.yaml",
+            "launch:\n- log:\n    message: 3\n",
+            "ros2_launch.bad-element",
+            "expected to be of type '<class 'str'>', got '<class 'int'>'",
+            2,
+        ),
         ("a.launch.yaml", "launch:\n- log:\n\tm: a\n", "ros2_launch.bad-file", "character '.t'", 3),
         (
             "a.launch.yaml",

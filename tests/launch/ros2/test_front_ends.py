@@ -253,10 +253,12 @@ def test_include_passes_arguments(tag: str, run: Run, tmp_path: Path) -> None:
     text = '<launch><arg name="x"/><log message="$(var x) $(dirname)"/></launch>'
     inner.write_text(text, encoding="utf-8")
     given = f'<{tag} name="x" value="$(var y)"/>'
-    ran = run(_xml(f'<include file="$(var folder)/inner.launch.xml">{given}</include>'), **{
-        "folder": str(tmp_path), "y": "1"
-    })  # fmt: skip
-    assert _said(ran) == [f"1 {tmp_path}"]
+    file = "$(var folder)/inner.launch.xml"
+    entities = {"include": {"file": file, tag: [{"name": "x", "value": "$(var y)"}]}}
+    text = yaml.safe_dump({"launch": [entities]})
+    for include in (_xml(f'<include file="{file}">{given}</include>'), _parsed(text, YamlParser)):
+        ran = run(include, folder=str(tmp_path), y="1")
+        assert _said(ran) == [f"1 {tmp_path}"]
 
 
 def test_readers_of_other_packages_and_actions_of_users() -> None:

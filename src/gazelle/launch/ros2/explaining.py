@@ -24,6 +24,7 @@ from gazelle.workspace.ament_index import PackageNotFoundError
 
 __all__ = ["Explained", "explain"]
 
+_QUOTES = "put the value into quotes: YAML takes it for a number or a bool"
 # What an error of the launch itself says, its code, and what to do where the code says too little.
 _PHRASES = (
     ("Required launch argument", "ros2_launch.argument-missing", ""),
@@ -53,6 +54,7 @@ _PHRASES = (
         "ros2_launch.bad-file",
         "end it with return LaunchDescription([…])",
     ),
+    ("expected to be of type '<class 'str'>', got", "ros2_launch.bad-element", _QUOTES),
     ("not well-formed XML", "ros2_launch.bad-file", ""),
     ("Invalid node name: ", "ros2_launch.bad-name", ""),
     ("Invalid namespace: ", "ros2_launch.bad-name", ""),

@@ -93,9 +93,32 @@ _SCOPE = """
 </launch>"""
 
 
-def test_elements_of_scopes_and_substitutions(run: Run, package: Path) -> None:
+_SCOPE_YAML = """
+launch:
+- set_ros_log_dir: {new_log_dir: below}
+- set_use_sim_time: {value: 'false'}
+- group:
+  - push_ros_namespace: {namespace: one}
+  - push-ros-namespace: {namespace: two}
+  - set_parameter: {name: x, value: '[1, 2]'}
+  - set_parameters_from_file: {filename: $(find-pkg-share demo)/p.yaml}
+  - set_remap: {from: a, to: b}
+  - node: {pkg: demo, exec: show, output: screen}
+- ros_timer:
+    period: 0.01
+    children:
+    - node: {pkg: demo, exec: show, output: screen, args: late}
+- executable:
+    cmd: $(exec-in-pkg show demo) $(find-pkg-prefix demo) $(param y none)
+    name: show
+    output: screen
+"""
+
+
+@pytest.mark.parametrize("text", [_SCOPE, _SCOPE_YAML], ids=["xml", "yaml"])
+def test_elements_of_scopes_and_substitutions(run: Run, package: Path, text: str) -> None:
     (package / "p.yaml").write_text("/**: {ros__parameters: {from: file}}")
-    ran = run(*_described(_SCOPE).entities)
+    ran = run(*_described(text).entities)
     assert ran.code == 0
     words = sorted(line for line in _lines(ran) if line.startswith("words"))
     file = f"--params-file {package}/p.yaml"
@@ -126,10 +149,45 @@ _CONTAINERS = """
 </launch>"""
 
 
-def test_managed_nodes_and_containers_are_elements(context: LaunchContext) -> None:
-    managed = _described(_MANAGED).entities
+_MANAGED_YAML = """
+launch:
+- lifecycle_node: {pkg: demo, exec: managed, name: m, namespace: s, autostart: true}
+- lifecycle_transition: {names: s/m other, ids: 1 activate}
+"""
+_CONTAINERS_YAML = """
+launch:
+- node_container:
+    pkg: demo
+    exec: show
+    name: box
+    namespace: ''
+    output: screen
+    composable_node:
+    - pkg: demo
+      plugin: demo::One
+      name: one
+      namespace: s
+      unless: $(var off)
+      param: [{name: x, value: 1}]
+      remap: [{from: a, to: b}]
+      extra_arg: [{name: use_intra_process_comms, value: 'true'}]
+- load_composable_node:
+    target: box
+    composable_node: [{pkg: demo, plugin: 'demo::Two', name: two}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("managed_text", "containers_text"),
+    [(_MANAGED, _CONTAINERS), (_MANAGED_YAML, _CONTAINERS_YAML)],
+    ids=["xml", "yaml"],
+)
+def test_managed_nodes_and_containers_are_elements(
+    context: LaunchContext, managed_text: str, containers_text: str
+) -> None:
+    managed = _described(managed_text).entities
     assert [type(one) for one in managed] == [a.LifecycleNode, a.LifecycleTransition]
-    container, load = _described(_CONTAINERS).entities
+    container, load = _described(containers_text).entities
     assert isinstance(container, a.ComposableNodeContainer)
     assert isinstance(load, a.LoadComposableNodes)
     from gazelle.launch.ros2.nodes.actions.composable_nodes import (
