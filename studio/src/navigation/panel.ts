@@ -52,7 +52,8 @@ export class NavigationPanel extends BasePanel {
     this.atEnd(onGoal((goal) => this.takeGoal(goal)));
     this.atEnd(() => this.lifecycle.dispose());
     this.atEnd(() => this.marks.dispose());
-    // Who closes the panel does not stop the robot: RViz's does not either. The goal is cancelled by its button.
+    // No robot drives on without the button that stops it.
+    this.atEnd(() => this.trip?.cancel());
     this.listChanged();
   }
 
