@@ -39,7 +39,7 @@ def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
 
 
 def rviz_value(text: str, name: str) -> dict[str, Any]:
-    """Return fixed frame, displays, view, tools and panels of a ``.rviz`` file of either generation.
+    """Return frame, displays, view, tools and panels of a ``.rviz`` file of either generation.
 
     Raises:
         StudioError: it is no such file; says where.
