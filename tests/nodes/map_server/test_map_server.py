@@ -72,6 +72,29 @@ def test_map_server_without_a_map_ends_with_255(bench: Any, tmp_path: Path, capf
     assert "does not contain the tag 'negate'" in said
 
 
+@pytest.mark.parametrize(
+    ("image", "resolution", "says"),
+    [
+        ("mop.pgm", "0.05", "mop.pgm"),
+        ("map.pgm", "0", "'resolution' is 0 m, it must be above 0"),
+        ("map.pgm", "-0.05", "'resolution' is -0.05 m, it must be above 0"),
+        ("map.pgm", "fine", "'resolution' is"),
+    ],
+)
+def test_a_bad_map_is_told_and_the_good_one_stays(
+    bench: Any, yaml: Path, tmp_path: Path, capfd: Any, image: str, resolution: str, says: str
+) -> None:
+    bench.start("map_server/map_server", str(yaml))
+    bench.eventually(lambda: bench.listen("/map", _MAP))
+    rest = "origin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    bad = tmp_path / "bad.yaml"
+    bad.write_text(f"image: {image}\nresolution: {resolution}\n{rest}")
+    assert bench.call("/change_map", "nav_msgs/srv/LoadMap", map_url=str(bad)).result != 0
+    assert bench.call("/static_map", "nav_msgs/srv/GetMap").map.info.width == 6
+    assert says in "".join(capfd.readouterr())
+    assert bench.stop() == [0]
+
+
 def test_map_saver_writes_what_map_server_publishes(bench: Any, yaml: Path, tmp_path: Path) -> None:
     bench.start("map_server/map_server", str(yaml))
     bench.eventually(lambda: bench.listen("/map", _MAP))
