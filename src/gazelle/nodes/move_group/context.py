@@ -15,9 +15,10 @@ from gazelle.interfaces import message_type
 from gazelle.motion.model import JointKind, RobotModel
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
-from gazelle.nodes.move_group.controllers import controller_specs
+from gazelle.nodes.move_group.controllers import FAKE_TYPES, controller_specs
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 from gazelle.nodes.move_group.execution import TrajectoryExecutor
+from gazelle.nodes.move_group.fake_controllers import FakeControllers, initial_positions
 from gazelle.nodes.move_group.planning import RequestPlanner
 from gazelle.nodes.move_group.planning_scene_messages import apply_scene
 from gazelle.nodes.move_group.problem import ProblemMaker
@@ -127,6 +128,8 @@ def make_context(
     executor = None
     if parameters.get("allow_trajectory_execution", True) is not False:
         executor = _executor(node, config, robot, states)
+        if any(entry.type in FAKE_TYPES for entry in config.controllers):
+            FakeControllers(node, config.controllers, initial_positions(robot, parameters))
     displays = tuple(
         node.create_publisher(name, "moveit_msgs/msg/DisplayTrajectory", latch=True)
         for name in told_topics("display_planned_path", generation)

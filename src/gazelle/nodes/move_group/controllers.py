@@ -16,7 +16,18 @@ from gazelle.description.moveit import ControllerEntry, MoveItConfig
 from gazelle.diagnostics import did_you_mean
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 
-__all__ = ["ControllerKind", "ControllerSpec", "choose_controllers", "controller_specs"]
+__all__ = [
+    "FAKE_TYPES",
+    "ControllerKind",
+    "ControllerSpec",
+    "choose_controllers",
+    "controller_specs",
+    "fake_action",
+]
+
+FAKE_TYPES = ("interpolate", "via points", "last point")
+"""Types of ``moveit_fake_controller_manager``."""
+
 
 _MANAGER = "moveit_simple_controller_manager"
 _DEFAULT_NAMESPACES = {
@@ -75,6 +86,11 @@ def controller_specs(config: MoveItConfig) -> tuple[ControllerSpec, ...]:
         MoveGroupError: one of them has a type that MoveIt does not know.
     """
     return tuple(_spec(entry, _row(config.parameters, entry.name)) for entry in config.controllers)
+
+
+def fake_action(name: str) -> str:
+    """Return the action of a fake controller, below the node."""
+    return f"~{name}/follow_joint_trajectory"
 
 
 def choose_controllers(
@@ -147,6 +163,11 @@ def _row(tree: Mapping[str, Any], name: str) -> Mapping[str, Any]:
 
 
 def _spec(entry: ControllerEntry, row: Mapping[str, Any]) -> ControllerSpec:
+    if entry.type in FAKE_TYPES:
+        follows = ControllerKind.FOLLOW_JOINT_TRAJECTORY
+        return ControllerSpec(
+            entry.name, follows, fake_action(entry.name), entry.joints, is_default=entry.default
+        )
     kind = next((one for one in ControllerKind if one.value == entry.type), None)
     if kind is None:
         hint = did_you_mean(entry.type, [one.value for one in ControllerKind])
