@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = ["SLAM_NAMES"]
 
 SLAM_NAMES = (
+    ("explore_lite", ("explore",), "run_explore", "drives to frontiers until all is known", ""),
     ("gmapping", ("slam_gmapping",), "run_gmapping", "SLAM, gmapping's names", ""),
     ("slam_karto", ("slam_karto",), "run_karto", "SLAM, slam_karto's names", ""),
     ("hector_mapping", ("hector_mapping",), "run_hector", "SLAM, hector_mapping's names", ""),

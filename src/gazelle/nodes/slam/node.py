@@ -17,6 +17,7 @@ from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua import read_lua
 from gazelle.nodes.slam.mapper import Mapper
@@ -25,6 +26,7 @@ from gazelle.nodes.slam.toolbox import ToolboxServices
 
 __all__ = [
     "run_cartographer",
+    "run_explore",
     "run_gmapping",
     "run_hector",
     "run_karto",

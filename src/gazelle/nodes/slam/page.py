@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from gazelle.nodes.navigation.page import section
+from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
 
 __all__ = ["page"]
@@ -19,7 +20,8 @@ _INTRODUCTION = (
 
 def page() -> str:
     """Return the page."""
-    return "\n\n".join([_INTRODUCTION, *(section(one.table) for one in FLAVOURS.values())]) + "\n"
+    tables = [one.table for one in FLAVOURS.values()]
+    return "\n\n".join([_INTRODUCTION, *map(section, [*tables, EXPLORE])]) + "\n"
 
 
 if __name__ == "__main__":
