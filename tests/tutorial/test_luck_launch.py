@@ -78,6 +78,8 @@ def test_arm_comes_up_in_the_order_of_its_timers_and_holds_its_pose(
     types = {row.plugin_name or row.class_type for row in hardware.component}
     assert types == {_HARDWARE[1]}
     arm.wait_for_line(r"\[rviz2-\d+\]: process started", _PATIENCE_S)
+    # The screen is told before the file.
+    arm.eventually(lambda: "[rviz2-" in _log(arm), _PATIENCE_S)
     started = {name: _started(arm, name) for name in _TIMES}
     assert sorted(started, key=started.__getitem__) == list(_TIMES)
     for name, seconds in _TIMES.items():

@@ -64,6 +64,8 @@ class MoveGroupContext:
             MoveGroupError: part of the diff cannot be applied.
         """
         states = self.monitor.states
+        # Who plans right after the start has not heard of any joint yet.
+        states.wait_for_any(_STATE_S)
         states.wait(self._joints(), states.stamp_ns + 1, _STATE_S)
         scene = self.monitor.scene
         if diff is None or not (diff.is_diff or _has_content(diff)):

@@ -69,6 +69,11 @@ class StateMonitor:
                     break
             return self.missing(wanted, since_ns)
 
+    def wait_for_any(self, timeout_s: float) -> bool:
+        """Wait in wall time until any joint is known; tell whether one is."""
+        with self._changed:
+            return self._changed.wait_for(lambda: bool(self._positions), timeout_s)
+
     def wait_for_next(self, timeout_s: float) -> bool:
         """Wait in wall time for any message; tell whether one came."""
         with self._changed:
