@@ -28,6 +28,7 @@ _START_PATIENCE_S = 120.0
 # The controller's rate in move_base_params.yaml, and how late it may be on a busy machine.
 _CONTROLLER_HZ, _LEAST_SHARE = 10.0, 0.8
 _WATCH_S, _SLOWEST, _LONGEST_S = 2.0, 0.3, 600.0
+_LEAST_SLOWING, _QUICKENING = 0.6, 1.4
 _POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 
 
@@ -69,7 +70,7 @@ class Session:
         self.looks = self.commands = 0
         self.estimates: list[Any] = []
         self._odometry: Any = None
-        self._factor = 1.0
+        self._factor = self._wanted_factor = 1.0
         self.scan: Any = None
         self.world = self.launch("turtlebot3_gazebo", "turtlebot3_world.launch")
         self.world.wait_for_line("spawn_urdf.*finished cleanly", _START_PATIENCE_S)
@@ -96,6 +97,10 @@ class Session:
 
     def hurry(self, factor: float) -> None:
         """Let simulated time run so many times faster than real time, where the machine can."""
+        self._wanted_factor = factor
+        self._set_factor(factor)
+
+    def _set_factor(self, factor: float) -> None:
         kind = "gazebo_msgs/{}PhysicsProperties"
         now = self.world.call("/gazebo/get_physics_properties", kind.format("Get"))
         service = service_type(kind.format("Set"))
@@ -171,8 +176,13 @@ class Session:
         commands, began_s = self.commands, self.now_s
         self.world.eventually(lambda: goal.is_done or self.now_s - began_s > _WATCH_S, _PATIENCE_S)
         share = (self.commands - commands) / max(self.now_s - began_s, 0.1) / _CONTROLLER_HZ
-        if not goal.is_done and 0 < share < _LEAST_SHARE and self._factor > _SLOWEST:
-            self.hurry(max(_SLOWEST, self._factor * share))
+        if goal.is_done or not share:
+            return
+        # A controller that fails sends nothing for a while, which a late one does too.
+        change = max(share, _LEAST_SLOWING) if share < _LEAST_SHARE else _QUICKENING
+        factor = min(max(self._factor * change, _SLOWEST), self._wanted_factor)
+        if factor != self._factor:
+            self._set_factor(factor)
 
     def send(self, pose: PlanePose) -> ClientGoal:
         """Send a goal."""
