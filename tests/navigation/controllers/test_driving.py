@@ -184,6 +184,27 @@ def test_a_speed_limit_is_kept(name: str) -> None:
 
 
 @every_controller
+def test_a_path_whose_frame_drifts_is_followed_on(name: str) -> None:
+    path = np.column_stack([np.linspace(1, 4, 60), np.full(60, 2.5), np.zeros(60)])
+    state, grid = RobotState((1.5, 2.5, 0.0), (0.2, 0.0, 0.0)), _window(_world([]), [1.5, 2.5])
+    speeds = []
+    for drift_m in (0.0, 0.001):
+        controller = _DRIVERS[name][0]()
+        controller.set_plan(path)
+        for _ in range(6):
+            controller.compute(state, grid, _BURGER)
+        controller.set_plan(path + np.array([drift_m, 0.0, 0.0]), has_moved=True)
+        command = controller.compute(state, grid, _BURGER)
+        assert not isinstance(command, NoCommand)
+        speeds.append(command.velocity[0])
+        controller.set_plan(path + np.array([0.5, 0.0, 0.0]), has_moved=True)
+        assert controller.goal_reached(RobotState((4.5, 2.5, 0.0)))
+        assert not controller.goal_reached(RobotState((4.0, 2.5, 0.0)))
+    assert speeds[0] > 0.1
+    assert abs(speeds[1] - speeds[0]) < 0.02
+
+
+@every_controller
 def test_commands_keep_acceleration_limits(name: str) -> None:
     make, period_s = _DRIVERS[name]
     controller = make()

@@ -42,8 +42,15 @@ class FollowedPlan:
         begin: index of the point nearest to the robot.
     """
 
-    def __init__(self, plan: NDArray[np.float64], step_m: float = 0.05) -> None:
+    def __init__(
+        self, plan: NDArray[np.float64], step_m: float = 0.05, *, before: FollowedPlan | None = None
+    ) -> None:
         """Take a path.
+
+        Args:
+            plan: (n, 3) poses.
+            step_m: between two of them at most.
+            before: the same path in a frame that has drifted, of which as much is behind.
 
         Raises:
             ValueError: it is empty, or not (n, 3) finite numbers.
@@ -52,7 +59,7 @@ class FollowedPlan:
         if plan.ndim != 2 or plan.shape[1] != 3 or not len(plan) or not np.isfinite(plan).all():
             raise ValueError("a path is (n, 3) finite numbers, at least one row")
         self.poses = densified(plan, step_m)
-        self.begin = 0
+        self.begin: int = 0 if before is None else min(before.begin, len(self.poses) - 1)
         steps = np.hypot(*np.diff(self.poses[:, :2], axis=0).T)
         self._along = np.concatenate([[0.0], np.cumsum(steps)])
 

@@ -41,9 +41,9 @@ class PursuitController:
         self._speed = options.desired_linear_vel
         self._plan: FollowedPlan | None = None
 
-    def set_plan(self, plan: NDArray[np.float64]) -> None:
+    def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
         """Take a path; see `Controller`."""
-        self._plan = FollowedPlan(plan)
+        self._plan = FollowedPlan(plan, before=self._plan if has_moved else None)
 
     def reset(self) -> None:
         """Forget the path."""

@@ -45,13 +45,14 @@ class SamplingController:
         self._latched = False
         self._turning = False
 
-    def set_plan(self, plan: NDArray[np.float64]) -> None:
+    def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
         """Take a path; see `Controller`."""
-        held = FollowedPlan(plan)
-        if self._plan is None or self._plan.goal != held.goal:
+        held = FollowedPlan(plan, before=self._plan if has_moved else None)
+        if self._plan is None or (self._plan.goal != held.goal and not has_moved):
             self._latched = self._turning = False
         self._plan = held
-        self._oscillation.reset()
+        if not has_moved:
+            self._oscillation.reset()
 
     def reset(self) -> None:
         """Forget the path and what was driven."""

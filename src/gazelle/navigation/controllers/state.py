@@ -60,8 +60,14 @@ class NoCommand:
 class Controller(Protocol):
     """Follows a path. One object follows one robot."""
 
-    def set_plan(self, plan: NDArray[np.float64]) -> None:
-        """Take a path, (n, 3) poses in the frame of the local costmap, the last one the goal."""
+    def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
+        """Take a path.
+
+        Args:
+            plan: (n, 3) poses in the frame of the local costmap, the last one the goal.
+            has_moved: it is the path of before in a frame that has drifted, so that what was
+                driven along it still counts.
+        """
 
     def compute(
         self, state: RobotState, grid: CostGrid, footprint: Footprint

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
 __all__ = ["LocalPlanner", "local_planner_tables"]
 
 _DEFAULT = "base_local_planner/TrajectoryPlannerROS"
-_DRIFT_M = 0.01
-_DRIFT_RAD = 0.005
 _OWN_ROWS = (
     Row("odom_topic", "text", "odom", "topic of odometry"),
     Row("controller_frequency", "refused", None, "move_base's own counts"),
@@ -147,9 +144,10 @@ class LocalPlanner:
         if isinstance(found, str):
             return f"the plan's frame {self._plan_frame} is not known in {local}: {found}"
         T_local_plan = plane_of(found)
-        if self._T_local_plan is None or _apart(self._T_local_plan, T_local_plan):
+        if self._T_local_plan != T_local_plan:
+            has_moved = self._T_local_plan is not None
             self._T_local_plan = T_local_plan
-            self._controller.set_plan(compose(T_local_plan, self._plan))
+            self._controller.set_plan(compose(T_local_plan, self._plan), has_moved=has_moved)
         return ""
 
     def _tell(self, command: Command) -> None:
@@ -160,11 +158,6 @@ class LocalPlanner:
         if self._global_out.matched and self._T_local_plan is not None:
             poses = compose(self._T_local_plan, self._plan)
             self._global_out.publish(path_message(poses, frame, now_ns))
-
-
-def _apart(one: PlanePose, other: PlanePose) -> bool:
-    moved = math.hypot(one[0] - other[0], one[1] - other[1])
-    return moved > _DRIFT_M or abs(math.remainder(one[2] - other[2], math.tau)) > _DRIFT_RAD
 
 
 def _is_ros1(name: str) -> bool:

@@ -328,14 +328,12 @@ class _Drive:
 
     def place(self, T_local_path: PlanePose) -> None:
         """Take the path's frame in that of the local costmap."""
-        old = self._placed
-        if old is not None:
-            moved = math.hypot(old[0] - T_local_path[0], old[1] - T_local_path[1])
-            if moved < 0.01 and abs(math.remainder(old[2] - T_local_path[2], math.tau)) < 0.005:
-                return
+        if self._placed == T_local_path:
+            return
+        has_moved = self._placed is not None
         self._placed = T_local_path
         self._local = compose(T_local_path, self._poses)
-        self.controller.set_plan(self._local)
+        self.controller.set_plan(self._local, has_moved=has_moved)
 
     def target(self) -> PlanePose:
         """Return the path's end in the local costmap's frame."""
