@@ -47,9 +47,12 @@ class Repeats:
             known = self._calls.get(key)
             call = self._calls.setdefault(key, _Call()) if known is None else known
         if known is None:
-            call.answer = handle()
-            self._note_end(key, call)
-            call.done.set()
+            try:
+                call.answer = handle()
+            finally:
+                # Whoever repeats it must not wait for ever, even if the handler ended its thread.
+                self._note_end(key, call)
+                call.done.set()
         call.done.wait()
         return call.answer
 
