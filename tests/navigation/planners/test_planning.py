@@ -201,6 +201,15 @@ def test_within_the_tolerance_the_nearest_place_counts(options: PlannerOptions) 
     assert 0.13 < math.hypot(found.poses[-1, 0] - 2.01, found.poses[-1, 1] - 1.0) < 0.35
 
 
+@every_planner
+def test_paths_of_a_step_still_end_in_the_goal(options: PlannerOptions) -> None:
+    """A planner that ends in the robot's own cell lets the robot stop a cell too early."""
+    for dx in (-0.04, 0.02, 0.09):
+        for dy in (-0.04, 0.02, 0.09):
+            goal = (1.0 + dx, 1.0 + dy, 0.5)
+            np.testing.assert_allclose(_plan(_room(), options, goal).poses[-1], goal, atol=1e-9)
+
+
 def test_a_robot_in_an_inflated_cell_still_gets_a_path() -> None:
     grid = _room()
     found = make_plan(grid, (0.12, 2.0, 0.0), (1.0, 1.0, 0.0), Smac2DOptions())

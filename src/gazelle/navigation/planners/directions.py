@@ -27,9 +27,9 @@ def directed(
     start: Pose,
     goal: Pose,
     options: PlannerOptions,
-    resolution_m: float,
+    is_there: bool,
 ) -> NDArray[np.float64]:
-    """Return a path with directions, that ends in the goal's pose where the goal is reached.
+    """Return a path with directions, that ends in the goal's pose where it reaches the goal's cell.
 
     NavfnROS leaves directions at 0; here they point along the path, which its followers do not look
     at and people do. Modes are those of ``OrientationFilter`` of global_planner.
@@ -37,8 +37,7 @@ def directed(
     mode, window = _FORWARD, 1
     if isinstance(options, GlobalPlannerOptions):
         mode, window = options.orientation_mode, options.orientation_window_size
-    near = math.hypot(poses[-1, 0] - goal[0], poses[-1, 1] - goal[1]) <= resolution_m
-    end = np.array(goal if near else (poses[-1, 0], poses[-1, 1], goal[2]))
+    end = np.array(goal if is_there else (poses[-1, 0], poses[-1, 1], goal[2]))
     poses = np.vstack([poses[:-1], end]) if len(poses) > 1 else np.array([start, end])
     if mode in _TURNS:
         poses[:-1, 2] = _along(poses, window) + _TURNS[mode]

@@ -192,9 +192,11 @@ def descend_gradient(potential, width, start, goal, step):
         points[k, 0] = x
         points[k, 1] = y
         if abs(x - gx) <= 1.0 and abs(y - gy) <= 1.0:
-            points[k, 0] = gx
-            points[k, 1] = gy
-            return points[: k + 1].copy()
+            # The first point stays, so that the way still ends where it is to end.
+            last_k = max(k, 1) if start != goal else k
+            points[last_k, 0] = gx
+            points[last_k, 1] = gy
+            return points[: last_k + 1].copy()
         cx = math.floor(x)
         cy = math.floor(y)
         here = round(y) * width + round(x)

@@ -57,11 +57,12 @@ def make_plan(
     if found is None:
         return why_no_path(grid, start, goal, tolerance, options.allow_unknown)
     points, cost = found
+    is_there = bool((np.round(points[-1]) == grid.world_to_cell(goal[0], goal[1])).all())
     if isinstance(options, GlobalPlannerOptions) and options.old_navfn_behavior:
         points = points - 0.5
     x, y = grid.cell_to_world(points[:, 0], points[:, 1])
     poses = np.column_stack([x, y, np.zeros(len(x))])
-    return Plan(directed(poses, start, goal, options, grid.resolution_m), cost)
+    return Plan(directed(poses, start, goal, options, is_there), cost)
 
 
 def _prepared(grid: CostGrid, start: Pose, options: PlannerOptions) -> NDArray[np.uint8]:
