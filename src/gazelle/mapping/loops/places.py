@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
 
+from gazelle.mapping.loops.way_kernels import shortest_ways
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import DOUBTFUL_M, DOUBTFUL_RAD, doubtful
 from gazelle.mapping.poses import Poses
@@ -83,5 +82,5 @@ def _doubts(edges: Edges, count: int) -> NDArray[np.float64]:
 
 
 def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    graph = csr_matrix((lengths, (edges.tail, edges.head)), shape=(count, count))
-    return np.asarray(dijkstra(graph, directed=False, indices=count - 1))
+    ways: NDArray[np.float64] = shortest_ways(edges.tail, edges.head, lengths, count, count - 1)
+    return ways

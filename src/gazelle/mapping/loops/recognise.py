@@ -11,7 +11,7 @@ from gazelle.mapping.loops.places import Place
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Prior, refined
 from gazelle.mapping.matching.surfaces import even_points
-from gazelle.mapping.matching.wide import wide_search
+from gazelle.mapping.matching.wide import WideSearch
 from gazelle.mapping.pose_graph.information import seen_from
 from gazelle.mapping.poses import Poses, between, transform_points
 from gazelle.mapping.slam.keyframes import Keyframes
@@ -70,17 +70,16 @@ def _nearest_match(
     Corridors look alike wherever one stands in them; then the robot is where it thinks it is.
     """
     best: Poses | None = None
-    reach = _FIRST_REACH_M
+    reach, done = _FIRST_REACH_M, None
+    search = WideSearch.around(field, points, pose, place.reach_rad)
     while True:
         reach = min(reach, place.reach_m)
-        found = wide_search(
-            field, points, pose, reach_m=reach, reach_rad=place.reach_rad, least=least
-        )
+        found = search.best(reach, least=least, done_m=done)
         if found is not None:
             best, least = found.pose, found.value + _MUCH_BETTER
         if reach >= place.reach_m or least >= 1.0:
             return best
-        reach *= 2.0
+        reach, done = 2.0 * reach, reach
 
 
 def _patch(keyframes: Keyframes, head: int) -> NDArray[np.float64]:

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, PLR0915, PLR0917
 """The compiled inner loops of scan matching.
 
 A field is a float32 array (height, width) of values within [0, 1], row 0 lowest y, its cell
@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import njit
 
-__all__ = ["best_in_window", "bound_search", "mean_value", "pooled", "refine", "sliding", "stamp"]
+__all__ = ["best_in_window", "mean_value", "pooled", "refine", "stamp"]
 
 
 @njit(cache=True, nogil=True)
@@ -24,7 +24,8 @@ def stamp(field, x0, y0, cell, points, kernels):
     in, by row and column: whole cells would shift walls by up to half a cell.
     """
     height, width = field.shape
-    parts, reach = kernels.shape[0], kernels.shape[2] // 2
+    parts, side = kernels.shape[0], kernels.shape[2]
+    reach = side // 2
     for i in range(points.shape[0]):
         gx, gy = (points[i, 0] - x0) / cell, (points[i, 1] - y0) / cell
         cx, cy = math.floor(gx), math.floor(gy)
@@ -34,10 +35,11 @@ def stamp(field, x0, y0, cell, points, kernels):
         # What raises the middle by nothing raises little around it.
         if field[cy, cx] >= kernel[reach, reach]:
             continue
-        for a in range(-reach, reach + 1):
-            for b in range(-reach, reach + 1):
-                value = kernel[a + reach, b + reach]
-                field[cy + a, cx + b] = max(field[cy + a, cx + b], value)
+        left = cx - reach
+        for a in range(side):
+            row, raised = field[cy - reach + a, left : left + side], kernel[a]
+            for b in range(side):
+                row[b] = raised[b] if raised[b] > row[b] else row[b]
 
 
 @njit(cache=True, nogil=True)
@@ -53,19 +55,6 @@ def pooled(field):
             left = a if a > c else c
             right = b if b > d else d
             out[y, x] = left if left > right else right
-    return out
-
-
-@njit(cache=True, nogil=True)
-def sliding(field, step):
-    """Return the greatest of each cell and those `step` to its right, above and diagonal."""
-    height, width = field.shape
-    out = np.empty_like(field)
-    for y in range(height):
-        up = min(y + step, height - 1)
-        for x in range(width):
-            right = min(x + step, width - 1)
-            out[y, x] = max(field[y, x], field[y, right], field[up, x], field[up, right])
     return out
 
 
@@ -178,83 +167,3 @@ def refine(field, x0, y0, cell, points, guess, prior, information, weight, itera
         if length < 1e-4 and abs(step[2]) < 1e-4:
             break
     return pose, data
-
-
-@njit(cache=True, nogil=True, fastmath=True)
-def _bound(level, ix, iy, columns, rows):
-    height, width = level.shape
-    total = 0.0
-    for i in range(columns.shape[0]):
-        gx, gy = columns[i] + ix, rows[i] + iy
-        if 0 <= gx < width and 0 <= gy < height:
-            total += level[gy, gx]
-    return total
-
-
-@njit(cache=True, nogil=True)
-def bound_search(levels, cells, offsets, start, least):
-    """Branch and bound over turns and whole-cell shifts (Hess et al. 2016).
-
-    Args:
-        levels: (depth, height, width); level h holds the greatest value of the 2^h × 2^h cells
-            that begin at each cell.
-        cells: int64 (turns, n, 2), column and row of every point for every turn, unshifted.
-        offsets: int64 (m, 2), shifts in cells that the coarsest blocks begin at.
-        start: side of the window from which blocks reach out, in cells: blocks beyond are cut.
-        least: mean value that must be exceeded.
-
-    Returns:
-        (turn, shift in columns, shift in rows, mean value); turn −1 when nothing exceeds it.
-    """
-    depth = levels.shape[0]
-    turns, n = cells.shape[0], cells.shape[1]
-    count = turns * offsets.shape[0]
-    bounds = np.empty(count)
-    for t in range(turns):
-        for k in range(offsets.shape[0]):
-            bounds[t * offsets.shape[0] + k] = _bound(
-                levels[depth - 1], offsets[k, 0], offsets[k, 1], cells[t, :, 0], cells[t, :, 1]
-            )
-    order = np.argsort(-bounds)
-    best, best_turn, best_x, best_y = least * n, -1, 0, 0
-    stack = np.empty((4 * depth + 4, 4), np.int64)
-    worths = np.empty(4 * depth + 4)
-    for place in range(count):
-        index = order[place]
-        if bounds[index] <= best:
-            break
-        turn = index // offsets.shape[0]
-        columns, rows = cells[turn, :, 0], cells[turn, :, 1]
-        stack[0, 0] = depth - 1
-        stack[0, 1] = offsets[index % offsets.shape[0], 0]
-        stack[0, 2] = offsets[index % offsets.shape[0], 1]
-        worths[0] = bounds[index]
-        top = 1
-        while top > 0:
-            top -= 1
-            if worths[top] <= best:
-                continue
-            h, ox, oy = stack[top, 0], stack[top, 1], stack[top, 2]
-            if h == 0:
-                best, best_turn, best_x, best_y = worths[top], turn, ox, oy
-                continue
-            half = 1 << (h - 1)
-            first = top
-            for a in range(2):
-                for b in range(2):
-                    x, y = ox + a * half, oy + b * half
-                    if x > start or y > start:
-                        continue
-                    worth = _bound(levels[h - 1], x, y, columns, rows)
-                    if worth <= best:
-                        continue
-                    # The best child is searched first: children stay sorted on the stack.
-                    at = top
-                    while at > first and worths[at - 1] > worth:
-                        worths[at] = worths[at - 1]
-                        stack[at] = stack[at - 1]
-                        at -= 1
-                    worths[at] = worth
-                    stack[at, 0], stack[at, 1], stack[at, 2] = h - 1, x, y
-                    top += 1
-    return best_turn, best_x, best_y, best / n

@@ -34,7 +34,14 @@ def doubtful(information: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def seen_from(pose: Poses, information: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return information about x, y, yaw of the map as information in the frame of a pose."""
-    cos, sin = np.cos(pose[2]), np.sin(pose[2])
-    turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    return np.asarray(turn.T @ information @ turn)
+    """Return information about x, y, yaw of the map as information in the frame of a pose.
+
+    Args:
+        pose: (3,), or many, (…, 3).
+        information: (3, 3), or as many, (…, 3, 3).
+    """
+    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    turn = np.zeros((*pose.shape, 3))
+    turn[..., 0, 0], turn[..., 0, 1], turn[..., 1, 0], turn[..., 1, 1] = cos, -sin, sin, cos
+    turn[..., 2, 2] = 1.0
+    return np.asarray(np.swapaxes(turn, -1, -2) @ information @ turn)

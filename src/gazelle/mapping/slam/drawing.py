@@ -105,11 +105,10 @@ class MapDrawer:
     def _count(self, frame: Keyframe, pose: Poses) -> None:
         scan, corner = frame.scan, (*self._corner, self._resolution_m)
         lidar = compose(pose, np.array(scan.T_base_laser))
-        ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
         directions = pose[2] + scan.bearings_rad
         # The same limit as of matching: what is farther errs too much by the lidar's angle.
         limit = frame.max_range_m
-        count_beams(self._hits, self._passes, *corner, lidar, directions, ranges, limit)
+        count_beams(self._hits, self._passes, *corner, lidar, directions, frame.ranges_m, limit)
 
     def _grid(self) -> OccupancyGrid:
         reached = np.maximum(self._passes, 1)

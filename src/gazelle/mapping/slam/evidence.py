@@ -7,7 +7,7 @@ were seen to be empty, and looks through walls. What lies in the unknown says no
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from gazelle.mapping.poses import Poses, compose, transform_points
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.evidence_kernels import contradictions
+from gazelle.mapping.slam.keyframes import Keyframe
 from gazelle.mapping.slam.ray_kernels import count_beams
 
 __all__ = ["SeenSpace", "seen_space"]
@@ -54,24 +55,23 @@ class SeenSpace:
 
 
 def seen_space(
-    scans: Iterable[tuple[Scan, Poses]], center_m: tuple[float, float], half_side_m: float,
-    max_range_m: float,
-) -> SeenSpace:  # fmt: skip
-    """Return what scans at poses say of a square.
+    frames: Sequence[Keyframe], poses: Poses, center_m: tuple[float, float], half_side_m: float
+) -> SeenSpace:
+    """Return what scans say of a square.
 
     Args:
-        scans: with the robot's poses.
+        frames: one at least; beams longer than the first one's limit end nowhere.
+        poses: of the robot, (n, 3).
         center_m: middle of the square.
         half_side_m: of it.
-        max_range_m: beams that are longer end nowhere.
     """
     side = max(3, int(2 * half_side_m / _CELL_M))
     hits = np.zeros((side, side), np.int32)
     passes = np.zeros((side, side), np.int32)
     corner = center_m[0] - half_side_m, center_m[1] - half_side_m
-    for scan, pose in scans:
-        lidar = compose(pose, np.array(scan.T_base_laser))
-        ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
-        directions = pose[2] + scan.bearings_rad
-        count_beams(hits, passes, *corner, _CELL_M, lidar, directions, ranges, max_range_m)
+    lidars = compose(poses, np.array([frame.scan.T_base_laser for frame in frames]))
+    limit = frames[0].max_range_m
+    for frame, lidar, yaw in zip(frames, lidars, poses[:, 2], strict=True):
+        directions = yaw + frame.scan.bearings_rad
+        count_beams(hits, passes, *corner, _CELL_M, lidar, directions, frame.ranges_m, limit)
     return SeenSpace(hits, passes, corner)

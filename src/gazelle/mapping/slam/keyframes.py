@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.mapping.matching.field import Field, field_of
+from gazelle.mapping.matching.point_kernels import placed
 from gazelle.mapping.matching.surfaces import dense_surface, even_points
-from gazelle.mapping.poses import Poses, transform_points
+from gazelle.mapping.poses import Poses
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.parameters import SlamParameters
 
@@ -21,6 +23,8 @@ _MARGIN_M = 2.0
 _UNSEEN_M = 0.7
 _UNSEEN_SHARE = 0.2
 
+_Number = TypeVar("_Number", bound=np.generic)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Keyframe:
@@ -30,6 +34,7 @@ class Keyframe:
         scan: as it came.
         points_m: what is matched, in the robot's frame, (n, 2).
         surface_m: what is matched with, in the robot's frame, (m, 2).
+        ranges_m: float32, of all beams, NaN for those that met nothing.
         way_m: how far the robot had driven.
         max_range_m: beams that are longer are not used.
     """
@@ -37,6 +42,7 @@ class Keyframe:
     scan: Scan
     points_m: NDArray[np.float64]
     surface_m: NDArray[np.float64]
+    ranges_m: NDArray[np.float32]
     way_m: float
     max_range_m: float
 
@@ -54,7 +60,8 @@ def keyframe_of(scan: Scan, parameters: SlamParameters, way_m: float) -> Keyfram
     sure_m = limit_m - min(_UNSEEN_M, _UNSEEN_SHARE * limit_m)
     points = even_points(scan.points(sure_m), parameters.cell_m, _MOST_POINTS)
     surface = dense_surface(scan, parameters.max_range_m, parameters.cell_m)
-    return Keyframe(scan, points, surface, way_m, parameters.max_range_m)
+    ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
+    return Keyframe(scan, points, surface, ranges, way_m, parameters.max_range_m)
 
 
 class Keyframes:
@@ -70,6 +77,9 @@ class Keyframes:
         self.tears: set[int] = set()
         self._frames: list[Keyframe] = []
         self._poses = np.zeros((256, 3))
+        self._ways_m = np.zeros(256)
+        self._surfaces_m = np.zeros((1 << 16, 2))
+        self._starts = np.zeros(257, np.int64)
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -89,20 +99,27 @@ class Keyframes:
     @property
     def ways_m(self) -> NDArray[np.float64]:
         """How far the robot had driven at each, (n,)."""
-        return np.array([frame.way_m for frame in self._frames])
+        return self._ways_m[: len(self._frames)]
 
     def append(self, frame: Keyframe, pose: ArrayLike) -> int:
         """Keep one more; return its index."""
-        if len(self._frames) == len(self._poses):
-            self._poses = np.concatenate([self._poses, np.zeros_like(self._poses)])
+        index = len(self._frames)
+        begin = self._starts[index]
+        end = begin + len(frame.surface_m)
+        self._poses = _with_room(self._poses, index + 1)
+        self._ways_m = _with_room(self._ways_m, index + 1)
+        self._starts = _with_room(self._starts, index + 2)
+        self._surfaces_m = _with_room(self._surfaces_m, end)
+        self._poses[index], self._ways_m[index] = pose, frame.way_m
+        self._surfaces_m[begin:end], self._starts[index + 1] = frame.surface_m, end
         self._frames.append(frame)
-        self._poses[len(self._frames) - 1] = pose
-        return len(self._frames) - 1
+        return index
 
     def surface(self, indices: Iterable[int]) -> NDArray[np.float64]:
         """Return the surfaces of some in the map's frame, (m, 2)."""
-        parts = [transform_points(self._poses[i], self._frames[i].surface_m) for i in indices]
-        return np.concatenate(parts) if parts else np.empty((0, 2))
+        chosen = np.array(list(indices), dtype=np.int64)
+        points: NDArray[np.float64] = placed(self._surfaces_m, self._starts, self._poses, chosen)
+        return points
 
     def field(self, indices: Iterable[int], center: ArrayLike, reach_m: float) -> Field:
         """Return the field of some around a pose, so far that what is `reach_m` away is in it."""
@@ -115,3 +132,10 @@ class Keyframes:
             cell_m=self._parameters.cell_m,
             sigma_m=self._parameters.sigma_m,
         )
+
+
+def _with_room(array: NDArray[_Number], wanted: int) -> NDArray[_Number]:
+    """Return an array, twice as long if it is too short."""
+    while len(array) < wanted:
+        array = np.concatenate([array, np.zeros_like(array)])
+    return array

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.mapping.matching.match import Match, Prior, match
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import bounded, seen_from
 from gazelle.mapping.pose_graph.optimise import optimise
-from gazelle.mapping.poses import Poses, between
+from gazelle.mapping.poses import Poses, between, wrap_angle
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.tracking import FEWEST_POINTS
@@ -45,20 +46,26 @@ def polished(keyframes: Keyframes, edges: Edges, parameters: SlamParameters) -> 
     least = max(_LEAST, parameters.least_match)
     matched = {i: one for i, one in enumerate(found) if one and one.score > least}
     stray = {i for i, one in matched.items() if _is_far(between(poses[i], one.pose))}
-    ties = [
-        (k, i, between(poses[k], one.pose), seen_from(poses[k], bounded(one.information)))
-        for i, one in matched.items()
-        for k in _spread(near[i], stray)
-    ]
-    if not ties:
+    pairs = [(k, i) for i in matched for k in _spread(near[i], stray)]
+    if not pairs:
         return poses
+    ties = _ties(poses, matched, np.array(pairs, dtype=np.int64))
     edges = _weakened(edges, stray)
-    tails, heads, relative, information = (np.array(column) for column in zip(*ties, strict=True))
-    everything = edges.joined(Edges(tails, heads, relative, information, tails >= 0))
+    everything = edges.joined(ties)
     robust = everything._replace(is_loop=np.ones(len(everything.tail), dtype=bool))
     for i in stray:
         poses[i] = matched[i].pose
     return optimise(poses, robust, iterations=20, huber=1.0)
+
+
+def _ties(poses: Poses, matched: dict[int, Match], pairs: NDArray[np.int64]) -> Edges:
+    """Return relations between neighbours and matched scans, (neighbour, scan) each."""
+    tails, heads = pairs.T
+    found = np.array([matched[i].pose for i in heads.tolist()])
+    told = {i: bounded(one.information) for i, one in matched.items()}
+    information = np.array([told[i] for i in heads.tolist()])
+    relative = between(poses[tails], found)
+    return Edges(tails, heads, relative, seen_from(poses[tails], information), tails >= 0)
 
 
 def _rematched(keyframes: Keyframes, poses: Poses, index: int, near: list[int]) -> Match | None:
@@ -96,7 +103,7 @@ def _weakened(edges: Edges, stray: set[int]) -> Edges:
 def _neighbours(poses: Poses, index: int) -> list[int]:
     """Return the nearest keyframes, the nearest first."""
     far = np.hypot(*(poses[:, :2] - poses[index, :2]).T)
-    turn = np.abs(np.angle(np.exp(1j * (poses[:, 2] - poses[index, 2]))))
+    turn = np.abs(wrap_angle(poses[:, 2] - poses[index, 2]))
     cost = far + 0.5 * turn
     cost[index] = np.inf
     order = np.argsort(cost)[:_NEAR_SCANS]

@@ -54,9 +54,8 @@ def surroundings(
     far = np.hypot(*(keyframes.poses[first:, :2] - center[:2]).T)
     near = (first + np.argsort(far)[:_NEAREST]).tolist()
     field = keyframes.field(near, center, reach_m)
-    scans = [(keyframes[i].scan, keyframes.poses[i]) for i in near]
     middle = float(center[0]), float(center[1])
-    space = seen_space(scans, middle, reach_m, keyframes[near[0]].max_range_m)
+    space = seen_space([keyframes[i] for i in near], keyframes.poses[near], middle, reach_m)
     return Surroundings(field, field.pooled(), space)
 
 
