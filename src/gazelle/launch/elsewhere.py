@@ -17,12 +17,7 @@ _FIRMWARE = "the firmware's link of a real robot; a simulated one publishes thes
 _CONTROL = "compiled code of ros2_control; `controller_manager` and its spawner are here"
 _MOVEIT = "compiled code of MoveIt; `moveit_ros_move_group` and MotionPlanning in Studio are here"
 _NAV2 = "compiled code of Nav2; its planner, controller, amcl and map_server are here"
-_BRINGUP = "launch files of Nav2: put navigation2's folder into src; its nodes are here"
 _MODELS = "a robot and worlds for examples of Nav2: put its folder into the workspace's src"
-_COLLISION = (
-    "the last stop of cmd_vel in Nav2 before the robot, which is not here: let velocity_smoother "
-    "send to cmd_vel by remapping its cmd_vel_smoothed"
-)
 
 _KNOWN = {
     **dict.fromkeys(("usb_cam", "v4l2_camera", "uvc_camera", "cv_camera", "camera_ros"), _CAMERA),
@@ -50,8 +45,6 @@ _KNOWN = {
     **dict.fromkeys(("nav2_route", "opennav_docking"), _NAV2),
     **dict.fromkeys(("nav2_loopback_sim", "nav2_smac_planner"), _NAV2),
     **dict.fromkeys(("nav2_minimal_tb3_sim", "nav2_minimal_tb4_sim"), _MODELS),
-    "nav2_collision_monitor": _COLLISION,
-    "nav2_bringup": _BRINGUP,
     "twist_mux": "chooses one of several cmd_vel topics; remap one of them to the robot's",
 }
 _FAMILIES = {"rqt_": _PANEL}

@@ -9,17 +9,20 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import re
 import threading
 import traceback
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.parameter_values import value_from_message
 from gazelle.interfaces import service_type
-from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.parameters import start_node
 from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 
@@ -49,7 +52,7 @@ def builtin_of_component(package: str, plugin: str) -> BuiltinNode | None:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Offer the services of a container until told to stop."""
     node = start_node(arguments, graph)
-    container = _Container(node, graph)
+    container = _Container(node, graph, arguments.parameter_files)
     for name in ("load_node", "unload_node", "list_nodes"):
         words = "".join(word.capitalize() for word in name.split("_"))
         kind: Any = service_type(f"composition_interfaces/srv/{words}")
@@ -81,9 +84,10 @@ class _Component:
 
 
 class _Container:
-    def __init__(self, node: Node, graph: Graph) -> None:
+    def __init__(self, node: Node, graph: Graph, parameter_files: Sequence[Path]) -> None:
         self._node = node
         self._graph = graph
+        self._files = parameter_files
         self._numbers = itertools.count(1)
         self._loaded: dict[int, _Component] = {}
 
@@ -95,13 +99,14 @@ class _Container:
             response.success = False
             response.error_message = _refusal(package, plugin)
             self._node.log("error", response.error_message)
+            _be_missed(request)
             return
         space = request.node_namespace or "/"
         name = request.node_name or builtin.name or builtin.type.partition(".")[0]
         stop = threading.Event()
         target = {
             "node": f"{builtin.package}/{builtin.type}",
-            "argv": _words(request, name),
+            "argv": [*self._file_words(), *_words(request, name)],
             "namespace": space,
         }
         thread = threading.Thread(target=self._run, args=(target, stop), name=name, daemon=True)
@@ -135,6 +140,11 @@ class _Container:
         for one in self._loaded.values():
             one.thread.join(_END_S)
 
+    def _file_words(self) -> list[str]:
+        """Return the container's own files: nodes that components make read them too."""
+        words = [word for file in self._files for word in ("--params-file", str(file))]
+        return ["--ros-args", *words, "--"] if words else []
+
     def _run(self, target: dict[str, Any], stop: threading.Event) -> None:
         from gazelle.nodes.host import run_node
 
@@ -144,6 +154,14 @@ class _Container:
             self._node.log("error", f"[{target['node']}] {error}")
         except Exception:  # noqa: BLE001 - one node's bug must not take the others along
             self._node.log("error", traceback.format_exc())
+
+
+def _be_missed(request: Any) -> None:
+    """Let lifecycle managers of this process not wait for a node that did not come."""
+    own = request.node_name
+    if own:
+        full = f"{(request.node_namespace or '/').rstrip('/')}/{own}"
+        os.environ[ABSENT_NODES] = f"{os.environ.get(ABSENT_NODES, '')} {full}".strip()
 
 
 def _words(request: Any, name: str) -> list[str]:

@@ -270,6 +270,13 @@ _NODES = (
                 (),
             ),
             (
+                "nav2_collision_monitor",
+                "collision_monitor",
+                "collision_monitor",
+                "slows or stops commands by what sensors see (Nav2)",
+                (),
+            ),
+            (
                 "nav2_lifecycle_manager",
                 "lifecycle_manager",
                 "lifecycle_manager",

@@ -14,6 +14,8 @@ __all__ = ["FollowedPlan", "angle_between", "densified"]
 
 Pose = tuple[float, float, float]
 
+_AS_NEAR_M = 0.1
+
 
 def angle_between(a_rad: float, b_rad: float) -> float:
     """Return the turn from one direction to another, in [−π, π]."""
@@ -72,12 +74,17 @@ class FollowedPlan:
     def advance(self, pose: Pose, search_m: float) -> int:
         """Find the nearest point within a length ahead, and remember it.
 
-        What was passed is not gone back to, so that a path that crosses itself is followed in
-        order.
+        What was passed is not gone back to, and where a path comes by again it is the first time
+        that counts, so that paths that cross themselves or lead back are followed in order.
         """
         last = int(np.searchsorted(self._along, self._along[self.begin] + search_m, "right"))
         part = self.poses[self.begin : max(last, self.begin + 1), :2]
-        self.begin += int(((part - pose[:2]) ** 2).sum(axis=1).argmin())
+        away = np.hypot(*(part - pose[:2]).T)
+        is_near = away <= away.min() + _AS_NEAR_M
+        first = int(is_near.argmax())
+        beyond = np.nonzero(~is_near[first:])[0]
+        end = first + int(beyond[0]) if len(beyond) else len(away)
+        self.begin += first + int(away[first:end].argmin())
         return self.begin
 
     def remaining_m(self) -> float:

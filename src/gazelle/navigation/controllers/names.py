@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from gazelle.navigation.controllers.mppi import MppiController
@@ -71,7 +71,13 @@ def _trajectory(options: TrajectoryPlannerOptions, setting: ControllerSetting) -
 
 
 def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
-    return SamplingController(dwb_profile(options, setting.critics), setting.period_s)
+    # RotateToGoal reads these of the controller, not of the critic.
+    own = {"xy_goal_tolerance": options.xy_goal_tolerance,
+           "trans_stopped_velocity": options.trans_stopped_velocity}  # fmt: skip
+    rotate = {**own, **setting.critics.get("RotateToGoal", {})}
+    critics = {**setting.critics, "RotateToGoal": rotate}
+    options = replace(options, vy_samples=max(options.vy_samples, 1))
+    return SamplingController(dwb_profile(options, critics), setting.period_s)
 
 
 def _mppi(options: MppiOptions, setting: ControllerSetting) -> Controller:

@@ -152,7 +152,7 @@ class DwbOptions:
     decel_lim_y: float = number(0.0, "deceleration along y, negative", "m/s²", None, 0)
     decel_lim_theta: float = number(0.0, "angular deceleration, negative", "rad/s²", None, 0)
     vx_samples: int = integer(20, "velocities along x", 1)
-    vy_samples: int = integer(5, "velocities along y", 1)
+    vy_samples: int = integer(5, "velocities along y", 0)
     vtheta_samples: int = integer(20, "turning velocities", 1)
     sim_time: float = number(1.7, _TRAJECTORY, "s", 0.01)
     discretize_by_time: bool = flag(False, "points of a trajectory are time_granularity apart")
@@ -162,6 +162,8 @@ class DwbOptions:
     prune_plan: bool = flag(True, "what was passed is forgotten")
     prune_distance: float = number(2.0, "how far behind that begins", "m", 0)
     forward_prune_distance: float = number(2.0, "how far ahead the path is looked at", "m", 0)
+    xy_goal_tolerance: float = number(0.25, "how near the goal RotateToGoal turns", "m", 0)
+    trans_stopped_velocity: float = number(0.25, "below it RotateToGoal turns", "m/s", 0)
     critics: tuple[str, ...] = texts(_DWB_CRITICS, "what trajectories are scored by")
 
     CRITICS: ClassVar[Mapping[str, Mapping[str, Any]]] = {
@@ -196,6 +198,7 @@ class DwbOptions:
         "GoalAlign.stop_on_failure": "the nose may hang over what the robot cannot stand on",
     }
     IDLE: ClassVar[Mapping[str, str]] = {
+        "stateful": "the goal checker's stateful counts",
         "debug_trajectory_details": "what was refused is told when nothing is left",
         "trajectory_generator_name": "velocities are those that are reached within one period "
         "(LimitedAccelGenerator), trajectories hold them",

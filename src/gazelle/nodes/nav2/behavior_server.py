@@ -16,6 +16,7 @@ from gazelle.interfaces import action_type
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.commands import VelocityOutput
+from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.frames import Frames, PlanePose
@@ -259,17 +260,10 @@ class _BehaviorServer:
         self._grid = CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
 
     def _on_outline(self, message: Any) -> None:
-        """Take the outline back into the robot's own frame."""
-        text = self._settings.text
-        found = self._frames.robot(
-            str(message.header.frame_id).removeprefix("/"), text("robot_base_frame"), 0.0
-        )
-        if isinstance(found, str) or len(message.polygon.points) < 3:
-            return
-        x, y, yaw = found.pose
-        c, s = math.cos(yaw), math.sin(yaw)
-        corners = [(p.x - x, p.y - y) for p in message.polygon.points]
-        self._footprint = Footprint(tuple((c * u + s * v, c * v - s * u) for u, v in corners))
+        base = self._settings.text("robot_base_frame")
+        found = outline_in_base(self._frames, message, base)
+        if found is not None:
+            self._footprint = Footprint(tuple((float(x), float(y)) for x, y in found))
 
 
 def _duration_ns(duration: Any) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -18,20 +17,24 @@ from gazelle.nodes.nav2.graph_world import GraphWorld
 from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BT_NAVIGATOR
 from gazelle.nodes.nav2.trees.blackboard import Blackboard
-from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, parse_trees, read_trees
+from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, read_trees
 from gazelle.nodes.nav2.trees.messages import path_length_m, plane_pose
 from gazelle.nodes.nav2.trees.node import Status, TreeNode
 from gazelle.nodes.navigation.frames import Frames, fill_pose, set_stamp
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["run"]
 
 _WAIT_S = 0.2
 _NANO = 1_000_000_000
-_OWN = {"NavigateToPose": "navigate_to_pose.xml",
-        "NavigateThroughPoses": "navigate_through_poses.xml"}  # fmt: skip
+_TREES = BUILTIN / "packages" / "nav2_bt_navigator" / "behavior_trees"
+_OWN = {
+    "NavigateToPose": "navigate_to_pose_w_replanning_and_recovery.xml",
+    "NavigateThroughPoses": "navigate_through_poses_w_replanning_and_recovery.xml",
+}
 _PARAMETERS = {
     "NavigateToPose": ("default_nav_to_pose_bt_xml", "default_bt_xml_filename"),
     "NavigateThroughPoses": ("default_nav_through_poses_bt_xml",),
@@ -107,17 +110,25 @@ class _Navigator:
 
     def _file(self, kind: str, path: str, diagnostics: Diagnostics) -> TreeFile | None:
         """Return the trees of a file; without one, or for Nav2's own, those that Gazelle has."""
-        if path and Path(path).is_file():
-            return read_trees(Path(path), diagnostics)
-        if path and not Path(path).name.startswith("navigate_"):
-            text = f"{self._node.name}: the behaviour tree '{path}' does not exist"
-            diagnostics.report("navigation.tree-structure", text, fix="give the path of an XML")
-            return None
-        if path:
-            text = f"{Path(path).name} is Nav2's own file; Gazelle's tree of the same nodes runs"
+        own = _TREES / _OWN[kind]
+        file = Path(path) if path else own
+        if not file.is_file():
+            named = _TREES / file.name
+            if not named.is_file() and not file.name.startswith("navigate_"):
+                known = ", ".join(sorted(one.name for one in _TREES.iterdir()))
+                text = f"{self._node.name}: the behaviour tree '{path}' does not exist"
+                fix = f"give the path of an XML file; Gazelle has {known}"
+                diagnostics.report("navigation.tree-structure", text, fix=fix)
+                return None
+            file = named if named.is_file() else own
+            text = f"{Path(path).name} is Nav2's own file; Gazelle's {file.name} runs"
             self._node.log("info", text)
-        own = files("gazelle.nodes.nav2.trees") / "default" / _OWN[kind]
-        return parse_trees(own.read_text(encoding="utf-8"), _OWN[kind], diagnostics)
+        found = read_trees(file, diagnostics)
+        if kind == "NavigateThroughPoses" and found is not None and not _goes_through(file):
+            text = f"{file.name} reads no {{goals}}, so that Nav2 would go nowhere"
+            self._node.log("warn", f"{kind}: {text}; {own.name} runs in its place")
+            return read_trees(own, diagnostics)
+        return found
 
     def _work(self, action: SingleGoal, kind: str) -> None:
         while not self._ending.is_set() and not self._node.closed:
@@ -308,6 +319,12 @@ class _Trip:
             )
             change.timestamp.sec, change.timestamp.nanosec = divmod(self._world.now_ns(), _NANO)
             self._changes.append(change)
+
+
+def _goes_through(file: Path) -> bool:
+    """Tell whether a tree, or one that it includes, may look at the poses to go through."""
+    text = file.read_text(encoding="utf-8")
+    return "{goals}" in text or "<include" in text
 
 
 def _poses(request: Any) -> Any:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
+from gazelle.graph.names import join
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
@@ -30,7 +32,9 @@ class Nav2Costmap:
     ) -> None:
         """Make node and costmap; it is updated from `LiveCostmap.start` on."""
         space = f"{arguments.namespace.rstrip('/')}/{name}"
-        self.node: Node = graph.create_node(name, namespace=space, remappings=arguments.remappings)
+        self.node: Node = graph.create_node(
+            name, namespace=space, remappings=_rules(arguments.remappings, arguments.namespace)
+        )
         tree = tree_of_node(arguments, self.node.name)
         if name == "local_costmap":
             tree.setdefault("global_frame", "odom")
@@ -78,3 +82,14 @@ class Nav2Costmap:
         response = service_type("nav2_msgs/srv/GetCostmap").Response()
         response.map = self.live.raw_message()
         return response
+
+
+def _rules(remappings: Mapping[str, str], namespace: str) -> dict[str, str]:
+    """Return the rules of the server for its costmap, which is one namespace further down.
+
+    ``/tf:=tf`` means the transforms of the server's namespace.
+    """
+    return {
+        name: join(namespace, value) if name.startswith("/") else value
+        for name, value in remappings.items()
+    }

@@ -135,7 +135,7 @@ def assemble(
     settings = Settings(costmap_table(generation), own, name, diagnostics)
     options = settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
     settings.tree.pop("plugins", None)
-    settings.report_unknown("filters")
+    settings.report_unknown("filters", *_left_out(settings))
     footprint = _footprint(settings, options)
     made = Assembly(
         LayeredCostmap(options, (), footprint.padded(options.footprint_padding)),
@@ -190,8 +190,23 @@ def _rows(
 _NAV2_DEFAULT_TYPES = {
     "static_layer": "nav2_costmap_2d::StaticLayer",
     "obstacle_layer": "nav2_costmap_2d::ObstacleLayer",
+    "voxel_layer": "nav2_costmap_2d::VoxelLayer",
     "inflation_layer": "nav2_costmap_2d::InflationLayer",
 }
+
+
+def _left_out(settings: Settings) -> list[str]:
+    """Tell of layers with parameters that ``plugins`` does not name, as Nav2's own files have."""
+    names = [
+        key
+        for key, below in settings.tree.items()
+        if isinstance(below, Mapping)
+        and (key in _NAV2_DEFAULT_TYPES or below.get("plugin") in LAYER_TYPES)
+    ]
+    for name in names:
+        text = f"layer '{name}' has parameters and is not one of plugins; it is not made"
+        settings.report("navigation.idle-parameter", text, "add it to plugins, or leave it out")
+    return names
 
 
 def _listed(value: Any, name: str, diagnostics: Diagnostics) -> Sequence[Any]:

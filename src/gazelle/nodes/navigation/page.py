@@ -12,6 +12,7 @@ from gazelle.nodes.move_base.local import local_planner_tables
 from gazelle.nodes.move_base.planner import planner_tables
 from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
+from gazelle.nodes.nav2.collision.tables import BAND, COLLISION_MONITOR, SOURCE, ZONE
 from gazelle.nodes.nav2.trees.loading import NODE_TYPES
 from gazelle.nodes.navigation.assembling import COSTMAP_TABLES
 from gazelle.nodes.navigation.table import Row, Table
@@ -45,7 +46,7 @@ def _nav2_tables() -> list[Table]:
         nav2.PLANNER_SERVER, nav2.CONTROLLER_SERVER, *nav2.GOAL_CHECKERS.values(),
         *nav2.PROGRESS_CHECKERS.values(), nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR,
         nav2.WAYPOINT_FOLLOWER, nav2.SMOOTHER_SERVER, nav2.SMOOTHER,
-        nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
+        nav2.VELOCITY_SMOOTHER, COLLISION_MONITOR, ZONE, BAND, SOURCE, nav2.LIFECYCLE_MANAGER,
     ]  # fmt: skip
     planners = [nav2.planner_table(name) for name in PLANNERS if "::" in name]
     controllers = [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]

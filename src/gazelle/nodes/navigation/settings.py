@@ -18,7 +18,10 @@ _READ = {
     "number": "number", "integer": "integer", "flag": "flag", "text": "text", "texts": "texts",
     "numbers": "numbers", "any": "raw",
 }  # fmt: skip
-_EVERYWHERE = frozenset({"use_sim_time", "bond_disable_heartbeat_timeout", "qos_overrides"})
+# Nav2's launch files give autostart to all nodes of a container; lifecycle_manager reads it.
+_EVERYWHERE = frozenset(
+    {"use_sim_time", "bond_disable_heartbeat_timeout", "qos_overrides", "autostart"}
+)
 
 
 def nested(values: Mapping[str, Any]) -> dict[str, Any]:

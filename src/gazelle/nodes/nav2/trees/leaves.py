@@ -438,6 +438,7 @@ CONDITIONS: dict[str, type[Leaf]] = {
     "Sleep": _Sleep,
     "GoalReached": _GoalReached,
     "GoalUpdated": _GoalUpdated,
+    "GlobalUpdatedGoal": _GloballyUpdatedGoal,
     "GloballyUpdatedGoal": _GloballyUpdatedGoal,
     "InitialPoseReceived": _InitialPoseReceived,
     "TransformAvailable": _TransformAvailable,

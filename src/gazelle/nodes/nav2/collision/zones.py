@@ -1,0 +1,215 @@
+"""What zones around a robot make of a velocity command (nav2_collision_monitor)."""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Action", "Band", "Points", "Velocity", "Verdict", "Zone", "guarded"]
+
+Points = NDArray[np.float64]
+"""x, y in the robot's frame, m; shape (n, 2)."""
+Velocity = tuple[float, float, float]
+"""Along x and y (m/s), around z (rad/s)."""
+
+_STAND: Velocity = (0.0, 0.0, 0.0)
+
+
+class Action(enum.Enum):
+    """What a zone does; numbers of ``nav2_msgs/CollisionMonitorState``."""
+
+    NONE = 0
+    STOP = 1
+    SLOWDOWN = 2
+    APPROACH = 3
+    LIMIT = 4
+
+
+class Band(NamedTuple):
+    """A range of commands and the outline that counts for them (``velocity_polygon``).
+
+    Attributes:
+        outline: corners.
+        linear: least and most of the speed: along x with its sign, or of its amount where the
+            robot is `holonomic`.
+        turn: least and most angular velocity, rad/s.
+        direction: begin and end of the directions of travel, rad; only where it is holonomic.
+        is_holonomic: how `linear` is meant.
+    """
+
+    outline: Points
+    linear: tuple[float, float]
+    turn: tuple[float, float]
+    direction: tuple[float, float] = (-math.pi, math.pi)
+    is_holonomic: bool = False
+
+    def holds(self, command: Velocity) -> bool:
+        """Tell whether a command is in the range."""
+        x, y, turn = command
+        speed = math.hypot(x, y) if self.is_holonomic else x
+        if not self.linear[0] <= speed <= self.linear[1]:
+            return False
+        if not self.turn[0] <= turn <= self.turn[1]:
+            return False
+        if not self.is_holonomic:
+            return True
+        begin, end = self.direction
+        angle = math.atan2(y, x)
+        return begin <= angle <= end if begin <= end else angle >= begin or angle <= end
+
+
+@dataclass(slots=True)
+class Zone:
+    """An area around the robot and what happens when something is in it.
+
+    Attributes:
+        name: of the parameters.
+        action: what happens.
+        radius_m: of a circle; None for a polygon.
+        outline: corners of a polygon; None until it is known.
+        bands: outlines by command, see `Band`.
+        least: so many points in it count as something.
+        ratio: of the speed that is left, of `Action.SLOWDOWN`.
+        limits: speed (m/s) and turn (rad/s) that are left, of `Action.LIMIT`.
+        horizon_s, step_s: how far ahead `Action.APPROACH` looks, and how finely.
+        sources: names of sensors that count; empty for all.
+        enabled: whether it counts.
+    """
+
+    name: str
+    action: Action
+    radius_m: float | None = None
+    outline: Points | None = None
+    bands: tuple[Band, ...] = ()
+    least: int = 4
+    ratio: float = 0.5
+    limits: tuple[float, float] = (0.5, 0.5)
+    horizon_s: float = 2.0
+    step_s: float = 0.1
+    sources: tuple[str, ...] = ()
+    enabled: bool = True
+
+    def choose(self, command: Velocity) -> None:
+        """Take the outline that belongs to a command; without one the last stays."""
+        found = next((band for band in self.bands if band.holds(command)), None)
+        if found is not None:
+            self.outline = found.outline
+
+    def count(self, points: Points) -> int:
+        """Return how many points are inside."""
+        if self.radius_m is not None:
+            return int((np.hypot(points[:, 0], points[:, 1]) < self.radius_m).sum())
+        return 0 if self.outline is None else int(_inside(points, self.outline).sum())
+
+    def corners(self) -> Points:
+        """Return the outline to show; a circle as 16 corners."""
+        if self.radius_m is not None:
+            angles = np.arange(16) * math.tau / 16
+            return self.radius_m * np.column_stack([np.cos(angles), np.sin(angles)])
+        return np.empty((0, 2)) if self.outline is None else self.outline
+
+    def reach_m(self) -> float:
+        """Return how far from the robot's origin the zone goes."""
+        if self.radius_m is not None:
+            return self.radius_m
+        return 0.0 if self.outline is None else float(np.hypot(*self.outline.T).max())
+
+    def collision_s(self, points: Points, command: Velocity) -> float | None:
+        """Return when the robot meets something if it goes on so, None for not in time."""
+        way = math.hypot(command[0], command[1]) * self.horizon_s
+        near = points[np.hypot(points[:, 0], points[:, 1]) <= self.reach_m() + way]
+        if len(near) < self.least:
+            return None
+        steps = int(self.horizon_s / self.step_s + 1e-9)
+        x = y = yaw = 0.0
+        for number in range(steps + 1):
+            c, s = math.cos(yaw), math.sin(yaw)
+            away = near - (x, y)
+            # The points as the robot sees them from there.
+            seen = np.column_stack([away @ (c, s), away @ (-s, c)])
+            if self.count(seen) >= self.least:
+                return number * self.step_s
+            x += (command[0] * c - command[1] * s) * self.step_s
+            y += (command[0] * s + command[1] * c) * self.step_s
+            yaw += command[2] * self.step_s
+        return None
+
+
+class Verdict(NamedTuple):
+    """What is left of a command.
+
+    Attributes:
+        velocity: to send.
+        action: why it is that.
+        zone: whose action that is, empty without one.
+    """
+
+    velocity: Velocity
+    action: Action
+    zone: str
+
+
+def guarded(command: Velocity, zones: Sequence[Zone], seen: Mapping[str, Points]) -> Verdict:
+    """Return what zones leave of a command: the slowest of what each of them leaves.
+
+    Args:
+        command: what was asked for.
+        zones: in the order of the parameters; the first that stops is the last one looked at.
+        seen: points by the names of sensors.
+    """
+    verdict = Verdict(command, Action.NONE, "")
+    for zone in zones:
+        if not zone.enabled or zone.action is Action.NONE:
+            continue
+        zone.choose(command)
+        named = [
+            points for name, points in seen.items() if not zone.sources or name in zone.sources
+        ]
+        points = np.concatenate(named) if named else np.empty((0, 2))
+        share = _share(zone, points, command)
+        if share is None:
+            continue
+        left = (command[0] * share, command[1] * share, command[2] * share)
+        if zone.action is Action.STOP:
+            return Verdict(_STAND, Action.STOP, zone.name)
+        if _amount(left) < _amount(verdict.velocity):
+            verdict = Verdict(left, zone.action, zone.name)
+    return verdict
+
+
+def _share(zone: Zone, points: Points, command: Velocity) -> float | None:
+    """Return which share of a command a zone leaves, None when nothing is in it."""
+    if zone.action is Action.APPROACH:
+        time_s = zone.collision_s(points, command)
+        return None if time_s is None else time_s / zone.horizon_s
+    if zone.count(points) < zone.least:
+        return None
+    if zone.action is Action.STOP:
+        return 0.0
+    if zone.action is Action.SLOWDOWN:
+        return zone.ratio
+    speeds = (math.hypot(command[0], command[1]), abs(command[2]))
+    shares = [limit / v for limit, v in zip(zone.limits, speeds, strict=True) if v > 0]
+    return min([1.0, *shares])
+
+
+def _amount(velocity: Velocity) -> float:
+    return sum(value * value for value in velocity)
+
+
+def _inside(points: Points, outline: Points) -> NDArray[np.bool_]:
+    """Tell which points are in a polygon, by how often a line to the right leaves it."""
+    x, y = points[:, :1], points[:, 1:]
+    x1, y1 = outline[:, 0], outline[:, 1]
+    x2, y2 = np.roll(x1, -1), np.roll(y1, -1)
+    crosses = (y1 > y) != (y2 > y)
+    height = np.where(y2 == y1, 1.0, y2 - y1)
+    at = (x2 - x1) * (y - y1) / height + x1
+    odd: NDArray[np.bool_] = (crosses & (x < at)).sum(axis=1) % 2 == 1
+    return odd
