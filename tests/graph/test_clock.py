@@ -140,7 +140,7 @@ def test_jump_back_wakes_sleepers_and_tells_listeners(simulated: Graph) -> None:
 
     thread, outcome = _sleep_in_thread(sleep)
     assert asleep.wait(30)
-    with node.clock._changed:
+    with node.clock._lock:
         simulator_jump = threading.Thread(target=simulator.show, args=(1 * S,))
         simulator_jump.start()
     simulator_jump.join(30)
@@ -169,3 +169,32 @@ def test_stop_ends_a_sleep_while_simulated_time_stands_still(simulated: Graph) -
     stop.set()
     thread.join(10)
     assert slept == [False]
+
+
+def test_only_those_whose_time_has_come_wake(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    simulator = _Simulator(node)
+    simulator.show(1 * S)
+    early, first = _sleep_in_thread(lambda: node.clock.sleep_until(2 * S))
+    late, second = _sleep_in_thread(lambda: node.clock.sleep_until(9 * S))
+    while len(node.clock._sleepers) < 2:
+        early.join(0.001)
+    simulator.show(3 * S)
+    early.join(30)
+    assert first == [True]
+    assert [target_ns for target_ns, _, _ in node.clock._sleepers] == [9 * S]
+    assert late.is_alive() and not second
+    simulator.show(9 * S)
+    late.join(30)
+    assert second == [True] and not node.clock._sleepers
+
+
+def test_a_sleep_ended_early_leaves_nothing_behind(simulated: Graph) -> None:
+    node = simulated.create_node("a")
+    stop = threading.Event()
+    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep_until(9 * S, stop))
+    while not node.clock._sleepers:
+        thread.join(0.001)
+    stop.set()
+    thread.join(30)
+    assert outcome == [False] and not node.clock._sleepers

@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
 _TOLERANCE_M, _TOLERANCE_RAD = 0.05, 0.17
 # Localisation goes on after the end of a goal, and may see it a little differently then.
-_LATER_M, _LATER_RAD = 0.05, 0.05
+_LATER_M, _LATER_RAD = 0.02, 0.1
 _LOCALISED_M = 0.1
 
 

@@ -37,6 +37,7 @@ _BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="
 _PILLAR = (0.0, 0.0, 0.0)
 _KIDNAPPED_TO = (0.55, -0.55, 1.0)
 _SEARCH_UPDATES = 60
+_FOR_KEYS = 2.0
 _RELOCALISED_M, _RELOCALISED_RAD = 0.2, 0.2
 
 
@@ -83,7 +84,9 @@ def drive_and_map(session: Session, home: Path) -> OccupancyGrid:
     """Drive through the world by keyboard and save what SLAM makes of it (T8, T9)."""
     slam = session.launch("turtlebot3_slam", "turtlebot3_slam.launch", "slam_methods:=gmapping")
     driver = KeyDriver(session)
-    driver.drive_through(_ROUTE)
+    # Who looks late at a robot three times too fast bumps into things.
+    with session.no_faster_than(_FOR_KEYS):
+        driver.drive_through(_ROUTE)
     driver.close()
     saver = session.rosrun("map_server", "map_saver", "-f", str(home / "map"))
     assert saver.wait() == 0, saver.text
@@ -176,10 +179,13 @@ class _Places:
         room_m = distance_transform_edt(grid.cells == 0) * grid.resolution_m
         labels, _ = label(room_m > turns_in_m + _TO_PASS_M)
         column, row = grid.world_to_cell(start[0], start[1])
-        near = labels[max(row - 4, 0) : row + 5, max(column - 4, 0) : column + 5]
+        rows, columns = distance_transform_edt(
+            labels == 0, return_distances=False, return_indices=True
+        )
+        here = labels[rows[row, column], columns[row, column]]
         self._grid = grid
         self._cells: NDArray[np.int64] = np.argwhere(
-            (labels == near[near > 0].max()) & (room_m > turns_in_m + _TO_TURN_M)
+            (labels == here) & (room_m > turns_in_m + _TO_TURN_M)
         )
 
     def draw(self, rng: random.Random, here: PlanePose) -> PlanePose:

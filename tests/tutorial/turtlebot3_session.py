@@ -7,7 +7,7 @@ import math
 import os
 import pty
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +99,15 @@ class Session:
         """Let simulated time run so many times faster than real time, where the machine can."""
         self._wanted_factor = factor
         self._set_factor(factor)
+
+    @contextlib.contextmanager
+    def no_faster_than(self, factor: float) -> Iterator[None]:
+        """Let simulated time run slower for a while."""
+        self._set_factor(min(factor, self._wanted_factor))
+        try:
+            yield
+        finally:
+            self._set_factor(self._wanted_factor)
 
     def _set_factor(self, factor: float) -> None:
         kind = "gazebo_msgs/{}PhysicsProperties"

@@ -442,3 +442,16 @@ def test_model_properties_list_parts(world: World) -> None:
     assert not found.is_static
     found = world.call("get_model_properties", "GetModelProperties", model_name="ground_plane")
     assert found.is_static
+
+
+def test_faster_than_real_time_the_clock_shows_500_times_a_real_second(
+    load: Callable[..., Simulation], listen: Any
+) -> None:
+    sim = load(world=None, services=True)
+    clock = listen(sim, "/clock")
+    sim.server.pace.factor = 3.0
+    sim.run(seconds=0.6)
+    assert len(clock) == 100
+    sim.server.paused = True
+    sim.server.step(5)
+    assert len(clock) == 105

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -16,18 +17,23 @@ if TYPE_CHECKING:
 __all__ = ["offer_states"]
 
 _EVERY_STEP = Fraction(1)
+# Faster than real time, nobody can use more of them: each costs every process 0.1 ms.
+_CLOCKS_PER_REAL_S = 500.0
 
 
 def offer_states(server: WorldServer, resources: Resources) -> None:
     """Publish clock and states every step while somebody listens.
 
     The ROS parameter ``/gazebo/pub_clock_frequency`` lowers the clock's rate, as in gazebo_ros.
+    A world that is to run faster than real time shows the clock 500 times a second of real time.
     """
     engine = server.engine
     clock = resources.publisher("/clock", "rosgraph_msgs/Clock")
     rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
 
     def publish_clock() -> None:
+        if not server.paused and engine.iteration % _steps_between_clocks(server):
+            return
         clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
 
     resources.task(
@@ -53,6 +59,14 @@ def offer_states(server: WorldServer, resources: Resources) -> None:
         order=ORDER_STATE,
         wanted=lambda: models.matched,
     )
+
+
+def _steps_between_clocks(server: WorldServer) -> int:
+    """Return 1 up to real time, and where no rate is wanted."""
+    factor = server.pace.factor
+    if factor <= 1.0:
+        return 1
+    return math.ceil(factor * 1e9 / (server.engine.step_ns * _CLOCKS_PER_REAL_S))
 
 
 def _link_states(server: WorldServer) -> Any:
