@@ -23,14 +23,11 @@ def compose(first: ArrayLike, second: ArrayLike) -> Poses:
     """Return ``first ⊕ second``."""
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
-    return np.stack(
-        [
-            a[..., 0] + cos * b[..., 0] - sin * b[..., 1],
-            a[..., 1] + sin * b[..., 0] + cos * b[..., 1],
-            wrap_angle(a[..., 2] + b[..., 2]),
-        ],
-        axis=-1,
-    )
+    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    out[..., 0] = a[..., 0] + cos * b[..., 0] - sin * b[..., 1]
+    out[..., 1] = a[..., 1] + sin * b[..., 0] + cos * b[..., 1]
+    out[..., 2] = wrap_angle(a[..., 2] + b[..., 2])
+    return out
 
 
 def between(first: ArrayLike, second: ArrayLike) -> Poses:
@@ -38,8 +35,11 @@ def between(first: ArrayLike, second: ArrayLike) -> Poses:
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
     dx, dy = b[..., 0] - a[..., 0], b[..., 1] - a[..., 1]
-    turn = wrap_angle(b[..., 2] - a[..., 2])
-    return np.stack([cos * dx + sin * dy, cos * dy - sin * dx, turn], axis=-1)
+    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    out[..., 0] = cos * dx + sin * dy
+    out[..., 1] = cos * dy - sin * dx
+    out[..., 2] = wrap_angle(b[..., 2] - a[..., 2])
+    return out
 
 
 def inverse(pose: ArrayLike) -> Poses:

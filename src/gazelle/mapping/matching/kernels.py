@@ -26,20 +26,26 @@ def stamp(field, x0, y0, cell, points, kernels):
     height, width = field.shape
     parts, side = kernels.shape[0], kernels.shape[2]
     reach = side // 2
+    # Flat and unsigned: negative indices need not be looked for.
+    flat, bells = field.reshape(height * width), kernels.reshape(kernels.size)
     for i in range(points.shape[0]):
         gx, gy = (points[i, 0] - x0) / cell, (points[i, 1] - y0) / cell
-        cx, cy = math.floor(gx), math.floor(gy)
-        if cx < reach or cy < reach or cx >= width - reach or cy >= height - reach:
+        if not (reach <= gx < width - reach and reach <= gy < height - reach):
             continue
-        kernel = kernels[int((gy - cy) * parts), int((gx - cx) * parts)]
+        cx, cy = int(gx), int(gy)
+        bell = (int((gy - cy) * parts) * parts + int((gx - cx) * parts)) * side * side
         # What raises the middle by nothing raises little around it.
-        if field[cy, cx] >= kernel[reach, reach]:
+        if flat[np.uint64(cy * width + cx)] >= bells[np.uint64(bell + reach * side + reach)]:
             continue
-        left = cx - reach
+        first = (cy - reach) * width + cx - reach
         for a in range(side):
-            row, raised = field[cy - reach + a, left : left + side], kernel[a]
             for b in range(side):
-                row[b] = raised[b] if raised[b] > row[b] else row[b]
+                place, value = (
+                    np.uint64(first + a * width + b),
+                    bells[np.uint64(bell + a * side + b)],
+                )
+                old = flat[place]
+                flat[place] = value if value > old else old
 
 
 @njit(cache=True, nogil=True)
@@ -70,23 +76,31 @@ def best_in_window(field, x0, y0, cell, points, guess, reach_m, step_m, reach_ra
     n_turns, n_steps = round(reach_rad / step_rad), round(reach_m / step_m)
     best, best_mean = -1e30, 0.0
     bx, by, bt = guess[0], guess[1], guess[2]
-    px, py = np.empty(n), np.empty(n)
+    across = 2 * n_steps + 1
+    columns, rows = np.empty((across, n), np.int64), np.empty((across, n), np.int64)
+    flat, outside = field.reshape(height * width), -height * width - 1
     scale = 1.0 / cell
     for turn in range(-n_turns, n_turns + 1):
         yaw = guess[2] + turn * step_rad
         c, s = math.cos(yaw), math.sin(yaw)
         for i in range(n):
-            px[i] = (c * points[i, 0] - s * points[i, 1] - x0) * scale
-            py[i] = (s * points[i, 0] + c * points[i, 1] - y0) * scale
+            px = (c * points[i, 0] - s * points[i, 1] - x0) * scale
+            py = (s * points[i, 0] + c * points[i, 1] - y0) * scale
+            for k in range(across):
+                gx = int(px + (guess[0] + (k - n_steps) * step_m) * scale)
+                gy = int(py + (guess[1] + (k - n_steps) * step_m) * scale)
+                columns[k, i] = gx if 0 <= gx < width else outside
+                rows[k, i] = gy * width if 0 <= gy < height else outside
         for iy in range(-n_steps, n_steps + 1):
             y = guess[1] + iy * step_m
             for ix in range(-n_steps, n_steps + 1):
                 x = guess[0] + ix * step_m
+                up, right = rows[iy + n_steps], columns[ix + n_steps]
                 total = 0.0
                 for i in range(n):
-                    gx, gy = int(px[i] + x * scale), int(py[i] + y * scale)
-                    if 0 <= gx < width and 0 <= gy < height:
-                        total += field[gy, gx]
+                    place = up[i] + right[i]
+                    if place >= 0:
+                        total += flat[np.uint64(place)]
                 total /= n
                 ex, ey, et = x - prior[0], y - prior[1], yaw - prior[2]
                 worth = total - prior[3] * (ex * ex + ey * ey) - prior[4] * et * et

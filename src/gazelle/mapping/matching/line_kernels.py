@@ -33,16 +33,18 @@ def accumulate(places, sums, x0, y0, cell, points):
     mx, my = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
     sums[0] = 0.0
     used = 1
+    # Flat and unsigned: negative indices need not be looked for.
+    flat = places.reshape(height * width)
     for i in range(points.shape[0]):
-        column = math.floor((points[i, 0] - x0) / cell)
-        row = math.floor((points[i, 1] - y0) / cell)
-        if 0 <= column < width and 0 <= row < height:
-            if places[row, column] == 0:
-                places[row, column] = used
+        gx, gy = (points[i, 0] - x0) / cell, (points[i, 1] - y0) / cell
+        if 0 <= gx < width and 0 <= gy < height:
+            place = np.uint64(int(gy) * width + int(gx))
+            if flat[place] == 0:
+                flat[place] = used
                 sums[used] = 0.0
                 used += 1
             x, y = points[i, 0] - mx, points[i, 1] - my
-            cells = sums[places[row, column]]
+            cells = sums[np.uint64(flat[place])]
             cells[0] += 1.0
             cells[1] += x
             cells[2] += y
@@ -108,7 +110,10 @@ def refine_on_lines(
     pose = guess.copy()
     data = np.zeros((3, 3))
     slope = np.zeros(3)
-    line = np.zeros(4)
+    # Points hardly move from one step to the next: their lines are those of the same cells.
+    known = np.full(points.shape[0], -1, np.int64)
+    are_lines = np.zeros(points.shape[0], np.bool_)
+    lines = np.empty((points.shape[0], 4))
     used = 0
     for _ in range(iterations):
         data[:] = 0.0
@@ -122,7 +127,11 @@ def refine_on_lines(
             column, row = math.floor((x - x0) / cell), math.floor((y - y0) / cell)
             if column < 1 or row < 1 or column >= width - 1 or row >= height - 1:
                 continue
-            if not _line(places, sums, row, column, fewest, widest, line):
+            line = lines[i]
+            if known[i] != row * width + column:
+                known[i] = row * width + column
+                are_lines[i] = _line(places, sums, row, column, fewest, widest, line)
+            if not are_lines[i]:
                 continue
             nx, ny = line[2], line[3]
             off = nx * (x - middle_x - line[0]) + ny * (y - middle_y - line[1])

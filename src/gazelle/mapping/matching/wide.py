@@ -89,11 +89,9 @@ class WideSearch:
         reach = _in_cells(reach_m, cell_m)
         done = -1 if done_m is None else _in_cells(done_m, cell_m)
         largest = min(_DEEPEST, max(wide_kernels.LEAF, int(math.log2(reach))))
-        starts = np.arange(-reach, reach + 1, 1 << largest)
-        offsets = np.stack(np.meshgrid(starts, starts), axis=-1).reshape(-1, 2).astype(np.int64)
         turn, columns, rows, value = wide_kernels.bound_search(
             self._field.values, self._levels.words, self._levels.up_to(largest),
-            self._cells[part], self._boxes[part], offsets, reach, done, least,
+            self._cells[part], self._boxes[part], reach, done, least,
         )  # fmt: skip
         if turn < 0:
             return []

@@ -186,7 +186,7 @@ def _best_of_block(values, words, cells, box, ox, oy, reach, done, best, sums):
 
 
 @njit(cache=True, nogil=True)
-def bound_search(values, words, levels, cells, boxes, offsets, reach, done, least):
+def bound_search(values, words, levels, cells, boxes, reach, done, least):
     """Branch and bound over turns and whole-cell shifts (Hess et al. 2016).
 
     Args:
@@ -196,7 +196,6 @@ def bound_search(values, words, levels, cells, boxes, offsets, reach, done, leas
             2^(h + LEAF) cells a side that begin at each cell, rounded up.
         cells: of `cells_of`.
         boxes: the same.
-        offsets: int64 (m, 2), shifts in cells that the coarsest blocks begin at.
         reach: half side of the window, in cells: what lies beyond is cut.
         done: half side of a window that was searched already, -1 when none was.
         least: mean value that must be exceeded.
@@ -204,12 +203,15 @@ def bound_search(values, words, levels, cells, boxes, offsets, reach, done, leas
     Returns:
         (turn, shift in columns, shift in rows, mean value); turn −1 when nothing exceeds it.
     """
-    depth, turns, n, m = levels.shape[0], cells.shape[0], cells.shape[2], offsets.shape[0]
+    depth, turns, n = levels.shape[0], cells.shape[0], cells.shape[2]
+    side = 1 << (depth - 1 + LEAF)
+    across = 2 * reach // side + 1
+    m = across * across
     best, best_turn, best_x, best_y = least * n, -1, 0, 0
     roots, bounds, count = np.empty(turns * m, np.int64), np.empty(turns * m), 0
     for t in range(turns):
         for k in range(m):
-            x, y = offsets[k, 0], offsets[k, 1]
+            x, y = k % across * side - reach, k // across * side - reach
             worth = _sum(levels[depth - 1], cells[t], boxes[t], x, y, best * _FULL, _FULL) / _FULL
             if worth > best:
                 roots[count], bounds[count] = t * m + k, worth
@@ -223,11 +225,9 @@ def bound_search(values, words, levels, cells, boxes, offsets, reach, done, leas
             break
         root = roots[order[place]]
         turn = root // m
-        stack[0, 0], stack[0, 1], stack[0, 2] = (
-            depth - 1,
-            offsets[root % m, 0],
-            offsets[root % m, 1],
-        )
+        stack[0, 0] = depth - 1
+        stack[0, 1] = root % m % across * side - reach
+        stack[0, 2] = root % m // across * side - reach
         worths[0] = bounds[order[place]]
         top = 1
         while top > 0:
