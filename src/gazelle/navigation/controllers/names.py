@@ -77,7 +77,10 @@ def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
     rotate = {**own, **setting.critics.get("RotateToGoal", {})}
     critics = {**setting.critics, "RotateToGoal": rotate}
     options = replace(options, vy_samples=max(options.vy_samples, 1))
-    return SamplingController(dwb_profile(options, critics), setting.period_s)
+    # LimitedAccelGenerator tries what one period reaches, the standard one what sim_time does.
+    holds = "LimitedAccel" in options.trajectory_generator_name
+    profile = replace(dwb_profile(options, critics), holds=holds)
+    return SamplingController(profile, setting.period_s)
 
 
 def _mppi(options: MppiOptions, setting: ControllerSetting) -> Controller:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.navigation.options import flag, integer, number, texts
+from gazelle.navigation.options import flag, integer, number, text, texts
 
 __all__ = ["DwaOptions", "DwbOptions", "TrajectoryPlannerOptions"]
 
@@ -164,6 +164,11 @@ class DwbOptions:
     forward_prune_distance: float = number(2.0, "how far ahead the path is looked at", "m", 0)
     xy_goal_tolerance: float = number(0.25, "how near the goal RotateToGoal turns", "m", 0)
     trans_stopped_velocity: float = number(0.25, "below it RotateToGoal turns", "m/s", 0)
+    trajectory_generator_name: str = text(
+        "dwb_plugins::StandardTrajectoryGenerator",
+        "that one tries velocities that sim_time reaches; dwb_plugins::LimitedAccelGenerator those "
+        "that one period does, and holds them",
+    )
     critics: tuple[str, ...] = texts(_DWB_CRITICS, "what trajectories are scored by")
 
     CRITICS: ClassVar[Mapping[str, Mapping[str, Any]]] = {
@@ -200,8 +205,6 @@ class DwbOptions:
     IDLE: ClassVar[Mapping[str, str]] = {
         "stateful": "the goal checker's stateful counts",
         "debug_trajectory_details": "what was refused is told when nothing is left",
-        "trajectory_generator_name": "velocities are those that are reached within one period "
-        "(LimitedAccelGenerator), trajectories hold them",
         "default_critic_namespaces": "critics are found by their names alone",
         "transform_tolerance": "the costmap's transform_tolerance counts",
         "shorten_transformed_plan": "the path is always cut at forward_prune_distance",

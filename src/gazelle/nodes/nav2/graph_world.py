@@ -54,7 +54,7 @@ class GraphWorld:
         names = (global_frame or self._names[0], base_frame or self._names[1])
         found = self._frames.robot(*names, self._tolerance_s)
         if isinstance(found, str):
-            self._frames.say("warn", found)
+            self._frames.say("warn", found, key=f"pose {names}")
             return None
         return Pose2(*found.pose)
 
