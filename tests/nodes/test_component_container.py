@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from gazelle.graph.parameter_values import value_message
 from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import ABSENT_NODES
 from gazelle.nodes.component_container import builtin_of_component
 
 _SERVICES = "composition_interfaces/srv"
@@ -70,3 +73,33 @@ def test_compiled_components_are_refused_with_what_there_is(bench: Any) -> None:
     assert not answer.success
     assert "components are compiled code, which is not loaded here" in answer.error_message
     assert "built-in nodes of package 'topic_tools': demux, drop, mux" in answer.error_message
+
+
+def test_nodes_that_components_make_read_the_containers_files(
+    bench: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nav2's costmaps are nodes of their own, which no request of a launch speaks of."""
+    monkeypatch.setenv(ABSENT_NODES, "")
+    file = tmp_path / "params.yaml"
+    file.write_text("local_costmap: {local_costmap: {ros__parameters: {resolution: 0.125}}}")
+    words = ("--ros-args", "-r", "__node:=box", "--params-file", str(file))
+    bench.start("rclcpp_components/component_container_isolated", *words)
+    load = {"node_namespace": "/", "remap_rules": ["/tf:=tf"]}
+    for package, plugin, name in (
+        ("nav2_controller", "nav2_controller::ControllerServer", "controller_server"),
+        ("nav2_route", "nav2_route::RouteServer", "route_server"),
+    ):
+        names = {"package_name": package, "plugin_name": plugin, "node_name": name}
+        bench.call("/box/_container/load_node", f"{_SERVICES}/LoadNode", **names, **load)
+    transition = message_type("lifecycle_msgs/msg/Transition")(label="configure")
+    kind = "lifecycle_msgs/srv/ChangeState"
+    assert bench.call("/controller_server/change_state", kind, transition=transition).success
+    found = bench.call(
+        "/local_costmap/local_costmap/get_parameters",
+        "rcl_interfaces/srv/GetParameters",
+        names=["resolution"],
+    )
+    assert found.values[0].double_value == 0.125
+    topics = {one.name for one in bench.graph.entities() if "local_costmap" in one.node}
+    assert "/tf" in topics and "/local_costmap/tf" not in topics
+    assert os.environ[ABSENT_NODES] == "/route_server"

@@ -130,3 +130,20 @@ def test_outline_is_found_in_the_node_above() -> None:
     made, said = _made({"footprint_padding": 0.0}, above={"footprint": corners})
     assert said == []
     assert made.costmap.footprint.corners[2] == (0.3, 0.2)
+
+
+def test_layers_that_plugins_do_not_name_are_told_once() -> None:
+    """As the local costmap of Nav2's default file has its static layer."""
+    tree = {
+        "plugins": ["inflation_layer"],
+        "inflation_layer": {"plugin": "nav2_costmap_2d::InflationLayer"},
+        "static_layer": {"plugin": "nav2_costmap_2d::StaticLayer", "map_topic": "m"},
+        "voxel_layer": {"map_subscribe_transient_local": True},
+    }
+    made, said = _made(tree, generation=2)
+    assert _kinds(made) == [InflationLayer]
+    assert [text.partition(": /costmap: ")[2].partition(";")[0] for text in said] == [
+        "layer 'static_layer' has parameters and is not one of plugins",
+        "layer 'voxel_layer' has parameters and is not one of plugins",
+    ]
+    assert all("navigation.idle-parameter" in text for text in said)

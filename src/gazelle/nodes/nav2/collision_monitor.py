@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.collision.reading import read_sources, read_zones
+from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.sources import Source, WorldFrames
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action, Points, Velocity, Verdict, Zone, guarded
@@ -77,7 +77,7 @@ class _Monitor:
             settings.number("transform_tolerance"),
         )  # fmt: skip
         self._sources = [Source(self._node, one, frames) for one in read_sources(settings)]
-        settings.report_unknown(*settings.texts("polygons"), *settings.texts("observation_sources"))
+        report_others(settings)
         self._zones = [zone for zone, _ in zones]
         for zone, own in zones:
             self._connect(zone, own)

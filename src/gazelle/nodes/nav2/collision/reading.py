@@ -15,7 +15,7 @@ from gazelle.nodes.nav2.collision.zones import Action, Band, Points, Zone
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.table import Table
 
-__all__ = ["read_sources", "read_zones"]
+__all__ = ["read_sources", "read_zones", "report_others"]
 
 _ACTIONS = {one.name.lower(): one for one in Action}
 _SHAPES = ("polygon", "circle", "velocity_polygon")
@@ -56,6 +56,20 @@ def read_sources(settings: Settings) -> list[SourceOptions]:
             )
         )  # fmt: skip
     return found
+
+
+def report_others(settings: Settings) -> None:
+    """Tell of parameters of the node that are not known, and of zones that nobody names."""
+    named = {*settings.texts("polygons"), *settings.texts("observation_sources")}
+    idle = [
+        name
+        for name, below in settings.tree.items()
+        if isinstance(below, Mapping) and "type" in below and name not in named
+    ]
+    for name in idle:
+        text = f"'{name}' has parameters and is not one of polygons or observation_sources"
+        settings.report("navigation.idle-parameter", text, "add it, or leave it out")
+    settings.report_unknown(*named, *idle)
 
 
 def _below(settings: Settings, key: str, table: Table) -> Iterator[tuple[str, Settings]]:
