@@ -19,8 +19,9 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT), str(Path(__file__).parent / "soak")]
 
-from navigation import commands  # noqa: E402
 from tests.tutorial.turtlebot3_session import Session  # noqa: E402
+
+from navigation import commands  # noqa: E402
 
 _GOALS = ((-0.55, 0.55, 0.0), (0.55, 0.55, -1.57), (0.55, -0.55, 3.14), (-0.55, -0.55, 1.57))
 

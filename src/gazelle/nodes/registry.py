@@ -353,6 +353,19 @@ _NODES = (
         )
         for package, names, target, about, name in SLAM_NAMES
     ),
+    *(
+        BuiltinNode(
+            "frontier_exploration",
+            f"explore_{role}",
+            f"gazelle.nodes.frontier_exploration.{role}:run",
+            light=role == "client",
+            help=about,
+        )
+        for role, about in (
+            ("server", "explores what lies inside of a polygon, by move_base"),
+            ("client", "makes a polygon of clicked points and lets explore_server explore it"),
+        )
+    ),
     BuiltinNode(
         "turtlesim",
         "turtle_teleop_key",

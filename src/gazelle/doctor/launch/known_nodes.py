@@ -19,6 +19,7 @@ _QUIET = frozenset(
         "depthimage_to_laserscan",
         "diagnostic_aggregator",
         "explore_lite",
+        "frontier_exploration",
         "image_proc",
         "image_transport",
         "image_view",

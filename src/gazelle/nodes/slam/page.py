@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, EXPLORE_SERVER
 from gazelle.nodes.navigation.page import section
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
@@ -21,7 +22,7 @@ _INTRODUCTION = (
 def page() -> str:
     """Return the page."""
     tables = [one.table for one in FLAVOURS.values()]
-    return "\n\n".join([_INTRODUCTION, *map(section, [*tables, EXPLORE])]) + "\n"
+    return "\n\n".join([_INTRODUCTION, *map(section, [*tables, EXPLORE, EXPLORE_SERVER, BOUNDED_EXPLORE])]) + "\n"
 
 
 if __name__ == "__main__":

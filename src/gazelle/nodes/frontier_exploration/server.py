@@ -1,0 +1,211 @@
+"""``explore_server``: the action ``ExploreTask``, from frontier to frontier by move_base."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.graph import Graph, Node, TimeJumpError
+from gazelle.graph.actions import ActionClient, ClientGoal, ServerGoal
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.frontier_exploration.area import Area, Corners
+from gazelle.nodes.frontier_exploration.services import Services
+from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
+from gazelle.nodes.map_server.server import log_findings
+from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
+from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.parameters import start_node
+
+if TYPE_CHECKING:
+    from gazelle.nodes.navigation.live import LiveCostmap
+
+__all__ = ["run"]
+
+_NANO = 1_000_000_000
+_RETRIES = 5
+_RETRY_NS = 200_000_000
+_LOOK_NS = 100_000_000
+_WAIT_S = 0.2
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Explore polygons until told to stop."""
+    node = start_node(arguments, graph)
+    tree = nested(node.parameters.get(node.name, {}) or {})
+    tree.update(nested(arguments.params))
+    found = Diagnostics()
+    settings = Settings(EXPLORE_SERVER, tree, node.name, found)
+    area = Area(node, tree, found)
+    settings.report_unknown()
+    log_findings(node, found)
+    explorer = _Explorer(node, settings, area, stop)
+    arguments.ready()
+    try:
+        explorer.work()
+    finally:
+        explorer.close()
+        node.shutdown()
+    return 0
+
+
+class _Explorer:
+    def __init__(self, node: Node, settings: Settings, area: Area, stop: threading.Event) -> None:
+        self._node, self._area, self._stop = node, area, stop
+        self._frequency_hz = settings.number("frequency")
+        self._same_m = settings.number("goal_aliasing") / 2
+        self._goals = SingleGoal(
+            node, node.name.rpartition("/")[2], "frontier_exploration/ExploreTask"
+        )
+        self._services = Services(node, area)
+        self._client = ActionClient(node, "move_base", "move_base_msgs/MoveBase")
+        self._move: ClientGoal | None = None
+        self._to: PlanePose | None = None
+        self._feedback = message_type("frontier_exploration/action/ExploreTask_Feedback")()
+
+    @property
+    def _costmap(self) -> LiveCostmap:
+        return self._area.costmap
+
+    def work(self) -> None:
+        """Take goals until told to stop."""
+        while not self._stop.is_set() and not self._node.closed:
+            if not self._goals.wait(_WAIT_S):
+                continue
+            goal = self._goals.take()
+            if goal is not None:
+                self._explore(goal)
+                self._rest()
+        self._rest()
+
+    def close(self) -> None:
+        """Withdraw everything."""
+        self._goals.close()
+        self._area.close()
+
+    def _explore(self, goal: ServerGoal) -> None:
+        corners = self._services.corners(goal.request.explore_boundary)
+        centre = self._services.place(goal.request.explore_center)
+        while not self._client.is_server_ready:
+            self._costmap.frames.say("warn", "waiting for the action server move_base", "server")
+            if self._is_over(_LOOK_NS):
+                return
+        why = next((one for one in (corners, centre) if isinstance(one, str)), "")
+        if why:
+            self._node.log("error", f"Failed to set region boundary: {why}")
+            self._goals.abort(text=why)
+            return
+        assert not isinstance(corners, str) and not isinstance(centre, str)
+        self._area.limit(corners)
+        self._node.log("info", "Region boundary set")
+        self._drive_around(corners, centre)
+
+    def _drive_around(self, corners: Corners, centre: tuple[float, float]) -> None:
+        """Go from frontier to frontier until there is none."""
+        tries, found_any = _RETRIES, False
+        while True:
+            robot = self._costmap.pose() if self._costmap.is_ready else None
+            to = None if robot is None else self._next(robot, centre, warns=found_any)
+            if to is None:
+                if tries == 0:
+                    self._finish(found_any)
+                    return
+                tries -= robot is not None
+            else:
+                tries, found_any = _RETRIES, True
+                self._send(to)
+            if self._is_over(_RETRY_NS if to is None else self._pause_ns) or self._has_failed():
+                return
+
+    @property
+    def _pause_ns(self) -> int:
+        """How long to wait before looking again, 0 for until the robot has arrived."""
+        return int(_NANO / self._frequency_hz) if self._frequency_hz > 0 else 0
+
+    def _next(
+        self, robot: PlanePose, centre: tuple[float, float], *, warns: bool
+    ) -> PlanePose | None:
+        here = robot[:2]
+        if not self._area.contains(here):
+            if warns:
+                text = "Robot left exploration boundary, returning to center"
+                self._costmap.frames.say("warn", text)
+            return *centre, math.atan2(centre[1] - here[1], centre[0] - here[0])
+        frontiers = self._area.frontiers(here)
+        self._services.show(frontiers)
+        if not frontiers:
+            return None
+        to = self._area.goal(frontiers[0], here)
+        self._fill(self._feedback.next_frontier, to)
+        return to
+
+    def _finish(self, found_any: bool) -> None:
+        if found_any:
+            self._node.log("warn", "Finished exploring room")
+            self._goals.succeed(text="Finished exploring room")
+            return
+        text = "Failed exploration: there is no frontier inside of the boundary that can be reached"
+        self._node.log("error", text)
+        self._goals.abort(text=text)
+
+    def _send(self, to: PlanePose) -> None:
+        """Drive somewhere, unless the robot is on the way there."""
+        is_moving = self._move is not None and not self._move.is_done
+        if is_moving and self._to is not None and math.dist(to[:2], self._to[:2]) <= self._same_m:
+            return
+        target = message_type("geometry_msgs/msg/PoseStamped")()
+        self._fill(target, to)
+        self._to = to
+        self._move = self._client.send_goal(
+            self._client.types.Goal(target_pose=target), on_feedback=self._on_feedback
+        )
+
+    def _has_failed(self) -> bool:
+        """Tell whether move_base gave the goal up, which ends the task."""
+        if self._move is None or not self._move.is_done or self._move.status.name != "ABORTED":
+            return False
+        text = f"Failed to move: {self._move.text}"
+        self._node.log("error", text)
+        self._goals.abort(text=text)
+        return True
+
+    def _is_over(self, pause_ns: int) -> bool:
+        """Wait for a while, or with 0 until the robot stands; True when the task is to end."""
+        clock = self._node.clock
+        until_ns = clock.now_ns() + pause_ns
+        while True:
+            if self._stop.is_set() or self._node.closed or self._goals.should_end:
+                self._end_task()
+                return True
+            is_moving = self._move is not None and not self._move.is_done
+            if clock.now_ns() >= until_ns if pause_ns else not is_moving:
+                return False
+            step_ns = min(until_ns - clock.now_ns(), _LOOK_NS) if pause_ns else _LOOK_NS
+            try:
+                clock.sleep_until(clock.now_ns() + step_ns, self._stop)
+            except TimeJumpError:
+                until_ns = clock.now_ns() + pause_ns
+
+    def _end_task(self) -> None:
+        if self._goals.is_cancelled:
+            self._node.log("warn", "Current exploration task cancelled")
+            self._goals.cancel(text="Current exploration task cancelled")
+
+    def _rest(self) -> None:
+        """Let move_base have nothing to do."""
+        if self._move is not None and not self._move.is_done and not self._node.closed:
+            self._move.cancel()
+        self._move = self._to = None
+
+    def _on_feedback(self, feedback: Any) -> None:
+        self._feedback.base_position = feedback.base_position
+        self._goals.feedback(self._feedback)
+
+    def _fill(self, message: Any, pose: PlanePose) -> None:
+        set_stamp(message, self._node.clock.now_ns(), self._costmap.global_frame)
+        fill_pose(message.pose, tuple(np.asarray(pose, float).tolist()))
