@@ -84,10 +84,10 @@ def _nearest_match(
 
 def _patch(keyframes: Keyframes, head: int) -> NDArray[np.float64]:
     """Return what the last keyframes see, in the frame of the last one."""
-    origin = keyframes.poses[head]
+    near = _along(keyframes, head, -1, _PATCH_M)[:_PATCH_SCANS]
+    seen = between(keyframes.poses[head], keyframes.poses[near])
     parts = [
-        transform_points(between(origin, keyframes.poses[i]), keyframes[i].points_m)
-        for i in _along(keyframes, head, -1, _PATCH_M)[:_PATCH_SCANS]
+        transform_points(pose, keyframes[i].points_m) for i, pose in zip(near, seen, strict=True)
     ]
     return even_points(np.concatenate(parts), _PATCH_CELL_M, _PATCH_POINTS)
 

@@ -11,10 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.pattern import Pattern, pattern_of
 from gazelle.mapping.poses import Poses, wrap_angle
 
 __all__ = ["Residuals", "optimise", "residuals"]
@@ -58,10 +57,10 @@ def optimise(poses: Poses, edges: Edges, *, iterations: int = 10, huber: float =
     poses = poses.copy()
     if not len(edges.tail):
         return poses
-    places = _Places.of(edges, len(poses))
+    pattern = pattern_of(edges, len(poses))
     for iteration in range(iterations):
         tears = 2 * iteration >= max(iterations, _SETTLED)
-        step = _step(poses, edges, places, huber, tears=tears)
+        step = _step(poses, edges, pattern, huber, tears=tears)
         poses += step
         poses[:, 2] = wrap_angle(poses[:, 2])
         if np.abs(step).max() < _CONVERGED and (tears or iterations < _SETTLED):
@@ -69,25 +68,7 @@ def optimise(poses: Poses, edges: Edges, *, iterations: int = 10, huber: float =
     return poses
 
 
-class _Places(NamedTuple):
-    """Where the blocks of edges stand in the matrix: rows, columns, both (16 · m · 9 / 4,)."""
-
-    rows: NDArray[np.int64]
-    columns: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, edges: Edges, count: int) -> _Places:
-        tail, head, three = edges.tail, edges.head, np.arange(3)
-        row = np.concatenate([tail, tail, head, head])[:, None, None] * 3
-        column = np.concatenate([tail, head, tail, head])[:, None, None] * 3
-        shape = (len(row), 3, 3)
-        rows = np.broadcast_to(row + three[:, None], shape).ravel()
-        columns = np.broadcast_to(column + three[None, :], shape).ravel()
-        diagonal = np.arange(3 * count)
-        return cls(np.concatenate([rows, diagonal]), np.concatenate([columns, diagonal]))
-
-
-def _step(poses: Poses, edges: Edges, places: _Places, huber: float, *, tears: bool) -> Poses:
+def _step(poses: Poses, edges: Edges, pattern: Pattern, huber: float, *, tears: bool) -> Poses:
     found = residuals(poses, edges)
     far = edges.is_loop & (found.squared > huber**2)
     weight = np.where(far, huber / np.sqrt(np.maximum(found.squared, 1e-12)), 1.0)
@@ -98,18 +79,18 @@ def _step(poses: Poses, edges: Edges, places: _Places, huber: float, *, tears: b
     weighted = edges.information * weight[:, None, None]
     tail_part = of_tail.transpose(0, 2, 1) @ weighted
     head_part = of_head.transpose(0, 2, 1) @ weighted
-    blocks = (tail_part @ of_tail, tail_part @ of_head, head_part @ of_tail, head_part @ of_head)
-    size = 3 * len(poses)
-    diagonal = np.full(size, _DAMPING)
-    diagonal[:3] = _ANCHOR
-    values = np.concatenate([np.concatenate(blocks).ravel(), diagonal])
-    matrix = csc_matrix((values, places), shape=(size, size))
-    slope = np.zeros_like(poses)
-    np.add.at(slope, edges.tail, np.einsum("mij,mj->mi", tail_part, found.error))
-    np.add.at(slope, edges.head, np.einsum("mij,mj->mi", head_part, found.error))
-    options = {"SymmetricMode": True}
-    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
-    return np.asarray(factors.solve(-slope.ravel())).reshape(-1, 3)
+    diagonal = np.tile(_DAMPING * np.eye(3), (len(poses), 1, 1))
+    diagonal[0] = _ANCHOR * np.eye(3)
+    factors = pattern.factorised(
+        np.concatenate([
+            tail_part @ of_tail, tail_part @ of_head, head_part @ of_tail, head_part @ of_head,
+            diagonal,
+        ])
+    )  # fmt: skip
+    slope, rank = np.zeros_like(poses), pattern.rank
+    np.add.at(slope, rank[edges.tail], np.einsum("mij,mj->mi", tail_part, found.error))
+    np.add.at(slope, rank[edges.head], np.einsum("mij,mj->mi", head_part, found.error))
+    return np.asarray(factors.solve(-slope.ravel())).reshape(-1, 3)[rank]
 
 
 def _errors(poses: Poses, edges: Edges) -> NDArray[np.float64]:
