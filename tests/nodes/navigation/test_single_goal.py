@@ -72,6 +72,34 @@ def test_cancelling_is_seen_and_answered(bench, pair) -> None:
     assert goal.status.name in ("PREEMPTED", "CANCELED")
 
 
+def test_goal_that_waits_is_cancelled_without_an_error(bench, pair) -> None:
+    """Trees of Nav2 halt as soon as they have sent a goal."""
+    server, client = pair
+    said = bench.listen("/rosout", "rosgraph_msgs/msg/Log")
+    goal = client.send_goal()
+    assert server.wait(10.0)
+    goal.cancel()
+    if server.take() is not None:  # ROS 2: it is canceling until somebody ends it
+        bench.eventually(lambda: server.is_cancelled)
+        server.cancel()
+    bench.eventually(lambda: goal.is_done)
+    assert goal.status.name in ("RECALLED", "PREEMPTED", "CANCELED")
+    assert not [one.msg for one in said if one.level >= 8]
+
+
+def test_cancelled_goal_that_waits_makes_room_for_a_newer_one(bench, pair) -> None:
+    server, client = pair
+    first = client.send_goal()
+    assert server.wait(10.0)
+    first.cancel()
+    second = client.send_goal()
+    bench.eventually(lambda: first.is_done)
+    bench.eventually(lambda: server.take() or server.current)
+    server.succeed()
+    bench.eventually(lambda: second.is_done)
+    assert second.status.name == "SUCCEEDED"
+
+
 def test_goals_are_refused_for_a_reason(bench, pair) -> None:
     server, client = pair
     server.refuse("the navigator is not active")

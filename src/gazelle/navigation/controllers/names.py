@@ -79,7 +79,7 @@ def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
     options = replace(options, vy_samples=max(options.vy_samples, 1))
     # LimitedAccelGenerator tries what one period reaches, the standard one what sim_time does.
     holds = "LimitedAccel" in options.trajectory_generator_name
-    profile = replace(dwb_profile(options, critics), holds=holds)
+    profile = replace(dwb_profile(options, critics), holds=holds, arrives=False)
     return SamplingController(profile, setting.period_s)
 
 

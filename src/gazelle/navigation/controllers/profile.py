@@ -34,6 +34,7 @@ class Profile:
         sim_time_s: duration of trajectories.
         step_m, step_rad: between points of a trajectory; with step_m 0 step_rad is seconds.
         holds: trajectories hold a velocity that is reached within one period.
+        arrives: trajectories that do not are no faster than what gets to the goal in their time.
         path, goal, nose_goal, nose_path: weights of distances.
         per_resolution: these weights are multiplied by so many times the resolution; 0 for not.
         obstacles, turning, backwards: weights.
@@ -79,6 +80,7 @@ class Profile:
     outlined: bool = True
     sums: bool = False
     holds: bool = True
+    arrives: bool = True
     latches: bool = False
     growth_from_m_s: float = math.inf
     growth: float = 0.0

@@ -144,7 +144,7 @@ class SamplingController:
         span_s = self._period_s if p.holds else p.sim_time_s
         low = np.maximum(p.low, now - np.array(p.deceleration) * span_s)
         high = np.minimum(p.high, now + np.array(p.acceleration) * span_s)
-        if not p.holds and self._plan is not None:
+        if not p.holds and p.arrives and self._plan is not None:
             goal = self._plan.goal
             left = math.hypot(goal[0] - state.pose[0], goal[1] - state.pose[1]) / p.sim_time_s
             high[:2] = np.maximum(np.minimum(high[:2], left), low[:2])

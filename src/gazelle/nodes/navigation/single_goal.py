@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from typing import TYPE_CHECKING, Any, Literal
 
-from gazelle.graph.actions import ActionServer, LocalGoal, ServerGoal
+from gazelle.graph.actions import ActionServer, GoalStateError, LocalGoal, ServerGoal
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -94,7 +95,9 @@ class SingleGoal:
         if self._generation == 1:
             goal.accept(_ACCEPTED)
         elif not goal.status.is_terminal and not goal.is_cancel_requested:
-            goal.execute()
+            # Cancelled between the two: whoever works on it sees that.
+            with contextlib.suppress(GoalStateError):
+                goal.execute()
         return goal
 
     def feedback(self, feedback: Any) -> None:
@@ -145,19 +148,20 @@ class SingleGoal:
             self._changed.notify_all()
         if before is not None:
             # It was never begun.
-            if self._generation == 1:
+            if self._generation == 1 or before.is_cancel_requested:
                 before.cancel(text=_REPLACED)
             else:
                 before.execute()
                 before.abort(text=_REPLACED)
 
     def _on_cancel(self, goal: ServerGoal) -> bool:
+        if self._generation == 2:
+            # It is not cancelled before this returns; whoever takes it sees that it is to end.
+            return True
         with self._changed:
             waits = self._next is goal
             if waits:
                 self._next = None
-        if waits and self._generation == 1:
+        if waits:
             goal.cancel(text="")
-        elif waits:
-            goal.cancel()
         return True
