@@ -63,3 +63,12 @@ def test_values_that_are_none_are_errors_of_the_yaml(text: str) -> None:
     except yaml.YAMLError:
         return
     assert text == "="
+
+
+def test_a_tab_is_called_a_tab() -> None:
+    with pytest.raises(yaml.YAMLError) as caught:
+        load_yaml("a:\n\tb: 1\n")
+    assert (
+        "found character '\\t' that cannot start any token: this is a tab, YAML is indented with"
+        " spaces" in str(caught.value)
+    )

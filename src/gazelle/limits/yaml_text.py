@@ -33,6 +33,15 @@ class LimitedLoader(yaml.SafeLoader):
         self._depth = 0
         super().__init__(stream)
 
+    def fetch_more_tokens(self) -> None:
+        """Scan on; a tab is called one."""
+        try:
+            super().fetch_more_tokens()
+        except yaml.MarkedYAMLError as error:
+            if "'\\t'" in (error.problem or ""):
+                error.problem = f"{error.problem}: this is a tab, YAML is indented with spaces"
+            raise
+
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose a node unless it is nested too deep."""
         self._depth += 1

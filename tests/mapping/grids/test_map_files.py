@@ -185,6 +185,12 @@ def test_all_bad_values_are_told_at_once(tmp_path: Path) -> None:
     assert len(found.by_code("map.bad-value")) == 6
 
 
+def test_a_missing_picture_is_told_beside_bad_values(tmp_path: Path) -> None:
+    found = _findings(tmp_path, _YAML.replace("resolution: 0.05", "resolution: 0"))
+    assert "'resolution' is 0 m" in found["map.bad-value"]
+    assert "there is no such file" in found["map.no-image"]
+
+
 def test_a_resolution_in_centimetres_is_told(tmp_path: Path) -> None:
     (tmp_path / "map.pgm").write_bytes(b"P5\n1 1\n255\n\0")
     text = _findings(tmp_path, _YAML.replace("0.05", "50"))["map.odd-resolution"]

@@ -14,7 +14,7 @@ from gazelle.limits import read_text_limited
 from gazelle.limits.yaml_text import LimitedLoader
 from gazelle.mapping.grids.pixels import MapMode
 
-__all__ = ["MapFile", "read_map_file"]
+__all__ = ["MapFile", "read_map_file", "report_missing_image"]
 
 _KEYS = ("image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _NEEDED = tuple(key for key in _KEYS if key != "mode")
@@ -71,7 +71,19 @@ def read_map_file(path: Path | str, diagnostics: Diagnostics) -> MapFile | None:
         image_span=reader.span("image"),
     )
     reader.check_values(found)
-    return None if reader.failed else found
+    if reader.failed:
+        # Otherwise whoever reads the picture tells of it.
+        reader.check_image(found)
+        return None
+    return found
+
+
+def report_missing_image(path: Path, span: SourceSpan | None, diagnostics: Diagnostics) -> None:
+    """Tell that a map's picture is not there, and which one has nearly its name."""
+    folder = path.parent
+    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+    text = f'failed to open image file "{path}": there is no such file'
+    diagnostics.report("map.no-image", text, span, fix=did_you_mean(path.name, there))
 
 
 def _entries(path: Path, diagnostics: Diagnostics) -> dict[str, tuple[Any, SourceSpan]] | None:
@@ -177,6 +189,11 @@ class _Reader:
             self._wrong("image", f"'image' is {value!r}, not the name of a picture")
             return self._path
         return self._path.parent / Path(value).expanduser()
+
+    def check_image(self, found: MapFile) -> None:
+        """Tell of a picture that is not there."""
+        if "image" in self._entries and not found.image.exists():
+            report_missing_image(found.image, found.image_span, self._diagnostics)
 
     def check_values(self, found: MapFile) -> None:
         """Tell of values that a map cannot have."""

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.diagnostics import Diagnostics
 from gazelle.limits import read_limited
 from gazelle.mapping.grids.grid import OccupancyGrid
-from gazelle.mapping.grids.map_file import MapFile, read_map_file
+from gazelle.mapping.grids.map_file import MapFile, read_map_file, report_missing_image
 from gazelle.mapping.grids.pixels import cells_of_pixels
 
 __all__ = ["read_map", "read_map_image"]
@@ -66,7 +66,7 @@ def _pixels(described: MapFile, diagnostics: Diagnostics) -> NDArray[np.uint8] |
     except UnidentifiedImageError:
         problem = "it is no picture"
     except FileNotFoundError:
-        _report_missing(path, span, diagnostics)
+        report_missing_image(path, span, diagnostics)
         return None
     except Image.DecompressionBombError as error:
         problem = str(error)
@@ -88,11 +88,3 @@ def _channels(picture: object) -> NDArray[np.uint8]:
     wanted = "L" if grey else "RGBA" if transparent else "RGB"
     pixels = np.asarray(picture.convert(wanted), np.uint8)
     return pixels[..., None] if pixels.ndim == 2 else pixels
-
-
-def _report_missing(path: Path, span: SourceSpan | None, diagnostics: Diagnostics) -> None:
-    folder = path.parent
-    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
-    fix = did_you_mean(path.name, there)
-    text = f'failed to open image file "{path}": there is no such file'
-    diagnostics.report("map.no-image", text, span, fix=fix)
