@@ -58,12 +58,13 @@ def sliding(level, step, out):
     height, width = level.shape
     higher = np.empty(width, np.uint8)
     inner = max(0, width - step)
+    shifted = higher[step:]
     for y in range(height):
         low, high, row = level[y], level[min(y + step, height - 1)], out[y]
         for x in range(width):
             higher[x] = low[x] if low[x] > high[x] else high[x]
         for x in range(inner):
-            row[x] = higher[x] if higher[x] > higher[x + step] else higher[x + step]
+            row[x] = higher[x] if higher[x] > shifted[x] else shifted[x]
         for x in range(inner, width):
             row[x] = max(higher[x], higher[width - 1])
 
