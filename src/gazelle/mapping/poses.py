@@ -23,10 +23,11 @@ def compose(first: ArrayLike, second: ArrayLike) -> Poses:
     """Return ``first ⊕ second``."""
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
-    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    turn = wrap_angle(a[..., 2] + b[..., 2])
+    out = np.empty((*turn.shape, 3))
     out[..., 0] = a[..., 0] + cos * b[..., 0] - sin * b[..., 1]
     out[..., 1] = a[..., 1] + sin * b[..., 0] + cos * b[..., 1]
-    out[..., 2] = wrap_angle(a[..., 2] + b[..., 2])
+    out[..., 2] = turn
     return out
 
 
@@ -35,10 +36,11 @@ def between(first: ArrayLike, second: ArrayLike) -> Poses:
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
     dx, dy = b[..., 0] - a[..., 0], b[..., 1] - a[..., 1]
-    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    turn = wrap_angle(b[..., 2] - a[..., 2])
+    out = np.empty((*turn.shape, 3))
     out[..., 0] = cos * dx + sin * dy
     out[..., 1] = cos * dy - sin * dx
-    out[..., 2] = wrap_angle(b[..., 2] - a[..., 2])
+    out[..., 2] = turn
     return out
 
 

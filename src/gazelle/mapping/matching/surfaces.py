@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.scans import Scan
-
 __all__ = ["dense_surface", "even_points"]
 
 _SAME_SURFACE_M = 0.3
@@ -29,28 +27,32 @@ def even_points(points_m: NDArray[np.float64], cell_m: float, most: int) -> NDAr
     return np.ascontiguousarray(kept)
 
 
-def dense_surface(scan: Scan, max_range_m: float, spacing_m: float) -> NDArray[np.float64]:
+def dense_surface(
+    points_m: NDArray[np.float64], beams: NDArray[np.int64], spacing_m: float
+) -> NDArray[np.float64]:
     """Return what the beams met and the surfaces between neighbouring beams, shape (m, 2).
 
     Beams that graze a wall meet it at points far from each other, at the same places in every
     scan from along the wall: matching would stick to them. Points nearer than 0.3 m are one
     surface; up to 1.2 m if they continue a straight line.
+
+    Args:
+        points_m: what was met, (n, 2).
+        beams: which beam met each, ascending.
+        spacing_m: of points on surfaces.
     """
-    keep = scan.hits(max_range_m)
-    points = scan.points(max_range_m)
-    if len(points) < 3:
-        return points
-    beams = np.flatnonzero(keep)
+    if len(points_m) < 3:
+        return points_m
     neighbours = np.diff(beams) == 1
-    steps = np.diff(points, axis=0)
+    steps = np.diff(points_m, axis=0)
     gaps = np.hypot(steps[:, 0], steps[:, 1])
     straight = _straight(steps, gaps, neighbours)
     joined = neighbours & ((gaps < _SAME_SURFACE_M) | ((gaps < _STRAIGHT_GAP_M) & straight))
     counts = np.where(joined, np.floor(gaps / spacing_m).astype(int), 0)
     segment = np.repeat(np.arange(len(steps)), counts)
     place = np.arange(len(segment)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
-    between = points[segment] + steps[segment] * (place / (counts[segment] + 1))[:, None]
-    return np.concatenate([points, between])
+    between = points_m[segment] + steps[segment] * (place / (counts[segment] + 1))[:, None]
+    return np.concatenate([points_m, between])
 
 
 def _straight(

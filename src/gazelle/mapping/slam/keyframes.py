@@ -58,8 +58,10 @@ def keyframe_of(scan: Scan, parameters: SlamParameters, way_m: float) -> Keyfram
     # Walls go on behind the end of sight, where earlier scans did not see them: to match what lies
     # there would pull every scan back to the last ones.
     sure_m = limit_m - min(_UNSEEN_M, _UNSEEN_SHARE * limit_m)
-    points = even_points(scan.points(sure_m), parameters.cell_m, _MOST_POINTS)
-    surface = dense_surface(scan, parameters.max_range_m, parameters.cell_m)
+    hits, met = scan.hits(parameters.max_range_m), scan.points(parameters.max_range_m)
+    sure = met[scan.ranges_m[hits] <= sure_m]
+    points = even_points(sure, parameters.cell_m, _MOST_POINTS)
+    surface = dense_surface(met, np.flatnonzero(hits), parameters.cell_m)
     ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
     return Keyframe(scan, points, surface, ranges, way_m, parameters.max_range_m)
 
