@@ -90,9 +90,16 @@ class Area:
         return sorted(found, key=lambda one: one.distance_m)
 
     def goal(self, frontier: Frontier, robot_m: tuple[float, float]) -> PlanePose:
-        """Return where to go for a frontier, looking away from the robot."""
-        to = frontier.centroid_m if self._travels_to == "centroid" else frontier.nearest_m
-        return *to, math.atan2(to[1] - robot_m[1], to[0] - robot_m[0])
+        """Return where to go for a frontier: the free place next to it, looking away from here."""
+        x, y = frontier.centroid_m if self._travels_to == "centroid" else frontier.nearest_m
+        with self.costmap.lock:
+            grid = self._limited(self.costmap.grid)
+        rows, columns = np.nonzero((grid.cells >= 0) & (grid.cells < _FREE_BELOW))
+        if len(rows):
+            u, v = grid.cell_to_world(columns, rows)
+            nearest = int(np.hypot(u - x, v - y).argmin())
+            x, y = float(u[nearest]), float(v[nearest])
+        return x, y, math.atan2(y - robot_m[1], x - robot_m[0])
 
     def close(self) -> None:
         """Stop listening."""

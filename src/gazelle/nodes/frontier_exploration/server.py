@@ -12,6 +12,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.actions import ActionClient, ClientGoal, ServerGoal
 from gazelle.interfaces import message_type
+from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.frontier_exploration.area import Area, Corners
 from gazelle.nodes.frontier_exploration.services import Services
@@ -32,6 +33,7 @@ _RETRIES = 5
 _RETRY_NS = 200_000_000
 _LOOK_NS = 100_000_000
 _WAIT_S = 0.2
+_SAME_M = 0.3
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -66,6 +68,9 @@ class _Explorer:
         self._client = ActionClient(node, "move_base", "move_base_msgs/MoveBase")
         self._move: ClientGoal | None = None
         self._to: PlanePose | None = None
+        self._frontier: tuple[float, float] | None = None
+        self._left_out: list[tuple[float, float]] = []
+        self._failures = 0
         self._feedback = message_type("frontier_exploration/action/ExploreTask_Feedback")()
 
     @property
@@ -102,24 +107,25 @@ class _Explorer:
             return
         assert not isinstance(corners, str) and not isinstance(centre, str)
         self._area.limit(corners)
+        self._left_out, self._failures = [], 0
         self._node.log("info", "Region boundary set")
         self._drive_around(corners, centre)
 
     def _drive_around(self, corners: Corners, centre: tuple[float, float]) -> None:
         """Go from frontier to frontier until there is none."""
-        tries, found_any = _RETRIES, False
+        tries, driven = _RETRIES, 0
         while True:
             robot = self._costmap.pose() if self._costmap.is_ready else None
-            to = None if robot is None else self._next(robot, centre, warns=found_any)
+            to = None if robot is None else self._next(robot, centre, warns=driven > 0)
             if to is None:
                 if tries == 0:
-                    self._finish(found_any)
+                    self._finish(driven)
                     return
                 tries -= robot is not None
             else:
-                tries, found_any = _RETRIES, True
-                self._send(to)
-            if self._is_over(_RETRY_NS if to is None else self._pause_ns) or self._has_failed():
+                tries = _RETRIES
+                driven += self._send(to) and self._frontier is not None
+            if self._is_over(_RETRY_NS if to is None else self._pause_ns) or self._gives_up():
                 return
 
     @property
@@ -130,49 +136,71 @@ class _Explorer:
     def _next(
         self, robot: PlanePose, centre: tuple[float, float], *, warns: bool
     ) -> PlanePose | None:
-        here = robot[:2]
+        here, self._frontier = robot[:2], None
         if not self._area.contains(here):
             if warns:
                 text = "Robot left exploration boundary, returning to center"
                 self._costmap.frames.say("warn", text)
             return *centre, math.atan2(centre[1] - here[1], centre[0] - here[0])
-        frontiers = self._area.frontiers(here)
+        frontiers = [one for one in self._area.frontiers(here) if not self._is_left_out(one)]
         self._services.show(frontiers)
         if not frontiers:
             return None
+        self._frontier = frontiers[0].nearest_m
         to = self._area.goal(frontiers[0], here)
         self._fill(self._feedback.next_frontier, to)
         return to
 
-    def _finish(self, found_any: bool) -> None:
-        if found_any:
+    def _finish(self, driven: int) -> None:
+        """End the task; `driven` counts the frontiers that were driven to."""
+        if driven > self._failures:
             self._node.log("warn", "Finished exploring room")
             self._goals.succeed(text="Finished exploring room")
             return
-        text = "Failed exploration: there is no frontier inside of the boundary that can be reached"
+        count = len(self._left_out)
+        text = (
+            f"Failed exploration: none of {count} frontiers inside of the boundary can be reached"
+        )
         self._node.log("error", text)
         self._goals.abort(text=text)
 
-    def _send(self, to: PlanePose) -> None:
-        """Drive somewhere, unless the robot is on the way there."""
+    def _send(self, to: PlanePose) -> bool:
+        """Drive somewhere; False when the robot is on the way there already."""
         is_moving = self._move is not None and not self._move.is_done
         if is_moving and self._to is not None and math.dist(to[:2], self._to[:2]) <= self._same_m:
-            return
+            return False
         target = message_type("geometry_msgs/msg/PoseStamped")()
         self._fill(target, to)
         self._to = to
         self._move = self._client.send_goal(
             self._client.types.Goal(target_pose=target), on_feedback=self._on_feedback
         )
-
-    def _has_failed(self) -> bool:
-        """Tell whether move_base gave the goal up, which ends the task."""
-        if self._move is None or not self._move.is_done or self._move.status.name != "ABORTED":
-            return False
-        text = f"Failed to move: {self._move.text}"
-        self._node.log("error", text)
-        self._goals.abort(text=text)
         return True
+
+    def _is_left_out(self, frontier: Frontier) -> bool:
+        return any(math.dist(frontier.nearest_m, other) < _SAME_M for other in self._left_out)
+
+    def _gives_up(self) -> bool:
+        """Leave out a frontier that move_base is done with; True when the task ends.
+
+        One that is still there after the robot stood at it will not go away. The original ends its
+        task with the first goal that move_base gives up; here only one at the centre does that.
+        """
+        if self._move is None or self._move.status.name not in ("ABORTED", "SUCCEEDED"):
+            return False
+        failed, why, self._move = self._move.status.name == "ABORTED", self._move.text, None
+        if self._frontier is not None:
+            self._left_out.append(self._frontier)
+            self._failures += failed
+            if failed:
+                x, y = self._frontier
+                self._node.log("warn", f"the frontier at ({x:.2f}, {y:.2f}) is left out: {why}")
+        elif failed:
+            text = f"Failed to move: {why}"
+            self._node.log("error", text)
+            self._goals.abort(text=text)
+            return True
+        return False
 
     def _is_over(self, pause_ns: int) -> bool:
         """Wait for a while, or with 0 until the robot stands; True when the task is to end."""
