@@ -22,7 +22,8 @@ _INTRODUCTION = (
 def page() -> str:
     """Return the page."""
     tables = [one.table for one in FLAVOURS.values()]
-    return "\n\n".join([_INTRODUCTION, *map(section, [*tables, EXPLORE, EXPLORE_SERVER, BOUNDED_EXPLORE])]) + "\n"
+    tables += [EXPLORE, EXPLORE_SERVER, BOUNDED_EXPLORE]
+    return "\n\n".join([_INTRODUCTION, *map(section, tables)]) + "\n"
 
 
 if __name__ == "__main__":
