@@ -150,7 +150,7 @@ def test_debug_tells_of_every_event(here: Callable[..., Ran]) -> None:
     ("words", "message"),
     [
         (["bringupp", "say.launch.py"], "Package 'bringupp' not found: package 'bringupp' not"),
-        (["bringupp", "say.launch.py"], "did you mean 'bringup'?"),
+        (["bringupp", "say.launch.py"], "did you mean 'bringup'"),
         (["bringup", "sai.launch.py"], "file 'sai.launch.py' was not found in the share direct"),
         (["bringup", "sai.launch.py"], "did you mean 'say.launch.py'"),
         (["bringup", "launch/say.launch.py"], "fix: ros2 launch bringup say.launch.py"),

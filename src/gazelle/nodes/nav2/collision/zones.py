@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.mapping.boundary import are_inside
+
 __all__ = ["Action", "Band", "Points", "Velocity", "Verdict", "Zone", "guarded"]
 
 Points = NDArray[np.float64]
@@ -105,7 +107,7 @@ class Zone:
         """Return how many points are inside."""
         if self.radius_m is not None:
             return int((np.hypot(points[:, 0], points[:, 1]) < self.radius_m).sum())
-        return 0 if self.outline is None else int(_inside(points, self.outline).sum())
+        return 0 if self.outline is None else int(are_inside(points, self.outline).sum())
 
     def corners(self) -> Points:
         """Return the outline to show; a circle as 16 corners."""
@@ -201,15 +203,3 @@ def _share(zone: Zone, points: Points, command: Velocity) -> float | None:
 
 def _amount(velocity: Velocity) -> float:
     return sum(value * value for value in velocity)
-
-
-def _inside(points: Points, outline: Points) -> NDArray[np.bool_]:
-    """Tell which points are in a polygon, by how often a line to the right leaves it."""
-    x, y = points[:, :1], points[:, 1:]
-    x1, y1 = outline[:, 0], outline[:, 1]
-    x2, y2 = np.roll(x1, -1), np.roll(y1, -1)
-    crosses = (y1 > y) != (y2 > y)
-    height = np.where(y2 == y1, 1.0, y2 - y1)
-    at = (x2 - x1) * (y - y1) / height + x1
-    odd: NDArray[np.bool_] = (crosses & (x < at)).sum(axis=1) % 2 == 1
-    return odd
