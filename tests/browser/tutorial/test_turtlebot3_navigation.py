@@ -19,9 +19,10 @@ pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
 # The page draws in software beside a simulation in real time: on a busy machine all of it is slow.
 _PATIENCE_S = 240.0
-# Where turtlebot3_world.launch puts the robot, and so the map's origin in the world.
+# Where turtlebot3_world.launch puts the robot; its odometry counts from the world's origin, and so
+# gmapping's map does.
 _START = np.array([-2.0, -0.5])
-_GOAL = np.array([0.0, 1.0])
+_GOAL = _START + np.array([0.0, 1.0])
 
 
 @pytest.fixture
@@ -37,7 +38,7 @@ def world(session: Callable[..., Session], workspaces_dir: Path) -> Session:
 
 
 class _Burger:
-    """The robot as the simulation knows it, in the map's frame."""
+    """The robot as the simulation knows it, in the world's frame, which is the map's."""
 
     def __init__(self, session: Session) -> None:
         self._first = session.first
@@ -48,7 +49,7 @@ class _Burger:
         found = self._first.call(
             "/gazebo/get_model_state", kind, model_name="turtlebot3_burger"
         ).pose
-        x, y = np.array([found.position.x, found.position.y]) - _START
+        x, y = found.position.x, found.position.y
         return x, y, 2 * math.atan2(found.orientation.z, found.orientation.w)
 
     def is_at(self, place: Any, within_m: float) -> bool:
@@ -106,7 +107,7 @@ def _maps(world: Session, burger: _Burger, look: Any, folder: Path) -> Path:
         field = steering.get_by_label(f"Largest {label}")
         field.fill(most)
         field.press("Enter")
-    _hold(rviz, world, "w", lambda: burger.pose()[0] > 0.3)
+    _hold(rviz, world, "w", lambda: burger.pose()[0] > _START[0] + 0.3)
     _hold(rviz, world, "a", lambda: burger.pose()[2] > 1.0)
     _patiently(rviz, world, lambda: known() > first + 100)
     seen.shot("grown")
