@@ -38,6 +38,7 @@ _PILLAR = (0.0, 0.0, 0.0)
 _KIDNAPPED_TO = (0.55, -0.55, 1.0)
 _SEARCH_UPDATES = 60
 _FOR_KEYS = 2.0
+_MAP_PATIENCE_S = 120.0
 _RELOCALISED_M, _RELOCALISED_RAD = 0.2, 0.2
 
 
@@ -83,6 +84,10 @@ class Report:
 def drive_and_map(session: Session, home: Path) -> OccupancyGrid:
     """Drive through the world by keyboard and save what SLAM makes of it (T8, T9)."""
     slam = session.launch("turtlebot3_slam", "turtlebot3_slam.launch", "slam_methods:=gmapping")
+    maps: list[Any] = []
+    session.world.node.create_subscription("/map", "nav_msgs/msg/OccupancyGrid", maps.append)
+    # A person drives when RViz shows a map.
+    session.world.eventually(lambda: maps, _MAP_PATIENCE_S)
     driver = KeyDriver(session)
     # Who looks late at a robot three times too fast bumps into things.
     with session.no_faster_than(_FOR_KEYS):

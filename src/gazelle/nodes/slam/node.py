@@ -12,6 +12,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
 from gazelle.mapping.poses import Poses
+from gazelle.mapping.slam.warming import warm_up
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.map_server.server import log_findings
@@ -90,6 +91,7 @@ def _run(flavour: Flavour, arguments: NodeArguments, graph: Graph, stop: threadi
     options = _options(flavour, arguments, node)
     mapper = Mapper(node, options)
     _offer(node, mapper, flavour, options)
+    warm_up(lambda text: node.log("info", text))
     mapper.listen()
     done = threading.Event()
     workers = [threading.Thread(target=_draw, args=(node, mapper, done), daemon=True)]
