@@ -235,6 +235,20 @@ def test_an_unknown_travel_point_is_told(
     bench.eventually(is_told)
 
 
+def test_a_value_that_is_no_number_is_told(bench: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    World(bench)
+    values = {"explore_costmap": _COSTMAP, "goal_aliasing": "near"}
+    bench.graph.parameters.set("/explore_server", values)
+    bench.start("frontier_exploration/explore_server")
+    said: list[str] = []
+
+    def is_told() -> bool:
+        said.extend(capfd.readouterr())
+        return "'goal_aliasing' is 'near'" in "".join(said)
+
+    bench.eventually(is_told)
+
+
 class Clicks:
     """RViz's tool Publish Point."""
 

@@ -44,9 +44,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     found = Diagnostics()
     settings = Settings(EXPLORE_SERVER, tree, node.name, found)
     area = Area(node, tree, found)
+    explorer = _Explorer(node, settings, area, stop)
     settings.report_unknown()
     log_findings(node, found)
-    explorer = _Explorer(node, settings, area, stop)
     arguments.ready()
     try:
         explorer.work()
