@@ -106,7 +106,7 @@ def test_missing_model_lists_where_it_was_looked_for_and_the_world_goes_on(
     world = package / "some.world"
     world.write_text(
         '<sdf version="1.6"><world name="w">\n'
-        "  <include><uri>model://cafe_table</uri></include>\n"
+        "  <include><uri>model://tablet</uri></include>\n"
         "  <include><uri>model://ground_plane</uri></include>\n</world></sdf>",
         encoding="utf-8",
     )
@@ -118,8 +118,8 @@ def test_missing_model_lists_where_it_was_looked_for_and_the_world_goes_on(
     )  # fmt: skip
     run.wait_for_line("Finished loading Gazebo ROS API Plugin")
     line = _only(run.lines, "sdf.missing-model")
-    assert line.startswith(f"{world}:2:12: warning: included model 'model://cafe_table' not found")
-    assert f"    {models / 'cafe_table'}" in run.lines
+    assert line.startswith(f"{world}:2:12: warning: included model 'model://tablet' not found")
+    assert f"    {models / 'tablet'}" in run.lines
     answer = run.call("/gazebo/get_world_properties", "gazebo_msgs/srv/GetWorldProperties")
     assert answer.model_names == ["ground_plane"]
 

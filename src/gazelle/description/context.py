@@ -66,6 +66,8 @@ class ReadContext:
             return
         if found.is_off_path:
             self.diagnostics.report("load.off-path", f"'{uri}' was {found.note}", span)
+        elif found.is_stand_in:
+            self.diagnostics.report("load.stand-in", f"'{uri}': {found.note}", span)
         else:
             self.diagnostics.report(code, f"'{uri}': {found.note}", span)
 

@@ -88,10 +88,11 @@ def world_from(
     text = os.fspath(source)
     path = Path(text)
     if not is_file(path):
-        named = text if text.endswith((".world", ".sdf")) else f"worlds/{text}.world"
-        found = workspace.world_file(named)
+        found = workspace.world_file(text)
         if found.path is None:
-            raise NotFoundError("world", text, searched=found.tried, nearest=found.nearest)
+            raise NotFoundError(
+                "world", text, searched=found.tried, nearest=found.nearest, hint=found.note
+            )
         path = found.path
     return load_world(path, workspace=workspace, diagnostics=diagnostics)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from gazelle.limits.names import is_file
 
 __all__ = [
+    "folded",
     "folders_around",
     "fuel_model",
     "fuel_models",
@@ -19,6 +20,11 @@ __all__ = [
 
 _FILES = ("model.config", "manifest.xml", "model.sdf")
 _LEVELS = 4
+
+
+def folded(name: str) -> str:
+    """Return a model's name as folders have it: Fuel's "Ground Plane" is ``ground_plane``."""
+    return "_".join(name.casefold().replace("-", " ").replace("_", " ").split())
 
 
 def is_model_folder(folder: Path) -> bool:

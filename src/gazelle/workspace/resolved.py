@@ -38,6 +38,7 @@ class Resolved:
             (the package is unknown …); empty when there is nothing to say.
         is_off_path: it was found near the file that names it, in a folder that no search path
             names; Gazebo would need one.
+        is_stand_in: another model of this name is used in place of the one that was meant.
     """
 
     path: Path | None
@@ -45,6 +46,7 @@ class Resolved:
     nearest: tuple[str, ...] = ()
     note: str = ""
     is_off_path: bool = False
+    is_stand_in: bool = False
 
     def explain(self, uri: str) -> str:
         """Return a message for a URI that leads nowhere: reason, nearest names, places."""

@@ -12,8 +12,10 @@ from urllib.parse import unquote
 
 from gazelle.diagnostics import nearest_names
 from gazelle.limits.names import is_file, is_folder
-from gazelle.workspace.models import folders_around, fuel_model, is_model_folder
+from gazelle.workspace.models import folded, folders_around, fuel_model, is_model_folder
+from gazelle.workspace.originals import original_models, original_worlds
 from gazelle.workspace.resolved import Resolved, locate, nearest_below, nearest_packages
+from gazelle.workspace.search_path import BUILTIN
 
 if TYPE_CHECKING:
     from gazelle.workspace.workspace import Workspace
@@ -22,7 +24,8 @@ __all__ = ["resolve", "resolve_world"]
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+)://(.*)|(file):(.*)", re.DOTALL)
 _FIND = re.compile(r"\$\(find(?:-pkg-share)?\s+([^)\s]+)\s*\)/?(.*)", re.DOTALL)
-_FUEL = re.compile(r"[^/]+/(?:[0-9.]+/)?([^/]+)/models/([^/]+)/?(.*)", re.DOTALL)
+_FUEL = re.compile(r"[^/]+/(?:[0-9.]+/)?([^/]+)/(models|worlds)/([^/]+)/?(.*)", re.DOTALL)
+_VERSION = re.compile(r"/(?:tip|\d+)/?$|/$")
 
 
 def resolve(workspace: Workspace, uri: str, base_dir: Path | None) -> Resolved:
@@ -57,6 +60,9 @@ def resolve_world(workspace: Workspace, name: str, base_dir: Path | None) -> Res
     worlds = {
         path.name for base in bases for path in sorted((base / "worlds").glob("*")) if is_file(path)
     }
+    original = original_worlds().get(Path(name).name)
+    if original is not None and not original.is_here:
+        return Resolved(None, tuple(dict.fromkeys(tried)), note=original.advice)
     return Resolved(
         None, tuple(dict.fromkeys(tried)), nearest_names(Path(name).name, sorted(worlds))
     )
@@ -114,6 +120,7 @@ def _in_model(workspace: Workspace, name: str, inside: str, base_dir: Path | Non
             return Resolved(path, tuple(tried), note=note)
     return (
         _off_the_path(workspace, name, inside, base_dir)
+        or _stand_in(name, inside, tried)
         or _case_differs(workspace, name, inside, tried)
         or _no_model(workspace, name, inside, tried, base_dir)
     )
@@ -121,15 +128,33 @@ def _in_model(workspace: Workspace, name: str, inside: str, base_dir: Path | Non
 
 def _model_candidates(workspace: Workspace, name: str) -> Iterable[Path]:
     for folder in workspace.model_folders:
-        yield folder / name
+        if not _is_stand_in(folder / name):
+            yield folder / name
     cached = workspace.models.get(name)
-    if cached is not None:
+    if cached is not None and not _is_stand_in(cached):
         yield cached
     # gazebo_ros puts the parents of packages on Gazebo's model path, so that URDFs' package://
     # addresses work as model:// ones.
     package = workspace.packages.get(name)
     if package is not None:
         yield package.path
+
+
+def _is_stand_in(folder: Path) -> bool:
+    """Tell whether shapes of ours stand for a model that the user may have elsewhere."""
+    if folder.parent != BUILTIN / "models":
+        return False
+    original = original_models().get(folder.name)
+    return original is not None and original.is_here and not original.is_alike
+
+
+def _stand_in(name: str, inside: str, tried: list[str]) -> Resolved | None:
+    folder = BUILTIN / "models" / name
+    path, _note = locate(folder, inside) if _is_stand_in(folder) else (None, "")
+    if path is None:
+        return None
+    note = f"plain shapes of Gazelle's own stand in for Gazebo's model '{name}'"
+    return Resolved(path, tuple(tried), note=note, is_stand_in=True)
 
 
 def _off_the_path(
@@ -157,11 +182,14 @@ def _folder_off_the_path(workspace: Workspace, name: str, base_dir: Path | None)
 def _case_differs(
     workspace: Workspace, name: str, inside: str, tried: list[str]
 ) -> Resolved | None:
-    same = [item for item in workspace.models if item.casefold() == name.casefold()]
+    same = [item for item in workspace.models if folded(item) == folded(name)]
     for item in same:
         path, note = locate(workspace.models[item], inside)
         if path is not None and item != name:
-            text = f"upper and lower case differ: the model is '{item}', written was '{name}'"
+            what = "upper and lower case differ"
+            if item.casefold() != name.casefold():
+                what = "the spelling differs"
+            text = f"{what}: the model is '{item}', written was '{name}'"
             return Resolved(path, tuple(tried), note=f"{text}; {note}" if note else text)
     return None
 
@@ -179,31 +207,62 @@ def _no_model(
         near = tuple(f"model://{name}/{item}" for item in nearest_below(home, inside))
         return Resolved(None, tuple(places), near, f"model '{name}' has no '{inside}'")
     near = tuple(f"model://{item}" for item in nearest_names(name, workspace.models))
-    note = (
+    return Resolved(None, tuple(places), near, _missing_model(name))
+
+
+def _missing_model(name: str) -> str:
+    original = original_models().get(folded(name))
+    if original is not None and not original.is_here:
+        return original.advice
+    return (
         f"there is no model '{name}'; name the folder it lies in in GAZEBO_MODEL_PATH "
         "(nothing is downloaded)"
     )
-    return Resolved(None, tuple(places), near, note)
 
 
 def _in_fuel_cache(workspace: Workspace, rest: str) -> Resolved:
+    """Find what an address of a model server means: in the caches, then a local model's name."""
     matched = _FUEL.fullmatch(rest)
     tried = tuple(f"{root} (Fuel cache)" for root in workspace.fuel_folders)
     if matched is None:
-        return Resolved(None, tried, note="nothing is downloaded; use a local path")
-    owner, name, inside = matched.groups()
+        name = _VERSION.sub("", rest).rpartition("/")[2]
+        return _local_twin(workspace, name, tried) or Resolved(
+            None, tried, note="nothing is downloaded; use a local path"
+        )
+    owner, kind, name, inside = matched.groups()
     inside = re.sub(r"^(?:tip|\d+)(?:/files)?(?:/|$)", "", inside)
+    if kind == "worlds":
+        note = f"world '{name}' of {owner} lies on a server and nothing is downloaded: "
+        return Resolved(None, (), note=f"{note}give the path of a local file")
     for root in workspace.fuel_folders:
         folder = fuel_model(root, owner, name)
         if folder is not None:
             path, note = locate(folder, inside)
             if path is not None:
                 return Resolved(path, (str(folder / inside),), note=note)
-    local = workspace.model_dir(name)
-    if local is not None and not inside:
-        return Resolved(local, tried, note=f"the local model '{local}' stands in for {owner}'s")
-    note = f"model '{name}' of {owner} is in no local cache and nothing is downloaded"
-    return Resolved(None, tried, nearest_names(name, workspace.models), note)
+    twin = None if inside else _local_twin(workspace, name, tried)
+    if twin is not None:
+        return twin
+    note = (
+        f"model '{name}' of {owner} is in no local cache and nothing is downloaded: put it into "
+        f"a folder '{folded(name)}' of GAZEBO_MODEL_PATH or GZ_SIM_RESOURCE_PATH"
+    )
+    return Resolved(None, tried, nearest_names(folded(name), workspace.models), note)
+
+
+def _local_twin(workspace: Workspace, name: str, tried: tuple[str, ...]) -> Resolved | None:
+    """Find a model here by the name a server has it under; spaces may be underlines."""
+    same = [item for item in workspace.models if folded(item) == folded(name)]
+    folder = workspace.model_dir(name if name in same or not same else same[0])
+    if folder is None:
+        return None
+    if _is_stand_in(folder):
+        note = f"plain shapes of Gazelle's own stand in for Fuel's model '{name}'"
+    elif folder.parent == BUILTIN / "models":
+        note = ""
+    else:
+        note = f"the local model '{folder}' stands in for Fuel's model '{name}'"
+    return Resolved(folder, tried, note=note, is_stand_in=bool(note))
 
 
 def _file(workspace: Workspace, rest: str, base_dir: Path | None) -> Resolved:

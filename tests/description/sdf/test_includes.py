@@ -75,6 +75,17 @@ def test_address_of_a_model_server_is_looked_up_by_name(world, models_folder, di
     found = world(f"<include><uri>{address}</uri></include>")
     assert [item.name for item in found.models] == ["box"]
     assert not diagnostics.by_code("sdf.missing-model")
+    (notice,) = diagnostics.by_code("load.stand-in")
+    assert notice.severity is Severity.INFO
+    assert "stands in for Fuel's model 'Coffee Box'" in notice.message
+
+
+def test_ground_and_sun_of_fuel_are_no_news(world, diagnostics):
+    address = "https://fuel.gazebosim.org/1.0/OpenRobotics/models"
+    uris = (f"<include><uri>{address}/{name}</uri></include>" for name in ("Ground Plane", "Sun"))
+    found = world("".join(uris))
+    assert [item.name for item in found.models] == ["ground_plane"]
+    assert not list(diagnostics)
 
 
 def test_include_without_address_is_reported(world, diagnostics):

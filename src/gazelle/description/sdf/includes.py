@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from urllib.parse import unquote
 
 from gazelle.description.context import ReadContext
 from gazelle.description.sdf.model_config import model_file_in
@@ -28,7 +27,10 @@ def included_file(tag: Tag, context: ReadContext) -> Path | None:
         context.diagnostics.report("xml.missing-tag", "<include> has no <uri>", tag.span)
         return None
     found = context.resolve(uri)
-    path = found.path or _by_last_name(uri, context)
+    if found.path is None and "/" not in uri.strip():
+        # A bare name means a model, too.
+        found = context.resolve(f"model://{uri.strip()}")
+    path = found.path
     file = model_file_in(path, context) if path is not None and is_folder(path) else path
     if file is None:
         _report_missing(uri, found, place, context)
@@ -61,23 +63,6 @@ def share_findings(inner: Diagnostics, tag: Tag, context: ReadContext) -> None:
 
 def _short(path: Path) -> str:
     return "/".join(path.parts[-2:])
-
-
-def _by_last_name(uri: str, context: ReadContext) -> Path | None:
-    """Return the local folder of a model that a server's address or a bare name means."""
-    if context.workspace is None:
-        return None
-    if "/" not in uri.strip():
-        return context.resolve(f"model://{uri.strip()}").path
-    if not uri.strip().lower().startswith(("http://", "https://")):
-        return None
-    parts = [unquote(part) for part in uri.strip().rstrip("/").split("/")]
-    if parts[-1].isdigit() or parts[-1] == "tip":
-        parts.pop()  # …/models/<name>/<version>
-    name = parts[-1]
-    candidates = (name, name.replace(" ", "_"), name.lower().replace(" ", "_"))
-    folders = (context.workspace.model_dir(candidate) for candidate in candidates)
-    return next((folder for folder in folders if folder is not None), None)
 
 
 def _report_missing(uri: str, found: Resolved, place: Tag, context: ReadContext) -> None:

@@ -32,6 +32,15 @@ ENTRIES = (
         "Unable to find <world> element",
     ),
     Entry(
+        "load.stand-in",
+        "info",
+        "A model of the same name stands in for one of a server or of Gazebo's model database",
+        "Nothing is downloaded. Gazelle has its own models for the names that worlds use most: "
+        "the places and sizes are the original's, the shapes are plain.",
+        "nothing; for the original put its folder into GAZEBO_MODEL_PATH or GZ_SIM_RESOURCE_PATH, "
+        "or a copy of Fuel's cache into ~/.gz/fuel",
+    ),
+    Entry(
         "load.off-path",
         "info",
         "A model was found in a folder that no search path names",

@@ -98,7 +98,8 @@ def test_folder_is_no_world(gz: Run, tmp_path: Path) -> None:
 def test_worlds_are_not_downloaded(gz: Run) -> None:
     found = gz("sim", "-s", "https://fuel.gazebosim.org/1.0/openrobotics/worlds/shapes")
     assert found.code == 255
-    assert "not found: nothing is downloaded; use a local path" in found.err
+    assert found.err.startswith("Unable to find or download file https://fuel.gazebosim.org/")
+    assert "lies on a server and nothing is downloaded: give the path of a local file" in found.err
 
 
 def test_world_runs_its_iterations(gazelle: Run, world_file: str) -> None:
@@ -116,5 +117,18 @@ def test_fortress_and_paused_start(gazelle: Run, world_file: str) -> None:
 
 def test_world_that_is_not_there(gazelle: Run) -> None:
     run = gazelle("gz", "sim", "-s", "-r", "no_such.sdf")
-    assert run.wait() == 1
-    assert "no_such.sdf" in run.text
+    assert run.wait() == 255
+    assert "Unable to find or download file no_such.sdf: 'no_such.sdf' not found" in run.text
+
+
+def test_world_of_gazebo_comes_up_by_its_name(gazelle: Run) -> None:
+    run = gazelle("gz", "sim", "-s", "-r", "--iterations", "50", "empty.sdf")
+    assert run.wait() == 0
+    assert "at 0.050000000 s" in run.text
+
+
+def test_world_of_gazebo_that_is_not_here_says_where_it_is(gz: Run) -> None:
+    found = gz("sim", "-s", "quadcopter.sdf")
+    assert found.code == 255
+    assert "'quadcopter.sdf' ships with gz-sim (rotors)" in found.err
+    assert "take the file from https://github.com/gazebosim/gz-sim, examples/worlds" in found.err

@@ -192,16 +192,16 @@ def _idle(words: str) -> str:
 
 
 def _found_world(word: str) -> str:
-    """Return a world's file; URLs of files and of packages lead to one.
+    """Return a world's file: a path, a name that Gazebo ships, a URL of a file or a package.
 
     Raises:
-        GzError: a folder, or a URL of what is not on this machine.
+        GzError: a folder, or what is not on this machine.
     """
-    if "://" in word:
-        found = Workspace.discover().resolve(word)
-        if found.path is None:
-            raise GzError(found.explain(word))
-        word = str(found.path)
-    if word and Path(word).is_dir():
+    if not word:
+        return word
+    if Path(word).is_dir():
         raise GzError(f"'{word}' is a folder; gz sim wants a file of SDF with a world")
-    return word
+    found = Workspace.discover().world_file(word)
+    if found.path is None:
+        raise GzError(f"Unable to find or download file {word}: {found.explain(word)}")
+    return str(found.path)

@@ -1,0 +1,80 @@
+"""The worlds and models that both Gazebos ship by name: which are here, and what the others need.
+
+``builtin/originals.txt`` lists them. A world or model that is here is Gazelle's own: it has the
+names, places and sizes of the original and plain shapes instead of its meshes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import NamedTuple
+
+from gazelle.workspace.search_path import BUILTIN
+
+__all__ = ["Original", "original_models", "original_worlds"]
+
+_LIST = BUILTIN / "originals.txt"
+_WORLDS_AT = {
+    "gz-sim": "https://github.com/gazebosim/gz-sim, examples/worlds",
+    "Gazebo Classic": "https://github.com/gazebosim/gazebo-classic, worlds",
+}
+_MODELS_AT = "https://github.com/osrf/gazebo_models"
+
+
+class Original(NamedTuple):
+    """A world or a model that Gazebo has by this name.
+
+    Attributes:
+        kind: ``world`` or ``model``.
+        name: a world's file name, a model's folder.
+        owner: who ships it.
+        about: what it is; for a world that is not here, what it is about.
+        is_here: Gazelle has its own of this name.
+        is_alike: it does what the original does; False where shapes stand for its meshes.
+    """
+
+    kind: str
+    name: str
+    owner: str
+    about: str
+    is_here: bool
+    is_alike: bool
+
+    @property
+    def advice(self) -> str:
+        """Why there is none on this machine, and what to do."""
+        if self.kind == "model":
+            return (
+                f"'{self.name}' is a model of Gazebo's model database; Gazelle has none of its own "
+                f"and downloads nothing: git clone {_MODELS_AT} and name that folder in "
+                "GAZEBO_MODEL_PATH"
+            )
+        return (
+            f"'{self.name}' ships with {self.owner} ({self.about}); Gazelle has none of its own: "
+            f"take the file from {_WORLDS_AT[self.owner]}, and give its path"
+        )
+
+
+def original_worlds() -> Mapping[str, Original]:
+    """Return the worlds by file name."""
+    return _read()["world"]
+
+
+def original_models() -> Mapping[str, Original]:
+    """Return the models by folder name."""
+    return _read()["model"]
+
+
+@cache
+def _read() -> dict[str, dict[str, Original]]:
+    found: dict[str, dict[str, Original]] = {"world": {}, "model": {}}
+    for line in _LIST.read_text(encoding="utf-8").splitlines():
+        if not line or line.startswith("#"):
+            continue
+        kind, name, owner, about = line.split(" | ", 3)
+        is_here, is_alike = not about.startswith("-"), kind == "world" or about.startswith("=")
+        about = about.lstrip("-= ")
+        # The first of two Gazebos with a world of one name counts.
+        found[kind].setdefault(name, Original(kind, name, owner, about, is_here, is_alike))
+    return found
