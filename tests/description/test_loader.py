@@ -64,7 +64,7 @@ def test_places_in_an_expanded_robot_are_those_of_the_xacro_file(tmp_path: Path)
     path = tmp_path / "a.xacro"
     path.write_text(XACRO.replace('ixx="1"', 'ixx="bad"'), encoding="utf-8")
     _, diagnostics = _load(path)
-    (error,) = diagnostics.errors
+    (error,) = diagnostics.by_code("xml.bad-number")
     assert (error.span.file, error.span.line) == (str(path), 4)
     assert [(item.file, item.line) for item in error.span.via] == [(str(path), 6)]
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from gazelle.description.context import ReadContext
+from gazelle.description.leniency import lenient_document, lenient_robot
 from gazelle.description.model import Model, World
-from gazelle.description.sdf import read_model_file, read_sdf, read_world_file
+from gazelle.description.sdf import SdfDocument, read_model_file, read_sdf, read_world_file
 from gazelle.description.source_maps import placed
 from gazelle.description.text_place import TEXT_NAME, place_of_text, read_text
 from gazelle.description.urdf import read_urdf
@@ -21,6 +23,7 @@ from gazelle.workspace import Resolved, Workspace
 
 __all__ = ["TEXT_NAME", "load_models", "load_world"]
 
+_Read = TypeVar("_Read")
 _SDF_ROOTS = frozenset({"light", "model", "sdf", "world"})
 _MODEL_CONFIG = "model.config"
 _OTHER_FORMATS = {
@@ -67,7 +70,10 @@ def _load_models(
         return ()
     if is_folder(path) or path.name == _MODEL_CONFIG:
         folder = path if is_folder(path) else path.parent
-        model = read_model_file(folder, workspace=workspace, diagnostics=diagnostics)
+        model = _leniently(
+            lambda found: read_model_file(folder, workspace=workspace, diagnostics=found),
+            diagnostics,
+        )
         return () if model is None else (model,)
     return _models_of_file(path, workspace, diagnostics, mappings)
 
@@ -120,7 +126,7 @@ def _world_of_text(
     if root is None:
         return None
     if root.name in _SDF_ROOTS:
-        document = read_sdf(root, context=context)
+        document = _document(root, context)
         if document.worlds:
             return document.worlds[0]
         return World(models=document.models) if document.models else None
@@ -142,7 +148,11 @@ def _world_of_path(
         return None
     root = _peek(found.path) if is_file(found.path) else None
     if root in _SDF_ROOTS:
-        return read_world_file(found.path, workspace=workspace, diagnostics=diagnostics)
+        file = found.path
+        return _leniently(
+            lambda heard: read_world_file(file, workspace=workspace, diagnostics=heard),
+            diagnostics,
+        )
     models = _load_models(str(found.path), workspace, diagnostics, mappings)
     return World(models=models, file=found.path) if models else None
 
@@ -194,10 +204,10 @@ def _has_xacro(root: Tag) -> bool:
 
 def _models_of_root(root: Tag, context: ReadContext) -> tuple[Model, ...]:
     if root.name == "robot":
-        model = read_urdf(root, context=context)
+        model = _robot(root, context)
         return () if model is None else (model,)
     if root.name in _SDF_ROOTS:
-        document = read_sdf(root, context=context)
+        document = _document(root, context)
         models = document.models or tuple(
             model for world in document.worlds for model in world.models
         )
@@ -209,6 +219,30 @@ def _models_of_root(root: Tag, context: ReadContext) -> tuple[Model, ...]:
     fix = _OTHER_FORMATS.get(root.name, "")
     context.diagnostics.report("load.unknown-format", message, root.span, fix=fix)
     return ()
+
+
+def _robot(root: Tag, context: ReadContext) -> Model | None:
+    found = Diagnostics()
+    model = read_urdf(root, context=replace(context, diagnostics=found))
+    for item in found if model is None else lenient_robot(root, found):
+        context.diagnostics.add(item)
+    return model
+
+
+def _document(root: Tag, context: ReadContext) -> SdfDocument:
+    return _leniently(
+        lambda found: read_sdf(root, context=replace(context, diagnostics=found)),
+        context.diagnostics,
+    )
+
+
+def _leniently(read: Callable[[Diagnostics], _Read], diagnostics: Diagnostics) -> _Read:
+    """Return what is read of an SDF document, with warnings for what Gazebo goes on with."""
+    found = Diagnostics()
+    result = read(found)
+    for item in lenient_document(found):
+        diagnostics.add(item)
+    return result
 
 
 def _locate(text: str, workspace: Workspace | None, diagnostics: Diagnostics) -> Path | None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from gazelle.description.leniency import strict
 from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.condensing import condensed
 from gazelle.doctor.descriptions import without_superseded
@@ -68,7 +69,8 @@ def _findings(examination: Examination) -> list[Diagnostic]:
     packages = examination.workspace.packages
     own = [item for item in packages.values() if not item.is_builtin]
     known = {*packages, *(name for item in own for name in item.depends)}
-    return condensed(_once(without_superseded(tuple(examination.diagnostics))), known)
+    found = _once(without_superseded(tuple(strict(examination.diagnostics))))
+    return condensed(found, known)
 
 
 def _once(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:

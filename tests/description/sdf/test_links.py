@@ -33,13 +33,14 @@ def test_self_collide_is_none_when_the_file_is_silent(model):
     assert model("<link name='base'/>").link("base").self_collide is None
 
 
-def test_second_collision_of_a_name_is_reported(model, diagnostics):
+def test_second_collision_of_a_name_gets_another_name(model, diagnostics):
     shape = "<geometry><box/></geometry>"
     body = f"<link name='l'><collision name='c'>{shape}</collision>"
     body += f"<collision name='c'>{shape}</collision></link>"
-    assert len(model(body).link("l").collisions) == 1
+    assert [item.name for item in model(body).link("l").collisions] == ["c", "c_1"]
     (found,) = diagnostics.by_code("sdf.duplicate-name")
     assert "collision with name 'c' stands twice in link 'l'" in found.message
+    assert found.message.endswith("the second one becomes 'c_1'")
     assert "already exists" in found.phrase
 
 

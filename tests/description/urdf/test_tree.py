@@ -44,5 +44,7 @@ def test_two_parents_name_both_joints(read) -> None:
     found = read(
         _robot(_joint("j", "base", "arm"), _joint("k", "base", "hand"), _joint("l", "hand", "arm"))
     )
-    assert found.codes == ["urdf.two-parents"]
+    assert "urdf.two-parents" in found.codes
     assert "the child of joint 'j' and of joint 'l'" in found.message("urdf.two-parents")
+    assert "'l' counts, the last by name, and 'j' is left out" in found.message("urdf.two-parents")
+    assert [joint.name for joint in found.robot.joints] == ["k", "l"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from itertools import count
 
 from gazelle.description.context import ReadContext
 from gazelle.description.sdf.frames import FrameGraph, FramePoint
@@ -12,6 +14,8 @@ from gazelle.description.xml import Tag
 from gazelle.geometry import Pose
 
 __all__ = ["PoseResolver", "named_children"]
+
+_SHAPES = frozenset({"collision", "visual"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,19 +42,31 @@ class PoseResolver:
 
 
 def named_children(tag: Tag, kind: str, context: ReadContext) -> tuple[Tag, ...]:
-    """Return the children of a kind by unique name; nameless and repeated ones are reported."""
+    """Return the children of a kind by unique name; nameless and repeated ones are reported.
+
+    Nobody refers to shapes but sensors, so Gazebo loads both of one name; here the second one
+    gets a name of its own. Of all else the first one counts.
+    """
     found: dict[str, Tag] = {}
     for child in tag.find_all(kind):
         name = name_of(child, context)
         if not name:
             continue
         if name in found:
+            other = _free_name(name, found) if kind in _SHAPES else ""
+            effect = f"becomes '{other}'" if other else "is left out"
             owner = tag.attributes.get("name", "")
             message = (
                 f"{kind} with name '{name}' stands twice in {tag.name} '{owner}' (first in line "
-                f"{found[name].span.line}); the second one is left out"
+                f"{found[name].span.line}); the second one {effect}"
             )
             context.diagnostics.report("sdf.duplicate-name", message, child.span)
+            if other:
+                found[other] = replace(child, attributes={**child.attributes, "name": other})
             continue
         found[name] = child
     return tuple(found.values())
+
+
+def _free_name(name: str, taken: Collection[str]) -> str:
+    return next(free for number in count(1) if (free := f"{name}_{number}") not in taken)

@@ -16,7 +16,7 @@ from gazelle.description.urdf.joints import ReadJoint, read_joint
 from gazelle.description.urdf.links import read_link
 from gazelle.description.urdf.materials import global_materials
 from gazelle.description.urdf.transmissions import read_transmission
-from gazelle.description.urdf.tree import check_tree, poses_of
+from gazelle.description.urdf.tree import check_tree, poses_of, without_second_parents
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
@@ -67,6 +67,7 @@ def read_urdf(text: str | Tag, *, context: ReadContext, name: str | None = None)
         message = "<sensor> directly under <robot> was never used by ROS or Gazebo; it is ignored"
         diagnostics.report("urdf.sensor-ignored", message, sensor.span)
     whole = len(joints) == len(robot.find_all("joint"))
+    joints = without_second_parents(joints, context)
     root = check_tree(links, tuple(joints.values()), context, whole=whole) if links else None
     if root is None:
         return None

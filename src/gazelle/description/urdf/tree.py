@@ -10,7 +10,7 @@ from gazelle.description.urdf.joints import ReadJoint
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["check_tree", "poses_of"]
+__all__ = ["check_tree", "poses_of", "without_second_parents"]
 
 _MISSING = {"parent": "urdf.parent-missing", "child": "urdf.child-missing"}
 
@@ -27,7 +27,6 @@ def check_tree(
         whole: no joint was left out for a mistake of its own; otherwise loose links are no news.
     """
     known = _ends_exist(links, joints, context)
-    single = _one_parent_each(joints, context)
     children = {item.joint.child for item in joints}
     roots = [name for name in links if name not in children]
     if not known or not whole:
@@ -44,7 +43,7 @@ def check_tree(
         joint = next(item for item in joints if item.joint.child == stranded[0])
         context.diagnostics.report("urdf.loop", message, joint.tag.span)
         return None
-    return roots[0] if single else None
+    return roots[0]
 
 
 def poses_of(root: str, joints: Sequence[ReadJoint]) -> dict[str, Pose]:
@@ -87,20 +86,32 @@ def _ends_exist(
     return good
 
 
-def _one_parent_each(joints: Sequence[ReadJoint], context: ReadContext) -> bool:
-    good = True
-    first: dict[str, str] = {}
-    for item in joints:
-        joint = item.joint
-        if joint.child in first:
-            good = False
-            message = (
-                f"link '{joint.child}' has two parents: it is the child of joint "
-                f"'{first[joint.child]}' and of joint '{joint.name}'"
-            )
-            context.diagnostics.report("urdf.two-parents", message, item.tag.span)
-        first.setdefault(joint.child, joint.name)
-    return good
+def without_second_parents(
+    joints: Mapping[str, ReadJoint], context: ReadContext
+) -> dict[str, ReadJoint]:
+    """Return the joints with one above each link: the last by name, as urdfdom keeps it.
+
+    Args:
+        joints: joints by name.
+        context: hears of the joints that are left out.
+    """
+    above: dict[str, list[str]] = {}
+    for name, item in joints.items():
+        above.setdefault(item.joint.child, []).append(name)
+    dropped: set[str] = set()
+    for child, names in above.items():
+        if len(names) == 1:
+            continue
+        kept = max(names)
+        others = [name for name in names if name != kept]
+        dropped.update(others)
+        message = (
+            f"link '{child}' has two parents: it is the child of joint '{names[0]}' and of joint "
+            f"'{names[1]}'; '{kept}' counts, the last by name, and "
+            f"{' and '.join(map(repr, others))} {'are' if len(others) > 1 else 'is'} left out"
+        )
+        context.diagnostics.report("urdf.two-parents", message, joints[names[1]].tag.span)
+    return {name: item for name, item in joints.items() if name not in dropped}
 
 
 def _report_roots(

@@ -9,11 +9,13 @@ from gazelle.description.urdfdom.model import (
     verdict_of_element,
 )
 from gazelle.description.urdfdom.printing import EndlessTreeError, graphviz_text, tree_text
+from gazelle.description.urdfdom.tinyxml import element_of
 
 __all__ = [
     "EndlessTreeError",
     "Robot",
     "Verdict",
+    "element_of",
     "graphviz_text",
     "tree_text",
     "urdfdom_verdict",

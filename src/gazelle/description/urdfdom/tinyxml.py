@@ -10,7 +10,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-__all__ = ["Element", "TinyXmlError", "parse_tinyxml"]
+from gazelle.description.xml import Tag
+
+__all__ = ["Element", "TinyXmlError", "element_of", "parse_tinyxml"]
 
 _SPACE = re.compile(r"[ \t\n\v\f\r]*")
 _NAME = re.compile(r"[A-Za-z_\x7f-\U0010ffff][\w\-.:\x7f-\U0010ffff]*", re.ASCII)
@@ -47,6 +49,20 @@ class Element:
     def all(self, name: str) -> list[Element]:
         """Return all children of this name."""
         return [child for child in self.children if child.name == name]
+
+
+def element_of(root: Tag) -> Element:
+    """Return a tag as what urdfdom's parser makes of it."""
+    top = Element(root.name, root.attributes)
+    waiting = [(root, top)]
+    while waiting:
+        source, target = waiting.pop()
+        for child in source.children:
+            made = Element(child.name, child.attributes)
+            target.children.append(made)
+            if child.name != "gazebo":
+                waiting.append((child, made))
+    return top
 
 
 def parse_tinyxml(text: str) -> list[Element]:

@@ -108,7 +108,8 @@ ENTRIES = (
         "sdf.duplicate-name",
         "error",
         "Two things in one scope have the same name",
-        "References by name would be ambiguous; the first one is kept.",
+        "References by name would be ambiguous. Of two collisions or visuals the second one gets a "
+        "name of its own, as Gazebo loads both; of other things the first one is kept.",
         "rename one of them",
         "link with name[...] already exists. / Non-unique name detected",
     ),

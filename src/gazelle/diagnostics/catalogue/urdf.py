@@ -109,7 +109,8 @@ _TREE = (
         "urdf.two-parents",
         "error",
         "A link is the child of two joints",
-        "URDF describes a tree. check_urdf is silent, Gazebo builds one of the two at random.",
+        "URDF describes a tree. check_urdf is silent. The joint whose name comes last counts, as "
+        "in urdfdom; the other one is left out.",
         "remove one joint; close loops with an SDF joint in a <gazebo> block",
     ),
     Entry(

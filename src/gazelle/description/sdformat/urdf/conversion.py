@@ -13,8 +13,7 @@ from gazelle.description.sdformat.urdf.numbers import NumberCrashError, exact_te
 from gazelle.description.sdformat.urdf.offsets import vector_from
 from gazelle.description.sdformat.urdf.reading import read_robot
 from gazelle.description.sdformat.urdf.robot import Robot
-from gazelle.description.urdfdom import verdict_of_element
-from gazelle.description.urdfdom.tinyxml import Element
+from gazelle.description.urdfdom import element_of, verdict_of_element
 from gazelle.description.urdfdom.values import quaternion_from_rpy, rpy_from_quaternion
 from gazelle.description.xml import Tag
 
@@ -48,7 +47,7 @@ def urdf_to_sdf(
         refuses the description or crashes at it.
     """
     said = remarks if remarks is not None else []
-    element = _element(root)
+    element = element_of(root)
     verdict = verdict_of_element(element)
     readings = 1 if verdict.robot is None else 2
     said += [str(remark) for remark in verdict.remarks] * readings
@@ -65,7 +64,7 @@ def urdf_to_sdf(
 
 def accepted_robot(root: Tag) -> Robot | None:
     """Return the robot as urdfdom sees it, None when it refuses the description."""
-    element = _element(root)
+    element = element_of(root)
     found = verdict_of_element(element).robot
     return read_robot(element, found.root) if found is not None else None
 
@@ -89,17 +88,3 @@ def _robot_pose(origin: Tag, console: Console) -> str:
 
 def _vector(text: str | None, console: Console) -> Vector3:
     return vector_from(text, 1.0, console) if text is not None else (0.0, 0.0, 0.0)
-
-
-def _element(root: Tag) -> Element:
-    """Return a tag as what urdfdom's parser makes of it."""
-    top = Element(root.name, root.attributes)
-    waiting = [(root, top)]
-    while waiting:
-        source, target = waiting.pop()
-        for child in source.children:
-            made = Element(child.name, child.attributes)
-            target.children.append(made)
-            if child.name != "gazebo":
-                waiting.append((child, made))
-    return top
