@@ -12,8 +12,10 @@ from gazelle.simulator.scheduler import (
     ORDER_SENSOR,
     Scheduler,
     Task,
+    gz_sensor_period_in_steps,
+    measured_period_in_steps,
     period_in_steps,
-    sensor_period_in_steps,
+    throttled_period_in_steps,
 )
 
 MS = 1_000_000
@@ -32,8 +34,25 @@ def run_until(scheduler: Scheduler, last: int) -> list[int]:
 @pytest.mark.parametrize(
     ("rate_hz", "steps"), [(5.5, 182), (20.0, 50), (15.0, 67), (30.0, 34), (1000.0, 1), (0.0, 1)]
 )
-def test_sensor_periods_are_whole_steps_rounded_up(rate_hz: float, steps: int) -> None:
-    assert sensor_period_in_steps(rate_hz, MS) == steps
+def test_periods_from_the_last_message_are_whole_steps_rounded_up(
+    rate_hz: float, steps: int
+) -> None:
+    assert measured_period_in_steps(rate_hz, MS) == steps
+
+
+@pytest.mark.parametrize(("rate_hz", "steps"), [(30.0, 33), (5.5, 181), (2000.0, 1), (0.0, 1)])
+def test_periods_of_gz_sensors_are_whole_milliseconds_rounded_down(
+    rate_hz: float, steps: int
+) -> None:
+    assert gz_sensor_period_in_steps(rate_hz, MS) == steps
+    assert gz_sensor_period_in_steps(30.0, 4 * MS) == Fraction(33, 4)
+
+
+@pytest.mark.parametrize(
+    ("rate_hz", "steps"), [(0.0, Fraction(100, 3)), (15.0, Fraction(200, 3)), (29.0, 200 / 3)]
+)
+def test_a_plug_in_that_throttles_skips_whole_readings(rate_hz: float, steps: float) -> None:
+    assert throttled_period_in_steps(30.0, rate_hz, MS) == pytest.approx(steps)
 
 
 def test_plug_in_rates_are_exact_on_average() -> None:

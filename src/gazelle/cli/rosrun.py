@@ -41,7 +41,8 @@ def main(argv: list[str]) -> int:
         render(diagnostics)
         return 3
     words = [*prefix, *found.command, *rest]
-    environment = node_environment(os.environ, workspace)
+    # What it starts is ROS 1's, whichever ROS the shell was set up for.
+    environment = node_environment({**os.environ, "ROS_VERSION": "1"}, workspace)
     sys.stdout.flush()
     if is_simulator(found):
         # Nothing else that is run here needs the graph.

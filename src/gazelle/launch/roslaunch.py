@@ -315,7 +315,8 @@ def _announce(graph: Graph, console: Console, title: str, log: RunLog) -> None:
 
 
 def _environ(options: LaunchOptions) -> Mapping[str, str]:
-    environ = dict(os.environ)
+    # What it starts is ROS 1's, whichever ROS the shell was set up for.
+    environ = {**os.environ, "ROS_VERSION": "1"}
     if options.port is not None:
         environ["GAZELLE_PORT"] = str(options.port)
     return environ

@@ -13,6 +13,8 @@ from gazelle.nodes.ros2_words import file_params, split_words
 
 __all__ = ["ABSENT_NODES", "NodeArguments", "read_arguments"]
 
+_ROS2 = 2
+
 ABSENT_NODES = "GAZELLE_ABSENT_NODES"
 """Variable with full names of nodes that the launch could not start."""
 
@@ -54,7 +56,15 @@ class NodeArguments:
     @property
     def generation(self) -> Literal[1, 2]:
         """The generation of ROS that whoever started the node speaks."""
-        return 2 if self.has_ros_args or os.environ.get("ROS_VERSION") == "2" else 1
+        return 2 if self.started_by == _ROS2 else 1
+
+    @property
+    def started_by(self) -> int:
+        """The version of ROS of the launch file or command behind the node, 0 for none."""
+        if self.has_ros_args:
+            return _ROS2
+        word = os.environ.get("ROS_VERSION", "").strip()
+        return int(word) if word in ("1", "2") else 0
 
 
 def read_arguments(

@@ -16,8 +16,10 @@ __all__ = [
     "ORDER_STATE",
     "Scheduler",
     "Task",
+    "gz_sensor_period_in_steps",
+    "measured_period_in_steps",
     "period_in_steps",
-    "sensor_period_in_steps",
+    "throttled_period_in_steps",
 ]
 
 NEVER = 2**62
@@ -30,6 +32,7 @@ ORDER_STATE = 30
 # Tasks nobody wants are asked again this often, in simulated time: a question costs up to some
 # microseconds, and none of them may cut the engine's steps into smaller pieces.
 _LOOK_NS = 50_000_000
+_MS_NS = 1_000_000
 
 
 @dataclass(slots=True, eq=False)
@@ -71,23 +74,43 @@ class Task:
 
 
 def period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
-    """Return the exact period of a plug-in's ``updateRate``; 0 Hz or less means every step.
+    """Return the exact period of an ``update_rate``; 0 Hz or less means every step.
 
-    Gazebo's plug-ins add the period to the time of the last update, so the mean rate is exact.
-    A period shorter than a step is a step.
+    Gazebo's sensors carry the delay of one update over to the next, and its plug-ins add the
+    period to the time of the last update: both have the mean rate that they are asked for, 30 Hz
+    on 1 ms steps in periods of 34, 33 and 33 ms. A period shorter than a step is a step.
     """
     if rate_hz <= 0:
         return Fraction(1)
-    period = Fraction(1_000_000_000) / (Fraction(rate_hz).limit_denominator(1_000_000) * step_ns)
-    return max(period, Fraction(1))
+    return max(_exact(rate_hz, step_ns), Fraction(1))
 
 
-def sensor_period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
-    """Return the period of a sensor's ``update_rate`` in whole steps, rounded up.
-
-    Gazebo's sensors measure from the last update, so 5.5 Hz on 1 ms steps is 182 ms.
-    """
+def measured_period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
+    """Return the period of a plug-in that measures from its last message: whole steps."""
     return Fraction(math.ceil(period_in_steps(rate_hz, step_ns)))
+
+
+def gz_sensor_period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
+    """Return the period of a gz sensor, which counts in whole milliseconds, rounded down.
+
+    So 30 Hz is 33 ms there. Above 1000 Hz the rate is taken as it is.
+    """
+    whole_ms = math.floor(_exact(rate_hz, _MS_NS)) if rate_hz > 0 else 0
+    if not whole_ms:
+        return period_in_steps(rate_hz, step_ns)
+    return max(Fraction(whole_ms * _MS_NS, step_ns), Fraction(1))
+
+
+def throttled_period_in_steps(sensor_rate_hz: float, rate_hz: float, step_ns: int) -> Fraction:
+    """Return the period of a plug-in that skips whole readings of its sensor; 0 Hz skips none."""
+    period = period_in_steps(sensor_rate_hz, step_ns)
+    if rate_hz <= 0:
+        return period
+    return period * max(1, math.ceil(_exact(rate_hz, step_ns) / period))
+
+
+def _exact(rate_hz: float, step_ns: int) -> Fraction:
+    return Fraction(1_000_000_000) / (Fraction(rate_hz).limit_denominator(1_000_000) * step_ns)
 
 
 class Scheduler:
@@ -106,10 +129,7 @@ class Scheduler:
         factor = Fraction(self._step_ns, step_ns)
         self._step_ns = step_ns
         for task in tuple(self):
-            period = max(task.period_steps * factor, Fraction(1))
-            if task.order == ORDER_SENSOR:
-                period = Fraction(math.ceil(period))
-            self.change_period(task, period)
+            self.change_period(task, max(task.period_steps * factor, Fraction(1)))
 
     def add(self, task: Task, *, first: int | None = None) -> Task:
         """Add a task; its first tick is one period from now, or at iteration `first`."""

@@ -22,7 +22,9 @@ from gazelle.workspace import Workspace
 if TYPE_CHECKING:
     from gazelle.graph import Graph
 
-__all__ = ["check_server_plugins", "offers_ros2", "serve"]
+__all__ = ["check_server_plugins", "offers_ros2", "ros_version_of", "serve"]
+
+_ROS1_PLUGINS = frozenset({"gazebo_ros_api_plugin", "gazebo_ros_paths_plugin"})
 
 _ROS2_PLUGINS = frozenset(
     {
@@ -48,6 +50,8 @@ class _Arguments(Protocol):
     def params(self) -> Mapping[str, Any]: ...
     @property
     def rest(self) -> tuple[str, ...]: ...
+    @property
+    def started_by(self) -> int: ...
 
 
 def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
@@ -73,7 +77,8 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
     )
     offer_loggers(node)
     try:
-        return _serve_world(options, node, diagnostics, stop)
+        version = ros_version_of(options, arguments.started_by)
+        return _serve_world(options, node, diagnostics, stop, version)
     except GazelleError as error:
         _show(diagnostics)
         if not isinstance(error, NotFoundError) or error.kind != "world":
@@ -86,7 +91,11 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
 
 
 def _serve_world(
-    options: ServerOptions, node: Any, diagnostics: Diagnostics, stop: threading.Event
+    options: ServerOptions,
+    node: Any,
+    diagnostics: Diagnostics,
+    stop: threading.Event,
+    ros_version: int,
 ) -> int:
     workspace = Workspace.discover()
     world = world_from(options.world or "empty", workspace, diagnostics)
@@ -99,6 +108,7 @@ def _serve_world(
         mode=options.mode,
         paused=options.paused,
         warm_cameras=True,
+        ros_version=ros_version,
     )
     check_server_plugins(options, diagnostics)
     _show(diagnostics, verbose=options.verbose)
@@ -127,6 +137,22 @@ def _serve_world(
 def offers_ros2(options: ServerOptions) -> bool:
     """Tell whether the command line names a plug-in of ROS 2's gazebo_ros."""
     return any(plain_name(name) in _ROS2_PLUGINS for name in options.plugins)
+
+
+def ros_version_of(options: ServerOptions, started_by: int) -> int:
+    """Return the version of ROS that a simulator is started for; 0 for none, or for both.
+
+    Args:
+        options: of the command line; the plug-ins of either gazebo_ros tell.
+        started_by: the version of the launch file or command, 0 for a bare shell.
+    """
+    names = {plain_name(name) for name in options.plugins}
+    told = {
+        version
+        for version, plugins in ((1, _ROS1_PLUGINS), (2, _ROS2_PLUGINS))
+        if version == started_by or not names.isdisjoint(plugins)
+    }
+    return told.pop() if len(told) == 1 else 0
 
 
 def _node_name(name: str) -> str:

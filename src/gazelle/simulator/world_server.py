@@ -49,6 +49,7 @@ class WorldServer:
         frames: renders beside the loop, unless in lock-step.
         workspace: finds packages and models for what is spawned.
         diagnostics: everything found about the user's files.
+        ros_version: of what started the simulator, 0 when nothing tells.
         mode: how time runs.
         paused: nothing moves; commands are still taken.
     """
@@ -66,6 +67,7 @@ class WorldServer:
         warm_cameras: bool = False,
         progress: Callable[[str], None] | None = None,
         controls: ControlRegistry | None = None,
+        ros_version: int = 0,
     ) -> None:
         """Build the engine and start the plug-ins of every model.
 
@@ -81,6 +83,8 @@ class WorldServer:
             warm_cameras: load the cameras' kernels in a thread as soon as there is a camera.
             progress: told before work that takes seconds; the node's log when None.
             controls: with parameters of controllers; an empty one when None.
+            ros_version: of what started the simulator; it decides what plug-ins call their
+                topics. 0 leaves it to each plug-in's keys.
         """
         from gazelle.engine import Engine
 
@@ -91,6 +95,7 @@ class WorldServer:
             self.engine = Engine(world, diagnostics=self.diagnostics, seed=seed)
         self.workspace = workspace
         self.seed = seed
+        self.ros_version = ros_version
         self.mode = mode
         self.paused = paused
         self.scheduler = Scheduler(self.engine.step_ns)

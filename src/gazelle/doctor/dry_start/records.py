@@ -64,6 +64,7 @@ class StartPlan:
         spawners: ``spawn_model`` and ``spawn_entity.py``, in order.
         controllers: in order.
         models: brought into the world before anything is spawned.
+        started_by: version of ROS of the launch, 0 for none.
     """
 
     server: Program
@@ -72,6 +73,7 @@ class StartPlan:
     spawners: tuple[Program, ...] = ()
     controllers: tuple[ControllerStart, ...] = ()
     models: tuple[Model, ...] = ()
+    started_by: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.pace import Mode
-from gazelle.simulator.server_main import check_server_plugins, offers_ros2
+from gazelle.simulator.server_main import check_server_plugins, offers_ros2, ros_version_of
 from gazelle.simulator.server_options import ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
 from gazelle.simulator.world_server import WorldServer
@@ -98,7 +98,12 @@ def _server(
     try:
         world = world_from(options.world or "empty", workspace, diagnostics)
         server = WorldServer(
-            world, node=node, workspace=workspace, diagnostics=diagnostics, mode=Mode.LOCKSTEP
+            world,
+            node=node,
+            workspace=workspace,
+            diagnostics=diagnostics,
+            mode=Mode.LOCKSTEP,
+            ros_version=ros_version_of(options, plan.started_by),
         )
     except NotFoundError as error:
         text = f"the simulator '{node.full_name}' cannot start: {error}"

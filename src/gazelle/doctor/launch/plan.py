@@ -31,6 +31,7 @@ def start_plan(launched: Launched, server: LaunchedNode, diagnostics: Diagnostic
         text_files=tuple(dict.fromkeys(launched.config.text_files)),
         spawners=tuple(node.program for node in launched.of_role(Role.MODEL_SPAWNER)),
         controllers=tuple(start for start in starts if start is not None),
+        started_by=1,
     )
 
 

@@ -32,17 +32,19 @@ TABLE = PluginTable(
         "As in Gazebo, positions and normals are in the world frame whatever `frameName` says; the"
         " wrenches act on the watched link, in its own axes and about its centre of mass.",
     ),
+    in_both_ros=True,
     topics=(
         Topic(
             "{bumperTopicName}",
             "gazebo_msgs/msg/ContactsState",
             "sensor's `update_rate`",
             "`frameName`",
+            ros2="bumper_states",
         ),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("bumperTopicName", "text", "bumper_states", "topic (ROS 1)"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
+        Parameter("bumperTopicName", "text", "bumper_states", "topic (ROS 1)", only=1),
         Parameter(
             "frameName", "text", "world", "`header.frame_id` and nothing else", "", ("frame_name",)
         ),
@@ -57,7 +59,7 @@ def load(context: PluginContext) -> None:
     parameters = context.reader(TABLE)
     place = sensor_place(context, ContactSpec, "a contact sensor")
     if place is not None:
-        ros2 = parameters.ros.present
+        ros2 = parameters.is_ros2()
         name = "bumper_states" if ros2 else parameters.text("bumperTopicName")
         frame = parameters.text("frameName")
         frame = frame if ros2 else prefixed_frame(context, parameters, "frameName")

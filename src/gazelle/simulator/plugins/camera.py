@@ -21,9 +21,10 @@ def load(context: PluginContext) -> None:
     parameters = context.reader(CAMERA_TABLE)
     place = camera_place(context)
     if place is not None:
-        if parameters.ros.present and len(camera_members(place)) > 1:
+        ros2 = parameters.is_ros2()
+        if ros2 and len(camera_members(place)) > 1:
             start_multicamera_ros2(context, parameters, place)
-        elif parameters.ros.present:
+        elif ros2:
             _start_ros2(context, parameters, place)
         else:
             _start_ros1(context, parameters, place)

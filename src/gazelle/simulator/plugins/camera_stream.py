@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from gazelle.simulator.plugins.camera_info import Calibration, camera_info_messa
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.ports import PublisherPort
-from gazelle.simulator.scheduler import ORDER_SENSOR, sensor_period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR, throttled_period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.sensors import CameraRecord
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CameraStream", "camera_place", "check_frame"]
 
+_ROS2 = 2
 Build = Callable[[int, "CameraRecord"], Any]
 
 
@@ -70,7 +70,7 @@ class CameraStream:
         self._resources = context.resources
         self._task = context.resources.task(
             place.name,
-            self._period(place.sensor.update_rate_hz),
+            place.period_in_steps(self._host.engine.step_ns, largest_rate_hz),
             self._capture,
             order=ORDER_SENSOR,
             wanted=self._wanted,
@@ -170,6 +170,9 @@ class CameraStream:
         response.status_message = ""
 
     def _offer_rate(self, namespace: str) -> None:
+        if self._host.ros_version == _ROS2:
+            # There is no dynamic_reconfigure in ROS 2.
+            return
         rate = DynamicParameter(
             "imager_rate", "double", 2.0, "Frame rate of the camera, Hz.", 1.0, 50.0, level=3
         )
@@ -177,19 +180,11 @@ class CameraStream:
         def change(values: dict[str, bool | int | float | str]) -> None:
             if self._triggers is not None:
                 return
-            period = self._period(float(values["imager_rate"]))
+            rate_hz, step_ns = float(values["imager_rate"]), self._host.engine.step_ns
+            period = throttled_period_in_steps(rate_hz, self._largest_rate_hz, step_ns)
             self._host.scheduler.change_period(self._task, period)
 
         DynamicParameters(self._resources, self._host, namespace, (rate,), changed=change)
-
-    def _period(self, sensor_rate_hz: float) -> Fraction:
-        step_ns = self._host.engine.step_ns
-        period = sensor_period_in_steps(sensor_rate_hz, step_ns)
-        if self._largest_rate_hz <= 0:
-            return period
-        # Gazebo's plug-in skips whole sensor frames until its own period is over.
-        own = Fraction(1_000_000_000) / (Fraction(self._largest_rate_hz) * step_ns)
-        return period * max(1, math.ceil(own / period))
 
 
 def camera_place(context: PluginContext) -> SensorPlace | None:

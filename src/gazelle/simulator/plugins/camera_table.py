@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
@@ -9,7 +10,7 @@ from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Top
 __all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE", "TRIGGERED_TABLE"]
 
 _COMMON = (
-    Parameter("robotNamespace", "text", "", "namespace of all topics"),
+    Parameter("robotNamespace", "text", "", "namespace of all topics", only=1),
     Parameter("cameraName", "text", "", "namespace within it", "", ("camera_name",)),
     Parameter("frameName", "text", "/world", "frame of the data", "", ("frame_name",)),
     Parameter(
@@ -19,11 +20,19 @@ _COMMON = (
         "largest publish rate, 0 for the sensor's",
         "Hz",
         ("update_rate",),
+        only=1,
     ),
     Parameter("hackBaseline", "number", 0.0, "stereo baseline in P[3]", "m", ("hack_baseline",)),
-    Parameter("focalLength", "number", 0.0, "fx = fy of camera_info, 0 computes it", "px"),
-    Parameter("Cx", "number", 0.0, "principal point, 0 is (width + 1)/2", "px"),
-    Parameter("Cy", "number", 0.0, "principal point, 0 is (height + 1)/2", "px"),
+    Parameter(
+        "focalLength",
+        "number",
+        0.0,
+        "fx = fy of camera_info, 0 computes it",
+        "px",
+        ("focal_length",),
+    ),
+    Parameter("Cx", "number", 0.0, "principal point, 0 is (width + 1)/2", "px", ("cx",)),
+    Parameter("Cy", "number", 0.0, "principal point, 0 is (height + 1)/2", "px", ("cy",)),
     Parameter("distortionK1", "number", 0.0, "camera_info only, as in Gazebo"),
     Parameter("distortionK2", "number", 0.0, "camera_info only, as in Gazebo"),
     Parameter("distortionK3", "number", 0.0, "camera_info only, as in Gazebo"),
@@ -31,10 +40,14 @@ _COMMON = (
     Parameter("distortionT2", "number", 0.0, "camera_info only, as in Gazebo"),
     Parameter("autoDistortion", "flag", False, "camera_info's D from the sensor's <distortion>"),
     Parameter("CxPrime", "none", "", "no release of the plug-in publishes it"),
-    Parameter("borderCrop", "none", "", "the renderer distorts the whole picture"),
+    Parameter(
+        "borderCrop", "none", "", "the renderer distorts the whole picture", "", ("border_crop",)
+    ),
     Parameter("alwaysOn", "none", "", "pictures are rendered while somebody subscribes"),
     Parameter("baseline", "none", "", "no release of the plug-in reads it"),
-    Parameter("triggerTopicName", "text", "image_trigger", "of the triggered camera (ROS 1)"),
+    Parameter(
+        "triggerTopicName", "text", "image_trigger", "of the triggered camera (ROS 1)", only=1
+    ),
     Parameter("rightFrameName", "none", "", "no release of the plug-in reads it"),
 )
 _DEPTH = (
@@ -101,6 +114,8 @@ CAMERA_TABLE = PluginTable(
         "`compressed` is JPEG or PNG; `compressedDepth` encodes depth pictures; `theora` is listed"
         " as image_transport does and sends nothing.",
         "The sensor's `update_rate` governs; the plug-in's can only lower it.",
+        "In ROS 2 `camera_name` is the sensor's name and `frame_name` the link's where they are"
+        " absent, and only the sensor's rate counts.",
         "camera_info has the principal point at (size + 1)/2 as Gazebo's; the picture's is at"
         " (size - 1)/2.",
     ),
@@ -110,18 +125,21 @@ CAMERA_TABLE = PluginTable(
             "sensor_msgs/msg/Image",
             "sensor's `update_rate`",
             "`frameName`",
+            ros2="{camera_name}/image_raw",
         ),
         Topic(
             "{cameraName}/{imageTopicName}/compressed",
             "sensor_msgs/msg/CompressedImage",
             "sensor's `update_rate`",
             "`frameName`",
+            ros2="{camera_name}/image_raw/compressed",
         ),
         Topic(
             "{cameraName}/{imageTopicName}/compressedDepth",
             "sensor_msgs/msg/CompressedImage",
             "depth pictures only",
             "`frameName`",
+            ros2="{camera_name}/depth/image_raw/compressedDepth",
         ),
         Topic("{cameraName}/{imageTopicName}/theora", "theora_image_transport/msg/Packet", "never"),
         Topic(
@@ -129,18 +147,36 @@ CAMERA_TABLE = PluginTable(
             "sensor_msgs/msg/CameraInfo",
             "sensor's `update_rate`",
             "`frameName`",
+            ros2="{camera_name}/camera_info",
         ),
         *_DEPTH_TOPICS[5:],
+        Topic(
+            "{camera_name}/depth/image_raw, {camera_name}/depth/camera_info",
+            "the same of depth cameras (ROS 2)",
+            "sensor's `update_rate`",
+            "`frame_name`",
+        ),
+        Topic(
+            "{camera_name}/points",
+            "sensor_msgs/msg/PointCloud2 of depth cameras (ROS 2)",
+            "sensor's `update_rate`",
+            "`frame_name`",
+        ),
     ),
     services=(_SET_INFO, _RECONFIGURE),
+    in_both_ros=True,
     parameters=(
         *_COMMON,
-        Parameter("imageTopicName", "text", "image_raw", "picture"),
-        Parameter("cameraInfoTopicName", "text", "camera_info", "camera_info"),
-        Parameter("min_depth", "number", 0.4, "nearest depth that is kept (ROS 2)", "m"),
-        Parameter("max_depth", "number", 5.0, "farthest depth that is kept (ROS 2)", "m"),
+        Parameter("imageTopicName", "text", "image_raw", "picture", only=1),
+        Parameter("cameraInfoTopicName", "text", "camera_info", "camera_info", only=1),
+        Parameter("min_depth", "number", 0.4, "nearest depth that is kept", "m", only=2),
+        Parameter("max_depth", "number", math.inf, "farthest depth that is kept", "m", only=2),
         Parameter(
-            "triggered", "flag", False, "a picture for each message on `image_trigger` (ROS 2)"
+            "triggered",
+            "flag",
+            False,
+            "a picture for each message on `{camera_name}/image_trigger`",
+            only=2,
         ),
         Parameter("pollServiceName", "none", "", "of prosilica; pictures are not polled"),
     ),
@@ -151,6 +187,7 @@ TRIGGERED_TABLE = replace(
     family="triggered_camera",
     summary="A camera that takes one picture for each message on its trigger topic (ROS 1).",
     filenames=("gazebo_ros_triggered_camera",),
+    in_both_ros=False,
     behaviour=(
         "Every trigger gives the picture of the next step; several give one after the other. In"
         " ROS 2 the camera plug-in does so with `triggered`.",

@@ -14,7 +14,13 @@ from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.ports import NodePort, PublisherPort
-from gazelle.simulator.scheduler import ORDER_CONTROL, Scheduler, Task
+from gazelle.simulator.scheduler import (
+    ORDER_CONTROL,
+    Scheduler,
+    Task,
+    gz_sensor_period_in_steps,
+    throttled_period_in_steps,
+)
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
@@ -26,6 +32,7 @@ if TYPE_CHECKING:
 
 _DEPTH = 10
 _SENSOR_DEPTH = 5
+_ROS2 = 2
 
 __all__ = ["Host", "PluginContext", "Resources", "SensorPlace", "join_names"]
 
@@ -49,6 +56,11 @@ class Host(Protocol):
         """True when every camera frame is finished before time goes on."""
         ...
 
+    @property
+    def ros_version(self) -> int:
+        """The version of ROS that started the simulator, 0 when nothing tells."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class SensorPlace:
@@ -58,12 +70,21 @@ class SensorPlace:
         name: ``model::link::sensor``, of a joint's sensor ``model::joint::sensor``.
         link_name: ``model::link``; the joint's child for the sensor of a joint.
         joint_name: ``model::joint``, empty for a sensor on a link.
+        is_gz: gz-sim's own systems publish it, not a plug-in of Gazebo Classic.
     """
 
     name: str
     link_name: str
     sensor: Sensor
     joint_name: str = ""
+    is_gz: bool = False
+
+    def period_in_steps(self, step_ns: int, largest_rate_hz: float = 0.0) -> Fraction:
+        """Return the sensor's period, or that of whoever skips its readings above a rate."""
+        rate_hz = self.sensor.update_rate_hz
+        if self.is_gz:
+            return gz_sensor_period_in_steps(rate_hz, step_ns)
+        return throttled_period_in_steps(rate_hz, largest_rate_hz, step_ns)
 
 
 class Resources:
@@ -186,16 +207,25 @@ class PluginContext:
 
     def reader(self, table: PluginTable) -> ParameterReader:
         """Return the reader of this plug-in's keys."""
-        return ParameterReader(self.plugin, table, self.host.diagnostics)
+        host = self.host
+        return ParameterReader(self.plugin, table, host.diagnostics, host.ros_version)
 
     def report(self, code: str, message: str, *, fix: str = "") -> None:
         """Report something about this plug-in at its place."""
         self.host.diagnostics.report(code, message, self.plugin.span, fix=fix)
 
     def namespace(self, parameters: ParameterReader) -> str:
-        """Return the namespace of the plug-in's topics, absolute."""
-        if parameters.ros.present or not parameters.knows("robotNamespace"):
-            return join_names("/", parameters.ros.namespace or self.default_namespace)
+        """Return the namespace of the plug-in's topics, absolute.
+
+        What a robot is spawned into goes before ``<ros>``'s namespace, as ROS 2's factory writes
+        it there, and behind ``<robotNamespace>``.
+        """
+        own, given = parameters.ros.namespace, self.default_namespace
+        if parameters.is_ros2() or not parameters.knows("robotNamespace"):
+            if self.host.ros_version != _ROS2:
+                # ROS 1's spawner sends its own namespace where none is asked for.
+                given = given.strip("/")
+            return join_names("/", given or own)
         name = parameters.text("robotNamespace", self.default_namespace)
         return join_names("/", name)
 

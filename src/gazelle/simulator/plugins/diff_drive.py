@@ -89,7 +89,7 @@ class _Drive:
         context, resources = self._context, self._context.resources
         namespace = context.namespace(parameters)
         prefix = context.tf_prefix(namespace) or (
-            "" if parameters.ros.present else namespace.strip("/")
+            "" if parameters.is_ros2() else namespace.strip("/")
         )
         self._frames = _Frames(
             parameters.text("odometryFrame"), parameters.text("robotBaseFrame"), prefix.strip("/")
@@ -105,7 +105,7 @@ class _Drive:
             self._odom_publisher = resources.publisher(topic, "nav_msgs/Odometry")
         # The ROS 1 plug-in sends odom → base from the function that publishTf switches.
         self._sends_odom_tf = parameters.flag("publishOdomTF") and (
-            self._odom_publisher is not None or parameters.ros.present
+            self._odom_publisher is not None or parameters.is_ros2()
         )
         self._sends_wheel_tf = parameters.flag("publishWheelTF")
         self._tf_publisher = None

@@ -20,16 +20,23 @@ TABLE = PluginTable(
         "The command topic takes `geometry_msgs/Twist` and `geometry_msgs/TwistStamped`.",
         "Wheel joint states carry positions only, as the ROS 1 plug-in's.",
     ),
+    in_both_ros=True,
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
-        Topic("{odometryTopic}", "nav_msgs/msg/Odometry", "`updateRate`", "`odometryFrame`"),
+        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False, ros2="cmd_vel"),
+        Topic(
+            "{odometryTopic}",
+            "nav_msgs/msg/Odometry",
+            "`updateRate`",
+            "`odometryFrame`",
+            ros2="odom",
+        ),
         Topic("/tf", "tf2_msgs/msg/TFMessage", "`updateRate`", "`odometryFrame`, wheel parents"),
-        Topic("joint_states", "sensor_msgs/msg/JointState", "`updateRate`", "none"),
+        Topic("joint_states", "sensor_msgs/msg/JointState", "`updateRate`", "none", ros2="-"),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of all topics"),
-        Parameter("commandTopic", "text", "cmd_vel", "commands", "", ("command_topic",)),
-        Parameter("odometryTopic", "text", "odom", "odometry", "", ("odometry_topic",)),
+        Parameter("robotNamespace", "text", "", "namespace of all topics", only=1),
+        Parameter("commandTopic", "text", "cmd_vel", "commands", "", ("command_topic",), 1),
+        Parameter("odometryTopic", "text", "odom", "odometry", "", ("odometry_topic",), 1),
         Parameter("odometryFrame", "text", "odom", "its frame", "", ("odometry_frame",)),
         Parameter(
             "robotBaseFrame", "text", "base_footprint", "child frame", "", ("robot_base_frame",)
@@ -63,18 +70,32 @@ TABLE = PluginTable(
             "odometrySource", "text", "world", "where odometry comes from", "", ("odometry_source",)
         ),
         Parameter(
-            "publishTf", "flag", True, "publish odometry at all (ROS 1)", "", ("publish_odom",)
+            "publishTf",
+            "flag",
+            True,
+            "publish odometry at all",
+            "",
+            ("publish_odom",),
+            ros2_default=False,
         ),
-        Parameter("publishOdomTF", "flag", True, "publish odom → base", "", ("publish_odom_tf",)),
+        Parameter(
+            "publishOdomTF",
+            "flag",
+            True,
+            "publish odom → base",
+            "",
+            ("publish_odom_tf",),
+            ros2_default=False,
+        ),
         Parameter(
             "publishWheelTF", "flag", False, "publish wheel transforms", "", ("publish_wheel_tf",)
         ),
-        Parameter("publishWheelJointState", "flag", False, "publish wheel joint states"),
-        Parameter("legacyMode", "flag", True, "exchange the wheels"),
+        Parameter("publishWheelJointState", "flag", False, "publish wheel joint states", only=1),
+        Parameter("legacyMode", "flag", True, "exchange the wheels", only=1),
         Parameter("covariance_x", "number", 1e-5, "pose covariance x", "m²"),
         Parameter("covariance_y", "number", 1e-5, "pose covariance y", "m²"),
         Parameter("covariance_yaw", "number", 1e-3, "pose covariance yaw", "rad²"),
-        Parameter("num_wheel_pairs", "number", 1.0, "pairs of wheels (ROS 2)"),
+        Parameter("num_wheel_pairs", "number", 1.0, "pairs of wheels (ROS 2)", only=2),
         Parameter("rosDebugLevel", "none", "", "Gazebo's logging level"),
         Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
         Parameter("broadcastTF", "none", "", "no release of the plug-in reads it"),

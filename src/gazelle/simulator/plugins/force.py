@@ -26,12 +26,22 @@ TABLE = PluginTable(
         "The force acts at the centre of mass, in the world's frame; ROS 2 knows"
         " `force_frame` link, which turns it with the link.",
     ),
-    topics=(Topic("{topicName}", "geometry_msgs/msg/Wrench", "", "", publishes=False),),
+    in_both_ros=True,
+    topics=(
+        Topic(
+            "{topicName}",
+            "geometry_msgs/msg/Wrench",
+            "",
+            "",
+            publishes=False,
+            ros2="gazebo_ros_force",
+        ),
+    ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
         Parameter("bodyName", "text", "", "the link", "", ("link_name",)),
-        Parameter("topicName", "text", "gazebo_ros_force", "commands"),
-        Parameter("force_frame", "text", "world", "world or link (ROS 2)"),
+        Parameter("topicName", "text", "gazebo_ros_force", "commands", only=1),
+        Parameter("force_frame", "text", "world", "world or link (ROS 2)", only=2),
     ),
 )
 

@@ -17,7 +17,7 @@ from gazelle.simulator.plugins.noise import gaussian
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.stream import publish_at
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
-from gazelle.simulator.scheduler import sensor_period_in_steps
+from gazelle.simulator.scheduler import measured_period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.engine import LinkHandle
@@ -38,15 +38,21 @@ TABLE = PluginTable(
         " spin, world frame, as Gazebo's WorldForce and WorldTorque.",
         "Rates are measured from the last message, so the period is whole steps.",
     ),
+    in_both_ros=True,
     topics=(
-        Topic("{topicName}", "geometry_msgs/msg/WrenchStamped", "`updateRate`", "child link"),
-        Topic("wrench", "geometry_msgs/msg/WrenchStamped (ROS 2)", "`update_rate`", "child link"),
+        Topic(
+            "{topicName}",
+            "geometry_msgs/msg/WrenchStamped",
+            "`updateRate`",
+            "child link",
+            ros2="wrench",
+        ),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
         Parameter("jointName", "text", "", "the joint", "", ("joint_name",)),
-        Parameter("topicName", "text", "", "topic (ROS 1), must be given"),
-        Parameter("body_name", "text", "", "the link, instead of a joint (ROS 2)"),
+        Parameter("topicName", "text", "", "topic (ROS 1), must be given", only=1),
+        Parameter("body_name", "text", "", "the link, instead of a joint (ROS 2)", only=2),
         Parameter("frame_name", "text", "world", "`header.frame_id` with `body_name`"),
         Parameter(
             "gaussianNoise",
@@ -84,7 +90,7 @@ F3D_TABLE = PluginTable(
 def load(context: PluginContext) -> None:
     """Start publishing; one diagnostic and nothing else when joint or link is missing."""
     parameters = context.reader(TABLE)
-    ros2 = parameters.ros.present or not parameters.has("topicName")
+    ros2 = parameters.is_ros2() or not (parameters.ros_version or parameters.has("topicName"))
     if ros2 and parameters.has("body_name"):
         link_name = context.link_name(parameters.text("body_name"))
         frame = parameters.text("frame_name")
@@ -93,9 +99,11 @@ def load(context: PluginContext) -> None:
         joint_name = context.joint_name(parameters.text("jointName"))
         frame = "" if joint_name is None else _child_frame(context, parameters, joint_name)
         read = None if joint_name is None else _joint_reader(context, joint_name)
-    if read is not None:
-        topic = context.topic(parameters, "wrench" if ros2 else parameters.text("topicName"))
-        _start(context, parameters, topic, frame, read)
+    topic = "wrench" if ros2 else parameters.text("topicName")
+    if not topic:
+        _report_no_topic(context)
+    elif read is not None:
+        _start(context, parameters, context.topic(parameters, topic), frame, read)
     parameters.report_unread()
 
 
@@ -106,7 +114,7 @@ def load_f3d(context: PluginContext) -> None:
     topic, frame = parameters.text("topicName"), parameters.text("frameName")
     if link_name is not None and topic:
         read = _link_reader(context, link_name)
-        step = sensor_period_in_steps(0.0, context.host.engine.step_ns)
+        step = measured_period_in_steps(0.0, context.host.engine.step_ns)
         publish_at(
             context,
             context.topic(parameters, topic),
@@ -115,8 +123,7 @@ def load_f3d(context: PluginContext) -> None:
             lambda time_ns: wrench_message(time_ns, frame, *read()),
         )
     elif link_name is not None:
-        text = f"plug-in '{context.plugin.name}' has no <topicName>; it is left out"
-        context.report("plugin.bad-value", text)
+        _report_no_topic(context)
     parameters.report_unread()
 
 
@@ -128,6 +135,11 @@ def wrench_message(time_ns: int, frame: str, force: Array, torque: Array) -> Any
     return message_class("geometry_msgs/WrenchStamped")(
         header=header(time_ns, frame), wrench=wrench
     )
+
+
+def _report_no_topic(context: PluginContext) -> None:
+    text = f"plug-in '{context.plugin.name}' has no <topicName>; it is left out"
+    context.report("plugin.bad-value", text)
 
 
 def _start(
@@ -144,7 +156,7 @@ def _start(
         return wrench_message(time_ns, frame, force + noise(3), torque + noise(3))
 
     rate_hz = parameters.number("updateRate")
-    period = sensor_period_in_steps(rate_hz, context.host.engine.step_ns)
+    period = measured_period_in_steps(rate_hz, context.host.engine.step_ns)
     publish_at(context, topic, "geometry_msgs/WrenchStamped", period, build)
 
 

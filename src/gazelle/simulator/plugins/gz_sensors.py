@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, World
 from gazelle.simulator.plugins.camera_info import Calibration
@@ -13,7 +14,6 @@ from gazelle.simulator.plugins.gz_measurements import publish_measurement
 from gazelle.simulator.plugins.imu import publish_readings
 from gazelle.simulator.plugins.laser import cloud_builder, scan_builder, start_scans
 from gazelle.simulator.plugins.registry import plain_name
-from gazelle.simulator.scheduler import sensor_period_in_steps
 
 __all__ = ["is_gz_world", "publish_sensor"]
 
@@ -32,8 +32,8 @@ def publish_sensor(context: PluginContext) -> None:
     ``…/points``, pictures at the topic with ``camera_info`` beside it, RGB-D at ``…/image``,
     ``…/depth_image`` and ``…/points``.
     """
-    place = context.place
-    assert place is not None
+    assert context.place is not None
+    place = replace(context.place, is_gz=True)
     spec = place.sensor.spec
     if isinstance(spec, LidarSpec):
         topic, frame = _topic(context, place, "scan"), _frame(place)
@@ -42,7 +42,7 @@ def publish_sensor(context: PluginContext) -> None:
         build = cloud_builder(frame, -math.inf)
         start_scans(context, place, points, "sensor_msgs/PointCloud2", build)
     elif isinstance(spec, ImuSpec):
-        period = sensor_period_in_steps(place.sensor.update_rate_hz, context.host.engine.step_ns)
+        period = place.period_in_steps(context.host.engine.step_ns)
         sensors, topic = context.host.sensors, _topic(context, place, "imu")
         publish_readings(context, topic, _frame(place), period, lambda: sensors.imu(place))
     elif isinstance(spec, CameraSpec):

@@ -29,6 +29,7 @@ TABLE = PluginTable(
         "Where the link really is goes out as `{frame}_actual`. Nothing acts until the frame is"
         " known, directly or over others, from `world`.",
     ),
+    in_both_ros=True,
     topics=(
         Topic("/tf, /tf_static", "tf2_msgs/msg/TFMessage", "", "", publishes=False),
         Topic("/tf", "tf2_msgs/msg/TFMessage", "every step", "`world`"),
@@ -36,7 +37,15 @@ TABLE = PluginTable(
     parameters=(
         Parameter("robotNamespace", "none", "", "tf is global"),
         Parameter("linkName", "text", "", "the link", "", ("link_name",)),
-        Parameter("frameId", "text", "hog", "first part of both frames", "", ("frame_id",)),
+        Parameter(
+            "frameId",
+            "text",
+            "hog",
+            "first part of both frames",
+            "",
+            ("frame_id",),
+            ros2_default=_ROOT,
+        ),
         Parameter("kl", "number", 200.0, "stiffness", "N/m"),
         Parameter("ka", "number", 200.0, "turning stiffness", "N·m/rad"),
     ),
@@ -85,7 +94,7 @@ class _Hand:
     def __init__(self, context: PluginContext, parameters: ParameterReader, link: str) -> None:
         self._engine = context.host.engine
         self._link = self._engine.link(link)
-        default = "hog" if not parameters.ros.present else _ROOT
+        default = _ROOT if parameters.is_ros2() else "hog"
         self._frame = parameters.text("frameId", default)
         self._stiffness = np.array([parameters.number("kl"), parameters.number("ka")])
         inertial = self._link.link.inertial

@@ -18,7 +18,7 @@ from gazelle.simulator.messages import (
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
-from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, sensor_period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.sensors import ImuRecord
@@ -79,20 +79,22 @@ SENSOR_TABLE = PluginTable(
     summary="Publishes the readings of the imu sensor it stands in.",
     filenames=("gazebo_ros_imu_sensor",),
     behaviour=(GRAVITY,),
+    in_both_ros=True,
     topics=(
         Topic(
             "{topicName}",
             "sensor_msgs/msg/Imu",
             "`updateRateHZ`, else the sensor's",
             "`frameName`, else the link",
+            ros2="~/out",
         ),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("topicName", "text", "imu_data", "topic (ROS 1)"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
+        Parameter("topicName", "text", "imu_data", "topic (ROS 1)", only=1),
         Parameter("frameName", "text", "", "frame of the data", "", ("frame_name",)),
-        Parameter("bodyName", "text", "", "frame of the data when frameName is absent"),
-        Parameter("updateRateHZ", "number", 0.0, "publish rate, 0 for the sensor's", "Hz"),
+        Parameter("bodyName", "text", "", "frame of the data when frameName is absent", only=1),
+        Parameter("updateRateHZ", "number", 0.0, "publish rate, 0 for the sensor's", "Hz", only=1),
         Parameter(
             "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
         ),
@@ -135,10 +137,10 @@ def load_sensor(context: PluginContext) -> None:
         sensor = place.sensor
         link = place.link_name.split("::")[-1]
         frame = parameters.text("frameName") or parameters.text("bodyName") or link
-        ros2 = parameters.ros.present
+        ros2 = parameters.is_ros2()
         topic = context.topic(parameters, "~/out" if ros2 else parameters.text("topicName"))
         rate = parameters.number("updateRateHZ")
-        period = sensor_period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
+        period = period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
         offset = offset_pose(parameters)
         sigma = parameters.number("gaussianNoise")
         spec = sensor.spec

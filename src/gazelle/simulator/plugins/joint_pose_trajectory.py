@@ -29,13 +29,17 @@ TABLE = PluginTable(
         " afterwards they are free.",
     ),
     topics=(
-        Topic("{topicName}", "trajectory_msgs/msg/JointTrajectory", "", "", publishes=False),
+        Topic(
+            "{topicName}", "trajectory_msgs/msg/JointTrajectory", "", "", publishes=False,
+            ros2="set_joint_trajectory",
+        ),
     ),
+    in_both_ros=True,
     services=(Service("{serviceName} (ROS 1)", "gazebo_msgs/srv/SetJointTrajectory"),),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of topic and service"),
-        Parameter("topicName", "text", "set_joint_trajectory", "trajectories"),
-        Parameter("serviceName", "text", "set_joint_trajectory", "the same as a service"),
+        Parameter("robotNamespace", "text", "", "namespace of topic and service", only=1),
+        Parameter("topicName", "text", "set_joint_trajectory", "trajectories", only=1),
+        Parameter("serviceName", "text", "set_joint_trajectory", "the same as a service", only=1),
         Parameter(
             "updateRate", "number", 0.0, "how often points are looked for; 100 in ROS 2", "Hz",
             ("update_rate",),
@@ -72,10 +76,8 @@ class _Trajectories:
         resources = context.resources
         topic = context.topic(parameters, parameters.text("topicName"))
         resources.subscription(topic, "trajectory_msgs/JointTrajectory", self._take)
-        default = None
-        if parameters.ros.present or parameters.has("updateRate"):
-            default = 100.0 if parameters.ros.present else None
-        else:
+        default = 100.0 if parameters.is_ros2() else None
+        if default is None and (parameters.ros_version or not parameters.has("updateRate")):
             service = context.topic(parameters, parameters.text("serviceName"))
             resources.service(service, "gazebo_msgs/SetJointTrajectory", self._serve)
         rate = parameters.number("updateRate", default)

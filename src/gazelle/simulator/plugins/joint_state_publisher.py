@@ -19,9 +19,10 @@ TABLE = PluginTable(
     summary="Publishes the positions and velocities of joints.",
     filenames=("gazebo_ros_joint_state_publisher",),
     behaviour=("The effort field stays empty, as in the ROS 1 plug-in.",),
+    in_both_ros=True,
     topics=(Topic("joint_states", "sensor_msgs/msg/JointState", "`updateRate`", "none"),),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
         Parameter(
             "jointName",
             "text",

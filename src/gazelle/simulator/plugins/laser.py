@@ -14,7 +14,7 @@ from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.stream import prefixed_frame
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
-from gazelle.simulator.scheduler import ORDER_SENSOR, sensor_period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR
 
 if TYPE_CHECKING:
     from gazelle.sensors import LidarRecord
@@ -35,8 +35,8 @@ TABLE = PluginTable(
     summary="Publishes the scans of the ray sensor it stands in.",
     filenames=("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
     behaviour=(
-        "The sensor's `update_rate` governs; 5.5 Hz on 1 ms steps is a period of 182 ms, as in"
-        " Gazebo.",
+        "The sensor's `update_rate` governs, on average exactly, as in Gazebo: 5.5 Hz on 1 ms steps"
+        " are periods of 182 ms and, two times in eleven, 181 ms.",
         "Beyond the range is `inf`; `time_increment` and `scan_time` are 0, as in Gazebo.",
         "`ray` sensors see collisions, `gpu_ray` sensors visuals.",
     ),
@@ -124,7 +124,7 @@ def start_scans(
     def publish() -> None:
         publisher.publish(build(host.engine.time_ns, host.sensors.scan(place)))
 
-    period = sensor_period_in_steps(place.sensor.update_rate_hz, host.engine.step_ns)
+    period = place.period_in_steps(host.engine.step_ns)
     context.resources.task(
         place.name, period, publish, order=ORDER_SENSOR, wanted=lambda: publisher.matched
     )

@@ -18,15 +18,20 @@ TABLE = PluginTable(
     family="p3d",
     summary="Publishes the true pose and velocity of a link as odometry.",
     filenames=("gazebo_ros_p3d",),
+    in_both_ros=True,
     topics=(
         Topic(
-            "{topicName}", "nav_msgs/msg/Odometry", "`updateRate`, 0 is every step", "`frameName`"
+            "{topicName}",
+            "nav_msgs/msg/Odometry",
+            "`updateRate`, 0 is every step",
+            "`frameName`",
+            ros2="odom",
         ),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
+        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
         Parameter("bodyName", "text", "", "the link", "", ("body_name",)),
-        Parameter("topicName", "text", "odom", "topic", "", ("topic_name",)),
+        Parameter("topicName", "text", "odom", "topic", "", ("topic_name",), 1),
         Parameter(
             "frameName", "text", "world", "link that poses are relative to", "", ("frame_name",)
         ),
@@ -36,7 +41,7 @@ TABLE = PluginTable(
             (0.0, 0.0, 0.0),
             "added to the position",
             "m",
-            ("xyz_offset", "xyzOffsets"),
+            ("xyz_offset", "xyzOffsets", "xyz_offsets"),
         ),
         Parameter(
             "rpyOffset",
@@ -44,7 +49,7 @@ TABLE = PluginTable(
             (0.0, 0.0, 0.0),
             "added to the orientation",
             "rad",
-            ("rpy_offset", "rpyOffsets"),
+            ("rpy_offset", "rpyOffsets", "rpy_offsets"),
         ),
         Parameter(
             "gaussianNoise",

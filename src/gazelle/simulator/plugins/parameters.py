@@ -17,6 +17,7 @@ _ROS_WORDS = ("namespace", "remapping", "argument", "parameter")
 _REMAP_FLAGS = ("-r", "--remap")
 _FILE_FLAGS = ("--params-file",)
 _VALUE_FLAGS = ("-p", "--param")
+_ROS2 = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,14 +52,40 @@ class ParameterReader:
         plugin: the ``<plugin>`` element.
         table: known keys with defaults and other spellings.
         diagnostics: receives bad numbers and, from `report_unread`, unknown keys.
+        ros_version: of what started the simulator, 0 when it is not known.
+
+    Attributes:
+        ros: the ``<ros>`` element; an empty one where the plug-in is ROS 1's.
+        ros_version: which of two plug-ins this is, 0 when only its keys tell.
     """
 
-    def __init__(self, plugin: PluginTag, table: PluginTable, diagnostics: Diagnostics) -> None:
+    def __init__(
+        self,
+        plugin: PluginTag,
+        table: PluginTable,
+        diagnostics: Diagnostics,
+        ros_version: int = 0,
+    ) -> None:
         self.plugin = plugin
+        self.ros_version = ros_version if table.in_both_ros else 0
         self._table = table
         self._diagnostics = diagnostics
-        self._read: set[str] = {"ros"}
-        self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
+        self._read: set[str] = set()
+        self.ros = RosBlock()
+        if self.ros_version != 1:
+            self._read.add("ros")
+            self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
+
+    def is_ros2(self, *marks: str) -> bool:
+        """Tell whether this is ROS 2's plug-in.
+
+        Args:
+            marks: keys that only ROS 2 has; they count, as ``<ros>`` does, where nothing else
+                tells.
+        """
+        if self.ros_version:
+            return self.ros_version == _ROS2
+        return self.ros.present or any(self.has(mark) for mark in marks)
 
     def knows(self, key: str) -> bool:
         """Tell whether the plug-in has such a key at all."""
@@ -70,8 +97,7 @@ class ParameterReader:
 
     def tag(self, key: str) -> Tag | None:
         """Return the first element of a key, None when it is absent."""
-        row = self._row(key)
-        for name in (row.key, *row.aliases):
+        for name in self._names(self._row(key)):
             found = self.plugin.parameters.find(name)
             if found is not None:
                 return found
@@ -79,8 +105,7 @@ class ParameterReader:
 
     def texts(self, key: str) -> tuple[str, ...]:
         """Return the texts of all elements of a key."""
-        row = self._row(key)
-        names = (row.key, *row.aliases)
+        names = self._names(self._row(key))
         return tuple(tag.text for tag in self.plugin.parameters.children if tag.name in names)
 
     def text(self, key: str, default: str | None = None) -> str:
@@ -88,21 +113,21 @@ class ParameterReader:
         tag = self.tag(key)
         if tag is not None and tag.text:
             return tag.text
-        return str(self._row(key).default) if default is None else default
+        return str(self._default(key)) if default is None else default
 
     def flag(self, key: str) -> bool:
         """Return a truth value."""
-        default = bool(self._row(key).default)
+        default = bool(self._default(key))
         return bool_from(self.tag(key), default, self._diagnostics)
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return a number; `default` instead of the table's when given."""
-        fallback = self._row(key).default if default is None else default
+        fallback = self._default(key) if default is None else default
         return self._floats(key, (float(str(fallback)),))[0]
 
     def vector(self, key: str) -> tuple[float, float, float]:
         """Return three numbers."""
-        default = self._row(key).default
+        default = self._default(key)
         assert isinstance(default, tuple)
         x, y, z = self._floats(key, default)
         return (x, y, z)
@@ -120,7 +145,7 @@ class ParameterReader:
             elif row.kind == "none":
                 idle.append(f"<{tag.name}> ({row.meaning})")
             elif tag.name not in self._read:
-                idle.append(f"<{tag.name}>")
+                idle.append(f"<{tag.name}>{self._instead_of(row, tag.name)}")
         if idle:
             text = f"plug-in '{self.plugin.name}': these keys change nothing: {', '.join(idle)}"
             self._diagnostics.report("plugin.idle-parameter", text, self.plugin.span)
@@ -133,7 +158,7 @@ class ParameterReader:
 
     def _known_row(self, name: str) -> Parameter | None:
         if name == "ros":
-            return Parameter("ros", "text", "", "")
+            return Parameter("ros", "text", "", "", only=_ROS2)
         try:
             return self._table.parameter(name)
         except KeyError:
@@ -141,8 +166,23 @@ class ParameterReader:
 
     def _row(self, key: str) -> Parameter:
         row = self._table.parameter(key)
-        self._read.update((row.key, *row.aliases))
+        self._read.update(self._names(row))
         return row
+
+    def _names(self, row: Parameter) -> tuple[str, ...]:
+        return row.spellings(self.ros_version)
+
+    def _default(self, key: str) -> object:
+        return self._row(key).default_in(self.ros_version)
+
+    def _instead_of(self, row: Parameter, name: str) -> str:
+        """Say whose key one is that the plug-in of this version does not read."""
+        names = self._names(row)
+        if not self.ros_version or name in names:
+            return ""
+        other = 1 if self.ros_version == _ROS2 else _ROS2
+        read = f", ROS {self.ros_version} reads <{names[0]}>" if names else ""
+        return f" (of ROS {other}{read})"
 
     def _floats(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         tag = self.tag(key)

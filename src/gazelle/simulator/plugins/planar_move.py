@@ -36,15 +36,22 @@ TABLE = PluginTable(
         "The velocity is that of the model's frame; the joints keep their own speeds.",
         "ROS 1 measures the twist as the difference of two poses over the time between them.",
     ),
+    in_both_ros=True,
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
-        Topic("{odometryTopic}", "nav_msgs/msg/Odometry", "`odometryRate`", "`odometryFrame`"),
+        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False, ros2="cmd_vel"),
+        Topic(
+            "{odometryTopic}",
+            "nav_msgs/msg/Odometry",
+            "`odometryRate`",
+            "`odometryFrame`",
+            ros2="odom",
+        ),
         Topic("/tf", "tf2_msgs/msg/TFMessage", "`odometryRate`", "`odometryFrame`"),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of all topics"),
-        Parameter("commandTopic", "text", "cmd_vel", "commands"),
-        Parameter("odometryTopic", "text", "odom", "odometry"),
+        Parameter("robotNamespace", "text", "", "namespace of all topics", only=1),
+        Parameter("commandTopic", "text", "cmd_vel", "commands", only=1),
+        Parameter("odometryTopic", "text", "odom", "odometry", only=1),
         Parameter("odometryFrame", "text", "odom", "its frame", "", ("odometry_frame",)),
         Parameter(
             "robotBaseFrame", "text", "base_footprint", "child frame", "", ("robot_base_frame",)
@@ -52,13 +59,15 @@ TABLE = PluginTable(
         Parameter(
             "odometryRate", "number", 20.0, "publish rate, 0 for never", "Hz", ("publish_rate",)
         ),
-        Parameter("update_rate", "number", 20.0, "how often the velocity is set (ROS 2)", "Hz"),
-        Parameter("cmdTimeout", "number", -1.0, "age at which a command ends (ROS 1)", "s"),
-        Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)"),
-        Parameter("publish_odom_tf", "flag", True, "publish odom → base (ROS 2)"),
-        Parameter("covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²"),
-        Parameter("covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²"),
-        Parameter("covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²"),
+        Parameter(
+            "update_rate", "number", 20.0, "how often the velocity is set (ROS 2)", "Hz", only=2
+        ),
+        Parameter("cmdTimeout", "number", -1.0, "age at which a command ends (ROS 1)", "s", only=1),
+        Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)", only=2),
+        Parameter("publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", only=2),
+        Parameter("covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²", only=2),
+        Parameter("covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²", only=2),
+        Parameter("covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²", only=2),
     ),
 )
 
@@ -76,7 +85,7 @@ class _PlanarMove:
     def __init__(self, context: PluginContext, parameters: ParameterReader) -> None:
         self._context = context
         self._engine = context.host.engine
-        self._is_ros2 = parameters.ros.present or parameters.has("update_rate")
+        self._is_ros2 = parameters.is_ros2("update_rate")
         self._command = (0.0, 0.0, 0.0)
         self._stamp_ns = 0
         timeout = parameters.number("cmdTimeout")

@@ -43,7 +43,7 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
     host, resources, engine = context.host, context.resources, context.host.engine
-    namespace = join_names("/", parameters.ros.namespace or context.default_namespace)
+    namespace = context.namespace(parameters)
     name = parameters.text("controller_manager_name")
     source = _source(context, parameters, namespace, name)
     rate_hz = _rate(context, source)

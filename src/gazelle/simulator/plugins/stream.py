@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, TypeVar
 
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.scheduler import ORDER_SENSOR, sensor_period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR
 
 __all__ = [
     "once_per_step",
@@ -86,16 +85,12 @@ def once_per_step(context: PluginContext, read: Callable[[], Reading]) -> Callab
 
 def sensor_period(context: PluginContext, place: SensorPlace) -> Fraction:
     """Return the period of a sensor's ``<update_rate>``."""
-    return sensor_period_in_steps(place.sensor.update_rate_hz, context.host.engine.step_ns)
+    return place.period_in_steps(context.host.engine.step_ns)
 
 
 def throttled_period(context: PluginContext, place: SensorPlace, rate_hz: float) -> Fraction:
     """Return the period of a plug-in that skips whole readings of its sensor; 0 Hz skips none."""
-    period = sensor_period(context, place)
-    if rate_hz <= 0:
-        return period
-    own = Fraction(1_000_000_000) / (Fraction(rate_hz) * context.host.engine.step_ns)
-    return period * max(1, math.ceil(own / period))
+    return place.period_in_steps(context.host.engine.step_ns, rate_hz)
 
 
 def prefixed_frame(context: PluginContext, parameters: ParameterReader, key: str) -> str:

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 
 __all__ = ["Parameter", "PluginTable", "Service", "Topic", "tables_as_markdown"]
 
+_ROS2 = 2
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -23,6 +25,8 @@ class Parameter:
         unit: SI unit, empty for none.
         meaning: what it does; for kind ``none`` why it does nothing.
         aliases: other spellings of the same key, such as the ROS 2 name.
+        only: the one version of ROS whose plug-in reads the key, 0 for both.
+        ros2_default: what the plug-in of ROS 2 takes for an absent key, where that differs.
     """
 
     key: str
@@ -31,6 +35,28 @@ class Parameter:
     meaning: str
     unit: str = ""
     aliases: tuple[str, ...] = ()
+    only: int = 0
+    ros2_default: object | None = None
+
+    def spellings(self, ros_version: int) -> tuple[str, ...]:
+        """Return the names that count under a version of ROS, 0 for any.
+
+        ROS 1's plug-ins write camelCase and ROS 2's snake_case; a key that is spelled in one way
+        only is spelled so in both.
+        """
+        names = (self.key, *self.aliases)
+        if not ros_version:
+            return names
+        if self.only and self.only != ros_version:
+            return ()
+        own = tuple(name for name in names if _is_written_in(name, ros_version))
+        return own or names
+
+    def default_in(self, ros_version: int) -> object:
+        """Return the value of an absent key under a version of ROS."""
+        if ros_version == _ROS2 and self.ros2_default is not None:
+            return self.ros2_default
+        return self.default
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +65,7 @@ class Topic:
 
     Attributes:
         topic: name as a pattern; words in braces are keys of the plug-in.
+        ros2: the name in ROS 2, where that is another; ``-`` for none.
         type: ROS type, ROS 2 spelling.
         rate: how often, in words.
         frame: ``header.frame_id``, in words; empty for none.
@@ -50,6 +77,7 @@ class Topic:
     rate: str
     frame: str = ""
     publishes: bool = True
+    ros2: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +97,8 @@ class PluginTable:
         summary: what it does, one or two sentences.
         filenames: libraries and system names that mean this family, without ``lib`` and ``.so``.
         behaviour: facts of behaviour, one sentence each, with their source.
+        in_both_ros: ROS 1 and ROS 2 have a plug-in of this name, with other keys, names and
+            defaults; what started the simulator decides between them.
     """
 
     family: str
@@ -78,6 +108,7 @@ class PluginTable:
     topics: tuple[Topic, ...] = ()
     services: tuple[Service, ...] = ()
     behaviour: tuple[str, ...] = ()
+    in_both_ros: bool = False
     _by_key: dict[str, Parameter] = field(default_factory=dict, repr=False, compare=False)
 
     def parameter(self, key: str) -> Parameter:
@@ -102,6 +133,12 @@ def tables_as_markdown(tables: Sequence[PluginTable]) -> str:
         " by its library's or system's name with or without `lib`, `.so` and gz-sim's release, such"
         " as the 7 of `gz-sim7-…`. Rates are of simulated time. Keys that are not listed are"
         " reported, never ignored in silence.",
+        "",
+        "Where a plug-in exists in ROS 1 and in ROS 2, what started the simulator decides between"
+        " their names, keys, defaults and frames: `roslaunch` and `rosrun` mean ROS 1, `ros2"
+        " launch`, `ros2 run`, `-s libgazebo_ros_init.so` and `-s libgazebo_ros_factory.so` mean"
+        " ROS 2. Keys of the other one change nothing then, as in Gazebo. Where nothing says it"
+        " (`gzserver` in a bare shell, the Python API), a plug-in with `<ros>` is ROS 2's.",
     ]
     for table in tables:
         parts += ["", *_section(table)]
@@ -128,10 +165,22 @@ def _section(table: PluginTable) -> list[str]:
 
 def _topic_line(row: Topic) -> str:
     way = "" if row.publishes else " (listens)"
+    if row.ros2:
+        way += ", in ROS 2 " + ("none" if row.ros2 == "-" else f"`{row.ros2}`")
     return f"| `{row.topic}`{way} | `{row.type}` | {row.rate} | {row.frame} |"
 
 
 def _parameter_line(row: Parameter) -> str:
     aliases = ", ".join(f"`{name}`" for name in row.aliases)
     default = "" if row.kind == "none" else f"`{row.default}`"
-    return f"| `{row.key}` | {aliases} | {default} | {row.unit} | {row.meaning} |"
+    if row.ros2_default is not None:
+        default += f", in ROS 2 `{row.ros2_default}`"
+    mark = f" (ROS {row.only})"
+    meaning = row.meaning if not row.only or mark in row.meaning else row.meaning + mark
+    return f"| `{row.key}` | {aliases} | {default} | {row.unit} | {meaning} |"
+
+
+def _is_written_in(name: str, ros_version: int) -> bool:
+    if ros_version == _ROS2:
+        return name == name.lower()
+    return "_" not in name

@@ -59,7 +59,7 @@ class _Tricycle:
 
     def _read(self, parameters: ParameterReader) -> None:
         number = parameters.number
-        self._is_ros2 = parameters.ros.present or parameters.has("publish_odom")
+        self._is_ros2 = parameters.is_ros2("publish_odom")
         self._radius_m = number("actuatedWheelDiameter") / 2
         self._encoder_radius_m = number("encoderWheelDiameter") / 2
         self._separation_m = number("encoderWheelSeparation")

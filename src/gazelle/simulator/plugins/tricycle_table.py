@@ -20,16 +20,22 @@ TABLE = PluginTable(
         "`odometrySource` encoder counts left minus right, as both originals do.",
         "odom → base is sent with the odometry; ROS 2 sends neither unless `publish_odom`.",
     ),
+    in_both_ros=True,
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
-        Topic("{odometryTopic}", "nav_msgs/msg/Odometry", "`updateRate`", "`odometryFrame`"),
+        Topic(
+            "{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False, ros2="cmd_vel"
+        ),
+        Topic(
+            "{odometryTopic}", "nav_msgs/msg/Odometry", "`updateRate`", "`odometryFrame`",
+            ros2="odom",
+        ),
         Topic("/tf", "tf2_msgs/msg/TFMessage", "`updateRate`", "`odometryFrame`, wheel parents"),
         Topic("joint_states", "sensor_msgs/msg/JointState", "`updateRate`", "none"),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of all topics"),
-        Parameter("commandTopic", "text", "cmd_vel", "commands"),
-        Parameter("odometryTopic", "text", "odom", "odometry"),
+        Parameter("robotNamespace", "text", "", "namespace of all topics", only=1),
+        Parameter("commandTopic", "text", "cmd_vel", "commands", only=1),
+        Parameter("odometryTopic", "text", "odom", "odometry", only=1),
         Parameter("odometryFrame", "text", "odom", "its frame", "", ("odometry_frame",)),
         Parameter("robotBaseFrame", "text", "base_link", "child frame", "", ("robot_base_frame",)),
         Parameter(
@@ -85,7 +91,8 @@ TABLE = PluginTable(
         Parameter("odometrySource", "text", "world", "world (1) or encoder (0)", "",
                   ("odometry_source",)),
         Parameter("updateRate", "number", 100.0, "update and publish rate", "Hz", ("update_rate",)),
-        Parameter("publish_odom", "flag", False, "publish odometry and odom → base (ROS 2)"),
+        Parameter("publish_odom", "flag", False, "publish odometry and odom → base (ROS 2)",
+                  only=2),
         Parameter("publishWheelTF", "flag", False, "publish wheel transforms", "",
                   ("publish_wheel_tf",)),
         Parameter("publishWheelJointState", "flag", False, "publish joint states", "",

@@ -28,17 +28,20 @@ TABLE = PluginTable(
         "Static models are never held; `fixed` exempts others.",
         "`grasping` is sent at every step to those who listen.",
     ),
-    topics=(Topic("{topicName}", "std_msgs/msg/Bool", "every step"),),
+    in_both_ros=True,
+    topics=(Topic("{topicName}", "std_msgs/msg/Bool", "every step", ros2="grasping"),),
     services=(
         Service("on, off (ROS 1)", "std_srvs/srv/Empty"),
         Service("switch (ROS 2)", "std_srvs/srv/SetBool"),
     ),
     parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of topic and services"),
+        Parameter("robotNamespace", "text", "", "namespace of topic and services", only=1),
         Parameter("bodyName", "text", "", "the link that holds", "", ("link_name",)),
-        Parameter("topicName", "text", "grasping", "whether something is held"),
-        Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m"),
-        Parameter("fixed", "text", "", "a model or link that is never held, repeatable (ROS 2)"),
+        Parameter("topicName", "text", "grasping", "whether something is held", only=1),
+        Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m", only=2),
+        Parameter(
+            "fixed", "text", "", "a model or link that is never held, repeatable (ROS 2)", only=2
+        ),
     ),
 )
 
@@ -68,9 +71,10 @@ class _Gripper:
     def _offer(self, parameters: ParameterReader) -> None:
         context, resources = self._context, self._context.resources
         name = context.plugin.name
+        ros2 = parameters.is_ros2("max_distance")
         topic = context.topic(parameters, parameters.text("topicName"))
         self._publisher = resources.publisher(topic, "std_msgs/Bool")
-        if parameters.ros.present or parameters.has("max_distance"):
+        if ros2:
             switch = context.topic(parameters, "switch")
             resources.service(switch, "std_srvs/SetBool", self._switch)
         else:

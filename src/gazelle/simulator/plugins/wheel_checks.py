@@ -23,7 +23,7 @@ def exchange_wheels(
             text += "releases ignore the word and would turn the robot the other way"
             context.report("plugin.legacy-mode", text)
         return exchanged
-    if parameters.ros.present:
+    if parameters.is_ros2():
         return False
     exchanged = not _geometry(context, wheels).turns_left(exchanged=False)
     if exchanged:

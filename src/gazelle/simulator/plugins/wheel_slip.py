@@ -35,7 +35,7 @@ def load(context: PluginContext) -> None:
     parameters = context.reader(TABLE)
     slip = _Slip(context, _wheels(context, parameters))
     if slip.wheels:
-        if parameters.ros.present:
+        if parameters.is_ros2():
             _offer_ros2(context, parameters, slip)
         else:
             _offer_ros1(context, parameters, slip)

@@ -32,6 +32,7 @@ TABLE = PluginTable(
         "ROS 2 has them as parameters of its node, for all wheels or `/link` for one. The"
         " parameters `friction_coefficient_…` are not offered: friction is that of the surface.",
     ),
+    in_both_ros=True,
     topics=(
         Topic("wheel_slip", "gazebo_msgs/msg/WheelSlip", "`publisher_update_rate` (ROS 2)"),
         Topic(
@@ -44,7 +45,7 @@ TABLE = PluginTable(
     ),
     parameters=(
         _WHEEL,
-        Parameter("robotNamespace", "text", "wheel_slip", "below the model's name (ROS 1)"),
+        Parameter("robotNamespace", "text", "wheel_slip", "below the model's name (ROS 1)", only=1),
         Parameter("wheel_spin_tolerance", "number", 1e-3, "rim speed below which slip is 0", "m/s"),
         Parameter("publisher_update_rate", "number", 100.0, "rate of `wheel_slip`", "Hz"),
     ),

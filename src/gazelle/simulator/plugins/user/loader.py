@@ -19,7 +19,7 @@ from gazelle.simulator.plugins.user.finder import (
     stems,
 )
 from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
-from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps, sensor_period_in_steps
+from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps
 from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["load_user_plugin", "report_compiled"]
@@ -121,7 +121,7 @@ class _Runner:
         step_ns, place = self._context.host.engine.step_ns, self._context.place
         if user.update_rate_hz is not None:
             return period_in_steps(user.update_rate_hz, step_ns)
-        return sensor_period_in_steps(place.sensor.update_rate_hz if place else 0.0, step_ns)
+        return period_in_steps(place.sensor.update_rate_hz if place else 0.0, step_ns)
 
     def _reset(self) -> None:
         if self._user is not None:
