@@ -84,3 +84,11 @@ def test_parameters_may_have_topics_in_their_names(tmp_path) -> None:
     assert read_arguments(words, "n").params == expected
     words = ["--ros-args", "--params-file", str(path)]
     assert read_arguments(words, "n").params == {**expected, "a/b": 1}
+
+
+def test_who_started_a_node_is_unknown_in_a_bare_shell(monkeypatch) -> None:
+    monkeypatch.delenv("ROS_VERSION", raising=False)
+    assert read_arguments([], "n").started_by == 0
+    assert read_arguments(["--ros-args"], "n").started_by == 2
+    monkeypatch.setenv("ROS_VERSION", "1")
+    assert read_arguments([], "n").started_by == 1

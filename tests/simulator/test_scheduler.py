@@ -52,7 +52,7 @@ def test_periods_of_gz_sensors_are_whole_milliseconds_rounded_down(
     ("rate_hz", "steps"), [(0.0, Fraction(100, 3)), (15.0, Fraction(200, 3)), (29.0, 200 / 3)]
 )
 def test_a_plug_in_that_throttles_skips_whole_readings(rate_hz: float, steps: float) -> None:
-    assert throttled_period_in_steps(30.0, rate_hz, MS) == pytest.approx(steps)
+    assert throttled_period_in_steps(period_in_steps(30.0, MS), rate_hz, MS) == pytest.approx(steps)
 
 
 def test_plug_in_rates_are_exact_on_average() -> None:

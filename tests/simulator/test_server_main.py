@@ -10,7 +10,8 @@ import pytest
 
 from gazelle.graph import Graph
 from gazelle.simulator.messages import message_class, service_class, twist_message
-from gazelle.simulator.server_main import serve
+from gazelle.simulator.server_main import ros_version_of, serve
+from gazelle.simulator.server_options import ServerOptions
 from gazelle.simulator.spawn_model import spawn_model
 
 PATIENCE_S = 30.0
@@ -23,6 +24,7 @@ class Arguments:
     namespace: str = "/"
     remappings: Mapping[str, str] = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
+    started_by: int = 0
 
 
 @pytest.fixture
@@ -44,6 +46,25 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
         thread.join(PATIENCE_S)
         assert not thread.is_alive()
     assert codes == [0] * len(threads)
+
+
+@pytest.mark.parametrize(
+    ("plugins", "started_by", "version"),
+    [
+        ((), 0, 0),
+        ((), 1, 1),
+        ((), 2, 2),
+        (("libgazebo_ros_init.so",), 0, 2),
+        (("libgazebo_ros_factory.so",), 2, 2),
+        (("libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so"), 0, 1),
+        (("libgazebo_ros_init.so",), 1, 0),
+        (("libgazebo_ros_init.so", "libgazebo_ros_api_plugin.so"), 0, 0),
+    ],
+)
+def test_launch_and_plug_ins_of_the_server_tell_the_version_of_ros(
+    plugins: tuple[str, ...], started_by: int, version: int
+) -> None:
+    assert ros_version_of(ServerOptions(plugins=plugins), started_by) == version
 
 
 def call(graph: Graph, name: str, kind: str, **fields: Any) -> Any:

@@ -76,7 +76,7 @@ class Task:
 def period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
     """Return the exact period of an ``update_rate``; 0 Hz or less means every step.
 
-    Gazebo's sensors carry the delay of one update over to the next, and its plug-ins add the
+    Gazebo's cameras carry the delay of one update over to the next, and its plug-ins add the
     period to the time of the last update: both have the mean rate that they are asked for, 30 Hz
     on 1 ms steps in periods of 34, 33 and 33 ms. A period shorter than a step is a step.
     """
@@ -86,7 +86,11 @@ def period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
 
 
 def measured_period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
-    """Return the period of a plug-in that measures from its last message: whole steps."""
+    """Return the period of what measures from its last update: whole steps, rounded up.
+
+    So do Gazebo's sensors that are not rendered, whose thread sleeps for a period after each
+    update: 5.5 Hz on 1 ms steps is 182 ms.
+    """
     return Fraction(math.ceil(period_in_steps(rate_hz, step_ns)))
 
 
@@ -101,9 +105,14 @@ def gz_sensor_period_in_steps(rate_hz: float, step_ns: int) -> Fraction:
     return max(Fraction(whole_ms * _MS_NS, step_ns), Fraction(1))
 
 
-def throttled_period_in_steps(sensor_rate_hz: float, rate_hz: float, step_ns: int) -> Fraction:
-    """Return the period of a plug-in that skips whole readings of its sensor; 0 Hz skips none."""
-    period = period_in_steps(sensor_rate_hz, step_ns)
+def throttled_period_in_steps(period: Fraction, rate_hz: float, step_ns: int) -> Fraction:
+    """Return the period of a plug-in that skips whole readings of its sensor; 0 Hz skips none.
+
+    Args:
+        period: of the sensor, steps.
+        rate_hz: of the plug-in.
+        step_ns: the world's step.
+    """
     if rate_hz <= 0:
         return period
     return period * max(1, math.ceil(_exact(rate_hz, step_ns) / period))

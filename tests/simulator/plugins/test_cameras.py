@@ -56,6 +56,16 @@ def test_pictures_have_the_sensors_rate_size_and_frame(load: Load, listen: Liste
     assert pixels[HEIGHT // 2, WIDTH // 2].tolist() == [255, 0, 0]
 
 
+def test_a_rate_that_is_no_whole_number_of_steps_is_met_on_average(
+    load: Load, listen: Listen
+) -> None:
+    sim = load(camera("libgazebo_ros_camera.so", KEYS, rate=30.0), world=None)
+    infos = listen(sim, "/eye/camera_info")
+    sim.run(seconds=1.0)
+    assert [info.header.stamp.nanosec // 1_000_000 for info in infos[:4]] == [34, 67, 100, 134]
+    assert len(infos) == 30
+
+
 def test_camera_info_is_what_gazebo_publishes(load: Load, listen: Listen) -> None:
     keys = KEYS + "<hackBaseline>0.07</hackBaseline><distortionK1>0.1</distortionK1>"
     keys += "<distortionK2>0.2</distortionK2><distortionT1>0.3</distortionT1>"

@@ -16,7 +16,7 @@ from gazelle.simulator.plugins.camera_info import Calibration, camera_info_messa
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.ports import PublisherPort
-from gazelle.simulator.scheduler import ORDER_SENSOR, throttled_period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, throttled_period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.sensors import CameraRecord
@@ -181,7 +181,9 @@ class CameraStream:
             if self._triggers is not None:
                 return
             rate_hz, step_ns = float(values["imager_rate"]), self._host.engine.step_ns
-            period = throttled_period_in_steps(rate_hz, self._largest_rate_hz, step_ns)
+            period = throttled_period_in_steps(
+                period_in_steps(rate_hz, step_ns), self._largest_rate_hz, step_ns
+            )
             self._host.scheduler.change_period(self._task, period)
 
         DynamicParameters(self._resources, self._host, namespace, (rate,), changed=change)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Protocol
 
-from gazelle.description.model import Model, PluginTag, Sensor
+from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
 from gazelle.simulator.messages import message_class, service_class
@@ -19,6 +19,8 @@ from gazelle.simulator.scheduler import (
     Scheduler,
     Task,
     gz_sensor_period_in_steps,
+    measured_period_in_steps,
+    period_in_steps,
     throttled_period_in_steps,
 )
 
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
 _DEPTH = 10
 _SENSOR_DEPTH = 5
 _ROS2 = 2
+# Kinds besides cameras that Gazebo renders.
+_RENDERED = frozenset({"gpu_ray", "gpu_lidar"})
 
 __all__ = ["Host", "PluginContext", "Resources", "SensorPlace", "join_names"]
 
@@ -84,7 +88,9 @@ class SensorPlace:
         rate_hz = self.sensor.update_rate_hz
         if self.is_gz:
             return gz_sensor_period_in_steps(rate_hz, step_ns)
-        return throttled_period_in_steps(rate_hz, largest_rate_hz, step_ns)
+        is_rendered = isinstance(self.sensor.spec, CameraSpec) or self.sensor.type in _RENDERED
+        period_of = period_in_steps if is_rendered else measured_period_in_steps
+        return throttled_period_in_steps(period_of(rate_hz, step_ns), largest_rate_hz, step_ns)
 
 
 class Resources:

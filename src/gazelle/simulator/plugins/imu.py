@@ -18,7 +18,7 @@ from gazelle.simulator.messages import (
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
-from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps
+from gazelle.simulator.scheduler import ORDER_SENSOR, measured_period_in_steps, period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.sensors import ImuRecord
@@ -140,7 +140,7 @@ def load_sensor(context: PluginContext) -> None:
         ros2 = parameters.is_ros2()
         topic = context.topic(parameters, "~/out" if ros2 else parameters.text("topicName"))
         rate = parameters.number("updateRateHZ")
-        period = period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
+        period = measured_period_in_steps(rate or sensor.update_rate_hz, host.engine.step_ns)
         offset = offset_pose(parameters)
         sigma = parameters.number("gaussianNoise")
         spec = sensor.spec

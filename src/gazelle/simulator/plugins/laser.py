@@ -35,8 +35,8 @@ TABLE = PluginTable(
     summary="Publishes the scans of the ray sensor it stands in.",
     filenames=("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
     behaviour=(
-        "The sensor's `update_rate` governs, on average exactly, as in Gazebo: 5.5 Hz on 1 ms steps"
-        " are periods of 182 ms and, two times in eleven, 181 ms.",
+        "The sensor's `update_rate` governs; 5.5 Hz on 1 ms steps is a period of 182 ms, as in"
+        " Gazebo. Those of `gpu_ray` sensors, which Gazebo renders, are exact on average.",
         "Beyond the range is `inf`; `time_increment` and `scan_time` are 0, as in Gazebo.",
         "`ray` sensors see collisions, `gpu_ray` sensors visuals.",
     ),

@@ -121,7 +121,7 @@ class _Runner:
         step_ns, place = self._context.host.engine.step_ns, self._context.place
         if user.update_rate_hz is not None:
             return period_in_steps(user.update_rate_hz, step_ns)
-        return period_in_steps(place.sensor.update_rate_hz if place else 0.0, step_ns)
+        return place.period_in_steps(step_ns) if place else Fraction(1)
 
     def _reset(self) -> None:
         if self._user is not None:
