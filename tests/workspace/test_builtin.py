@@ -77,6 +77,22 @@ def test_names_of_old_launch_files_exist(discover, name):
 
 
 @pytest.mark.parametrize(
+    "name",
+    [
+        "joy/launch/joy-launch.py",
+        "teleop_twist_joy/config/xbox.config.yaml",
+        "teleop_twist_joy/launch/teleop-launch.py",
+        "teleop_twist_joy/launch/teleop.launch",
+        "twist_mux/config/twist_mux_locks.yaml",
+        "twist_mux/launch/twist_mux.launch",
+        "twist_mux/launch/twist_mux_launch.py",
+    ],
+)
+def test_files_that_robots_include_for_their_joysticks_exist(discover, name):
+    assert discover().resolve(f"package://{name}").path is not None
+
+
+@pytest.mark.parametrize(
     "path",
     sorted([*BUILTIN.rglob("*.world"), *BUILTIN.rglob("*.sdf")]),
     ids=lambda p: f"{p.parent.name}-{p.name}",

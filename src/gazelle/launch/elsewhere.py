@@ -10,7 +10,7 @@ _LIDAR = _DRIVER.format("laser scanner", "a <sensor type='gpu_lidar'> or 'ray' p
 _BRIDGE = "a bridge to programs outside of ROS; `gazelle bridge` is one"
 _VIEW = "a window that is not here; `rviz2` opens Studio, which shows the same topics"
 _PANEL = "a panel of rqt that is not here; `ros2 topic`, `ros2 param` and Studio show the same"
-_JOYSTICK = "for a joystick; `ros2 run teleop_twist_keyboard teleop_twist_keyboard` drives by keys"
+_JOYSTICK = "for a joystick; `joy` and `teleop_twist_joy` are here, with the kernel's joysticks"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
 _FIRMWARE = "the firmware's link of a real robot; a simulated one publishes these topics itself"
@@ -33,7 +33,7 @@ _KNOWN = {
     **dict.fromkeys(("ros1_bridge", "web_video_server"), _BRIDGE),
     **dict.fromkeys(("rqt_joint_trajectory_controller", "rqt_controller_manager"), _PANEL),
     **dict.fromkeys(("plotjuggler", "plotjuggler_ros", "mapviz", "rviz_visual_tools"), _VIEW),
-    **dict.fromkeys(("joy", "joy_linux", "teleop_twist_joy", "joy_teleop", "spacenav"), _JOYSTICK),
+    **dict.fromkeys(("joy_teleop", "spacenav", "spacenav_node", "ps3joy", "wiimote"), _JOYSTICK),
     **dict.fromkeys(("rtabmap_ros", "rtabmap_slam", "rtabmap_launch", "octomap_server"), _MAPPING),
     **dict.fromkeys(("image_proc", "stereo_image_proc", "depth_image_proc"), _VISION),
     **dict.fromkeys(("apriltag_ros", "aruco_ros", "find_object_2d", "yolo_ros"), _VISION),
@@ -45,7 +45,6 @@ _KNOWN = {
     **dict.fromkeys(("nav2_route", "opennav_docking"), _NAV2),
     **dict.fromkeys(("nav2_loopback_sim", "nav2_smac_planner"), _NAV2),
     **dict.fromkeys(("nav2_minimal_tb3_sim", "nav2_minimal_tb4_sim"), _MODELS),
-    "twist_mux": "chooses one of several cmd_vel topics; remap one of them to the robot's",
 }
 _FAMILIES = {"rqt_": _PANEL}
 

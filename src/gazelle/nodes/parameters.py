@@ -11,9 +11,10 @@ from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
+from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.ros2_console import print_ros2
 
-__all__ = ["private", "private_number", "start_node", "ticks"]
+__all__ = ["parameter_tree", "private", "private_number", "start_node", "ticks"]
 
 
 def start_node(arguments: NodeArguments, graph: Graph) -> Node:
@@ -37,6 +38,21 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
     for name, value in arguments.params.items():
         node.parameters.set(node.resolve_name(f"~{name}"), value)
     return node
+
+
+def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
+    """Return all parameters of a node, nested: the command line's over those of the store.
+
+    A file of ROS 2 that was loaded into a node of ROS 1 counts by what it says, not by its heads.
+    """
+    stored = node.parameters.get(node.name, {}) or {}
+    heads = [key for key, value in stored.items()
+             if isinstance(value, dict) and "ros__parameters" in value]  # fmt: skip
+    tree = nested({key: value for key, value in stored.items() if key not in heads})
+    for key in heads:
+        tree = {**nested(stored[key]["ros__parameters"]), **tree}
+    tree.update(nested(arguments.params))
+    return tree
 
 
 def private(node: Node, arguments: NodeArguments, name: str, default: Any) -> Any:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from gazelle.nodes.command_names import COMMANDS
 from gazelle.nodes.localisation_names import LOCALISATION
 from gazelle.nodes.slam.names import SLAM_NAMES
 from gazelle.nodes.view_names import VIEWS
@@ -446,6 +447,18 @@ _NODES = (
         "gazelle.nodes.teleop.twist_keyboard:run_ros2",
         light=False,
         help="drives any robot from the keyboard, ROS 2's name",
+    ),
+    *(
+        BuiltinNode(
+            row.package,
+            row.type,
+            f"gazelle.nodes.{row.target}",
+            light=row.light,
+            help=row.help,
+            aliases=row.aliases,
+            name=row.name,
+        )
+        for row in COMMANDS
     ),
     *(
         BuiltinNode(

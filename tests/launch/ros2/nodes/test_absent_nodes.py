@@ -41,7 +41,7 @@ def test_nodes_that_do_not_come_are_told_to_the_others(run: Run, package: Path) 
     absent = [
         a.Node(package="nav2_route", executable="route_server", name="route"),
         a.Node(package="demo", executable="compiled", name="own", namespace="r1"),
-        a.Node(package="joy", executable="joy_node"),
+        a.Node(package="usb_cam", executable="usb_cam_node"),
     ]
     assert run(*absent, look).code == 0
     assert seen == ["/route /r1/own"]

@@ -1,0 +1,69 @@
+"""Names of built-in nodes of velocity commands: joysticks, and choosing among commands."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["COMMANDS", "CommandNode"]
+
+
+class CommandNode(NamedTuple):
+    """A row; see `gazelle.nodes.registry.BuiltinNode`. The target lies in ``gazelle.nodes``."""
+
+    package: str
+    type: str
+    target: str
+    light: bool
+    help: str
+    aliases: tuple[tuple[str, str], ...] = ()
+    name: str = ""
+
+
+COMMANDS = (
+    CommandNode(
+        "twist_mux",
+        "twist_mux",
+        "twist_mux.mux:run",
+        True,
+        "passes on one of several velocity commands, by priorities, time-outs and locks",
+    ),
+    CommandNode(
+        "twist_mux",
+        "twist_marker",
+        "twist_mux.marker:run",
+        True,
+        "shows a velocity command as an arrow",
+    ),
+    CommandNode(
+        "twist_mux",
+        "joystick_relay.py",
+        "twist_mux.relay:run",
+        True,
+        "makes velocities of a joystick's shares, in steps, while it has priority",
+        (("twist_mux", "joystick_relay"),),
+        "joystick_relay",
+    ),
+    CommandNode(
+        "joy",
+        "joy_node",
+        "joy.node:run",
+        True,
+        "publishes what a joystick does",
+        (("joy_linux", "joy_linux_node"),),
+    ),
+    CommandNode(
+        "joy",
+        "joy_enumerate_devices",
+        "joy.node:list_devices",
+        True,
+        "lists joysticks",
+    ),
+    CommandNode(
+        "teleop_twist_joy",
+        "teleop_node",
+        "teleop.joystick:run",
+        True,
+        "drives any robot by a joystick",
+        name="teleop_twist_joy_node",
+    ),
+)

@@ -1,0 +1,1 @@
+"""``joy``: a joystick of the Linux kernel as messages."""

@@ -1,0 +1,1 @@
+"""``twist_mux``: one of several velocity commands, by priorities, time-outs and locks."""

@@ -1,0 +1,56 @@
+"""``twist_mux twist_marker``: an arrow of a velocity, for RViz (``twist`` to ``marker``).
+
+| name | default | meaning |
+| --- | --- | --- |
+| ~frame_id | base_footprint | frame of the arrow |
+| ~scale | 1 | of its shaft, 5 cm wide |
+| ~vertical_position | 2 | metres above the frame |
+| ~use_stamped | false, true from Jazzy on | hear ``TwistStamped`` |
+
+ROS 1's has no parameters; these are its values.
+"""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.twist_mux.stamped import is_stamped
+
+__all__ = ["run"]
+
+_ARROW = 0
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show velocities until told to stop."""
+    node = start_node(arguments, graph)
+    marker: Any = message_type("visualization_msgs/msg/Marker")()
+    point: Any = message_type("geometry_msgs/msg/Point")
+    scale = private_number(node, arguments, "scale", 1.0)
+    marker.type = _ARROW
+    marker.header.frame_id = str(private(node, arguments, "frame_id", "base_footprint"))
+    marker.pose.position.z = private_number(node, arguments, "vertical_position", 2.0)
+    marker.pose.orientation.w = 1.0
+    marker.scale.x, marker.scale.y = 0.05 * scale, 0.1 * scale
+    marker.color.a = marker.color.g = 1.0
+    stamped = is_stamped(node, arguments)
+    out = node.create_publisher("marker", type(marker), latch=True, queue_size=1)
+
+    def show(message: Any) -> None:
+        twist = message.twist if stamped else message
+        aside, turn = twist.linear.y, twist.angular.z
+        # An arrow without length is refused by RViz, so its tip is a little higher.
+        tip = point(x=twist.linear.x, y=aside if abs(aside) > abs(turn) else turn, z=0.01)
+        marker.points = [point(), tip]
+        out.publish(marker)
+
+    kind = f"geometry_msgs/msg/Twist{'Stamped' if stamped else ''}"
+    node.create_subscription("twist", kind, show, queue_size=1)
+    stop.wait()
+    node.shutdown()
+    return 0
