@@ -279,6 +279,16 @@ def test_moving_terrain_and_bad_image_are_reported(tmp_path):
     assert "the heightmap 'bad.png' of collision 'thing::l::c' cannot be read" in finding.message
 
 
+def test_needles_of_a_large_mesh_are_left_out(tmp_path):
+    """MuJoCo keeps corners in single precision, where this triangle is a line; Gazebo loads it."""
+    far = "v -34.4 14.06378849 19.3\nv -31.4 14.06378888 19.3\nv -25.7 14.06378824 19.3\n"
+    near = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv -4 0 0\n"
+    path = tmp_path / "hall.obj"
+    path.write_text(f"{far}{near}f 1 2 3\nf 4 5 6\nf 4 6 7\n", encoding="utf-8")
+    engine = Engine(World(models=(thing(mesh_shape(path), static=True),)))
+    assert engine.model.ngeom == 1
+
+
 def angle_bracket(tmp_path):
     """A closed L-shaped prism of one piece."""
     outline = ((0.0, 0.0), (2.0, 0.0), (2.0, 0.2), (0.2, 0.2), (0.2, 2.0), (0.0, 2.0))

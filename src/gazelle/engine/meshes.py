@@ -35,6 +35,8 @@ Array = NDArray[np.float64]
 CONVEX_SHARE = 0.9
 """A moving mesh that fills this share of its hull collides as its hull."""
 
+_LEAST_THICKNESS_RATIO = 2e-7
+
 
 class Piece(NamedTuple):
     """One convex solid: the hull of points, or the round shape it is a tessellation of."""
@@ -123,7 +125,7 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
     notes: dict[str, None] = {}
     for component in connected_parts(mesh):
         found, note = _component_pieces(component, key.scenery)
-        pieces.extend(found)
+        pieces.extend(piece for piece in found if _has_thickness(piece.points_m))
         if note:
             notes.setdefault(note)
     if _UNSPLIT in notes:
@@ -149,6 +151,16 @@ def _piece(hull: MeshPart) -> Piece:
 def _is_solid(hull: MeshPart) -> bool:
     """Tell whether a hull has a volume: CAD drawings have shreds, which MuJoCo refuses."""
     return mesh_volume_m3(Mesh((hull,))) > LEAST_VOLUME_M3
+
+
+def _has_thickness(points_m: Array) -> bool:
+    """Tell whether a piece is more than a needle or a film in MuJoCo's single precision.
+
+    The slivers of CAD exports are not: one of them has MuJoCo refuse the whole world.
+    """
+    points = points_m.astype(np.float32).astype(np.float64)
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return bool(spread[-1] > _LEAST_THICKNESS_RATIO * spread[0])
 
 
 def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:

@@ -65,6 +65,8 @@ def surface_pieces(vertices_m: Array, faces: Faces) -> tuple[Array, ...]:
     size = float(np.ptp(vertices_m, axis=0).max())
     thickness = min(_THICKNESS_RATIO * size, _MOST_THICKNESS_M)
     kept = doubled * thickness / 2 > LEAST_VOLUME_M3
+    if not kept.any():
+        return ()
     corners, normals = corners[kept], normals[kept] / doubled[kept, None]
     pieces: list[Array] = []
     for group in _flat_groups(corners, normals, size):
