@@ -185,6 +185,14 @@ _NODES = (
     ),
     BuiltinNode(
         "ros_gz_sim",
+        "remove",
+        "gazelle.nodes.ros_gz.remove:run",
+        light=True,
+        help="takes a model out of the running world, the new Gazebo's way",
+        name="ros_gz_sim_remove_entity",
+    ),
+    BuiltinNode(
+        "ros_gz_sim",
         "gzserver",
         "gazelle.nodes.ros_gz.server:run",
         light=False,

@@ -60,6 +60,27 @@ def test_parameters_do_what_flags_do_and_names_are_kept_apart(bench: Any, sim: S
     assert sim.model("crate_1").pose.position_m[0] == 0.0
 
 
+@pytest.mark.parametrize("flag", ["-allow-renaming", "--allow_renaming=true", "--allow-renaming=1"])
+def test_renaming_is_allowed_in_every_spelling_of_gflags(
+    bench: Any, sim: Simulation, flag: str
+) -> None:
+    assert _run(bench, "-name", "crate", "-string", _BOX) == [0]
+    assert _run(bench, "-name", "crate", "-string", _BOX, flag) == [0, 0]
+    assert sim.model("crate_1").name == "crate_1"
+
+
+def test_remove_takes_a_model_out_of_the_world(bench: Any, sim: Simulation) -> None:
+    assert _run(bench, "-name", "crate", "-string", _BOX) == [0]
+    bench.start("ros_gz_sim/remove", "--ros-args", "-p", "entity_name:=crate")
+    assert bench.wait() == [0, 0]
+    assert [model.name for model in sim.server.engine.world.models] == ["ground_plane"]
+    said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
+    bench.start("ros_gz_sim/remove", "--ros-args")
+    assert bench.wait() == [0, 0, 255]
+    text = "Entity to remove name is not provided, entity will not be removed."
+    bench.eventually(lambda: any(one.msg == text for one in said))
+
+
 def test_what_is_wrong_is_said(bench: Any, sim: Simulation, tmp_path: Path) -> None:
     said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
     assert _run(bench, "-name", "x") == [1]
@@ -70,7 +91,7 @@ def test_what_is_wrong_is_said(bench: Any, sim: Simulation, tmp_path: Path) -> N
         "Must specify either -file, -param, -string or -topic",
         "none.sdf' not found",
         "Failed to get XML from param [nobody].",
-        "illegal value 'east' specified for flag 'x'",
+        "illegal value 'east' specified for double flag 'x'",
     ]
     bench.eventually(lambda: all(any(t in one.msg for one in said) for t in expected))
     assert len(sim.server.engine.world.models) == 1

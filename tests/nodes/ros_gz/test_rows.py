@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from gazelle.errors import LaunchError
-from gazelle.nodes.ros_gz.create import read_flags
 from gazelle.nodes.ros_gz.pairs import is_pair, pair_error
 from gazelle.nodes.ros_gz.rows import Direction, ServiceRow, TopicRow, read_file, read_word
 
@@ -91,12 +90,3 @@ def test_pairs_are_those_of_ros_gz_bridge() -> None:
     assert not is_pair("nav_msgs/msg/Odometry", "gz.msgs.Twist")
     assert "goes with gz.msgs.Odometry or" in pair_error("nav_msgs/msg/Odometry", "gz.msgs.Pose")
     assert "gz.msgs.IMU goes with sensor_msgs/msg/Imu" in pair_error("a/B", "gz.msgs.IMU")
-
-
-def test_flags_of_create_are_read_as_gflags_does() -> None:
-    words = ["-name", "box", "--x=1.5", "-z", "-2", "-allow_renaming", "true"]
-    assert read_flags(words) == {"name": "box", "x": "1.5", "z": "-2", "allow_renaming": ""}
-    with pytest.raises(LaunchError, match="unknown command line flag 'nam'; did you mean 'name'"):
-        read_flags(["-nam", "box"])
-    with pytest.raises(LaunchError, match="flag '-x' is missing its argument"):
-        read_flags(["-x"])

@@ -1,6 +1,6 @@
 """``ros_gz_sim/create``: puts a model into the running world.
 
-Its options are flags of gflags (``-name box``, ``--name=box``) or parameters of the same names:
+Its options are flags (`gazelle.nodes.gflags`) or parameters of the same names:
 world, file, string, topic, name, allow_renaming, x, y, z, R, P, Y; ``-param`` names a parameter
 that holds the model.
 """
@@ -8,63 +8,41 @@ that holds the model.
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
-from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.parameters import private, start_node
 from gazelle.nodes.ros_gz.models import model_text
 
-__all__ = ["read_flags", "run"]
+__all__ = ["run"]
 
 _TEXTS = ("world", "file", "param", "string", "topic", "name")
 _NUMBERS = ("x", "y", "z", "R", "P", "Y")
 _RENAMING = "allow_renaming"
-_FLAGS = (*_TEXTS, *_NUMBERS, _RENAMING)
+_FLAGS: dict[str, Kind] = {
+    **dict.fromkeys(_TEXTS, "string"),
+    **dict.fromkeys(_NUMBERS, "double"),
+    _RENAMING: "bool",
+}
 _USAGE = (
     "usage: create -world [arg] [-file FILE] [-param PARAM] [-topic TOPIC] [-string STRING] "
     "[-name NAME] [-allow_renaming RENAMING] [-x X] [-y Y] [-z Z] [-R ROLL] [-P PITCH] [-Y YAW]"
 )
 _POLL_S = 0.1
 _TELL_S = 5.0
-_YES = frozenset({"", "true", "t", "1", "yes", "y"})
-
-
-def read_flags(words: Sequence[str]) -> dict[str, str]:
-    """Return the flags of a command line as gflags reads them.
-
-    Raises:
-        LaunchError: a flag is unknown or has no value.
-    """
-    found: dict[str, str] = {}
-    rest = list(words)
-    while rest:
-        word = rest.pop(0)
-        name, equals, value = word.lstrip("-").partition("=")
-        if not word.startswith("-"):
-            # The value that people give a flag that takes none: -allow_renaming true.
-            continue
-        if name not in _FLAGS:
-            hint = did_you_mean(name, _FLAGS)
-            raise LaunchError(f"unknown command line flag '{name}'; {hint}\n{_USAGE}")
-        if not equals and name != _RENAMING:
-            if not rest:
-                raise LaunchError(f"flag '{word}' is missing its argument\n{_USAGE}")
-            value = rest.pop(0)
-        found[name] = value
-    return found
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Create a model, say how it went, and end."""
-    flags = read_flags(arguments.rest)
     node = start_node(arguments, graph)
     try:
+        flags = read_flags(arguments.rest, _FLAGS, _USAGE)
         return _create(node, _options(node, arguments, flags), arguments, stop)
     except GazelleError as error:
         node.log("error", str(error))
@@ -73,7 +51,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         node.shutdown()
 
 
-def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, str]) -> dict[str, Any]:
+def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, Any]) -> dict[str, Any]:
     """Return what parameters say, and flags where they say nothing."""
     found: dict[str, Any] = {}
     for name in _TEXTS:
@@ -83,9 +61,10 @@ def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, str]) -> 
         try:
             found[name] = float(given)
         except (TypeError, ValueError):
-            raise LaunchError(f"illegal value '{given}' specified for flag '{name}'") from None
-    renaming = private(node, arguments, _RENAMING, False)
-    found[_RENAMING] = bool(renaming) or flags.get(_RENAMING, "false").lower() in _YES
+            raise LaunchError(f"the parameter '{name}' is no number: '{given}'") from None
+    found[_RENAMING] = bool(private(node, arguments, _RENAMING, False)) or bool(
+        flags.get(_RENAMING, False)
+    )
     return found
 
 

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from gazelle.errors import LaunchError
+from gazelle.nodes.gflags import Kind, read_flags
 
 __all__ = ["read_lua"]
 
 _ASSIGNED = re.compile(
     r"^\s*([A-Za-z_][\w.]*)\s*=\s*(\"[^\"]*\"|true\b|false\b|-?[\d.]+(?:e-?\d+)?)", re.MULTILINE
 )
+_FLAGS: dict[str, Kind] = {
+    **dict.fromkeys(("collect_metrics", "load_frozen_state", "logtostderr", "alsologtostderr",
+                     "start_trajectory_with_default_topics"), "bool"),
+    **dict.fromkeys(("configuration_basename", "configuration_directory", "load_state_filename",
+                     "save_state_filename", "log_dir", "minloglevel", "v"), "string"),
+}  # fmt: skip
 _COMMENT = re.compile(r"--[^\n]*")
 _RENAMED = {"TRAJECTORY_BUILDER_2D.max_range": "max_range"}
 _LARGEST = 1_000_000
@@ -26,9 +32,9 @@ def read_lua(words: Sequence[str]) -> dict[str, Any]:
     Raises:
         LaunchError: the file cannot be read.
     """
-    options = dict(pairwise(words))
-    folder = options.get("-configuration_directory", "")
-    name = options.get("-configuration_basename", "")
+    options = read_flags(words, _FLAGS)
+    folder = str(options.get("configuration_directory", ""))
+    name = str(options.get("configuration_basename", ""))
     if not name:
         return {}
     path = Path(folder, name)
