@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.nodes.command_names import COMMANDS
 from gazelle.nodes.localisation_names import LOCALISATION
+from gazelle.nodes.ros_gz.names import ROS_GZ_NAMES
 from gazelle.nodes.slam.names import SLAM_NAMES
 from gazelle.nodes.view_names import VIEWS
 
@@ -174,48 +175,9 @@ _NODES = (
         ),
         name="ComponentManager",
     ),
-    BuiltinNode(
-        "ros_gz_sim",
-        "create",
-        "gazelle.nodes.ros_gz.create:run",
-        light=True,
-        help="puts a model into the running world, the new Gazebo's way",
-        aliases=(("ros_ign_gazebo", "create"),),
-        name="ros_gz_sim",
-    ),
-    BuiltinNode(
-        "ros_gz_sim",
-        "remove",
-        "gazelle.nodes.ros_gz.remove:run",
-        light=True,
-        help="takes a model out of the running world, the new Gazebo's way",
-        name="ros_gz_sim_remove_entity",
-    ),
-    BuiltinNode(
-        "ros_gz_sim",
-        "gzserver",
-        "gazelle.nodes.ros_gz.server:run",
-        light=False,
-        help="a world of the new Gazebo",
-        name="gazebo",
-    ),
-    BuiltinNode(
-        "ros_gz_bridge",
-        "parameter_bridge",
-        "gazelle.nodes.ros_gz.parameter_bridge:run",
-        light=True,
-        help="passes topics of the new Gazebo on under names of ROS",
-        aliases=(("ros_ign_bridge", "parameter_bridge"), ("ros_gz_bridge", "bridge_node")),
-        name="ros_gz_bridge",
-    ),
-    BuiltinNode(
-        "ros_gz_image",
-        "image_bridge",
-        "gazelle.nodes.ros_gz.parameter_bridge:run_image",
-        light=True,
-        help="passes images of the new Gazebo on",
-        aliases=(("ros_ign_image", "image_bridge"),),
-        name="ros_gz_image",
+    *(
+        BuiltinNode(package, kind, f"gazelle.nodes.ros_gz.{target}", light, about, names, name)
+        for package, kind, target, light, about, names, name in ROS_GZ_NAMES
     ),
     BuiltinNode(
         "move_base",
