@@ -5,9 +5,16 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+from contextlib import nullcontext
+from pathlib import Path
 
 import pytest
 
+from gazelle.ending import interrupts_held
+
+_POSIX = pytest.mark.skipif(
+    not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signal masks"
+)
 _HEAD = "import atexit, sys, threading, time\nfrom gazelle.ending import end_with\n"
 
 
@@ -75,7 +82,7 @@ def _run(text: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signal masks")
+@_POSIX
 def test_stop_signal_is_heard_while_the_main_thread_cannot_hear_it() -> None:
     """As when the kernel hands it to a thread of the transport, which Python's handlers await."""
     text = """
@@ -94,3 +101,110 @@ print("heard" if stop.wait(20) else "slept on", flush=True)
         assert program.stdout.readline() == "ready\n"
         program.send_signal(signal.SIGTERM)
         assert program.stdout.readline() == "heard\n"
+
+
+def _interrupted(
+    text: str, line: str, *, held: bool = False, folder: str | None = None
+) -> tuple[int, str, str]:
+    """Run a program, send SIGINT when it has written a line, let it read one; how it ended."""
+    with interrupts_held() if held else nullcontext():
+        program = subprocess.Popen(
+            [sys.executable, "-c", text],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=folder,
+        )
+    with program:
+        assert program.stdout is not None
+        assert program.stdout.readline() == f"{line}\n"
+        program.send_signal(signal.SIGINT)
+        out, err = program.communicate("\n", timeout=30)
+    return program.returncode, out, err
+
+
+@_POSIX
+def test_a_held_interrupt_ends_the_process_when_it_comes_to_itself() -> None:
+    text = """
+import sys
+print("loading", flush=True)
+sys.stdin.readline()
+print("loaded", flush=True)
+from gazelle.ending import end_at_interrupts
+end_at_interrupts()
+print("lived on", flush=True)
+"""
+    ended = _interrupted(text, "loading", held=True)
+    assert ended == (-signal.SIGINT, "loaded\n", "")
+
+
+@_POSIX
+def test_an_interrupt_in_the_midst_of_an_import_says_nothing(tmp_path: Path) -> None:
+    body = "import sys\nprint('importing', flush=True)\nsys.stdin.readline()\nsys.stdin.readline()"
+    (tmp_path / "slow_one.py").write_text(body, encoding="utf-8")
+    text = "from gazelle.ending import raise_interrupts\nraise_interrupts()\nimport slow_one\n"
+    ended = _interrupted(text, "importing", folder=str(tmp_path))
+    assert ended == (-signal.SIGINT, "", "")
+
+
+@_POSIX
+def test_an_interrupt_elsewhere_is_the_programs_to_catch() -> None:
+    text = """
+import threading
+from gazelle.ending import raise_interrupts
+raise_interrupts()
+try:
+    print("running", flush=True)
+    threading.Event().wait(60)
+except KeyboardInterrupt:
+    print("caught", flush=True)
+"""
+    assert _interrupted(text, "running") == (0, "caught\n", "")
+
+
+_STOPPED = """
+import threading
+from gazelle.ending import StopEvent, at_stop_signal, end_with
+def main():
+    stop = StopEvent(patience_s=0.1)
+    at_stop_signal(stop.request)
+    {look}
+    print("begun", flush=True)
+    {wait}
+    print("undone", flush=True)
+    return 3
+end_with(main)
+"""
+
+
+@_POSIX
+@pytest.mark.parametrize(
+    ("look", "wait", "expected"),
+    [
+        # It still loads, in the midst of a call that hears of nothing.
+        ("pass", "threading.Event().wait(60)", (0, "", "")),
+        ("stop.is_set()", "stop.wait(60)", (3, "undone\n", "")),
+        # It has looked, and now is busy with something that takes too long.
+        ("stop.is_set()", "threading.Event().wait(60)", (0, "", "")),
+    ],
+    ids=["loading", "listening", "busy"],
+)
+def test_a_program_told_to_stop_ends(look: str, wait: str, expected: tuple[int, str, str]) -> None:
+    assert _interrupted(_STOPPED.format(look=look, wait=wait), "begun") == expected
+
+
+@_POSIX
+def test_a_second_interrupt_ends_a_process_that_ends() -> None:
+    text = """
+import atexit, threading
+from gazelle.ending import end_with
+def last():
+    print("ending", flush=True)
+    threading.Event().wait(60)
+def main():
+    atexit.register(last)
+    return 0
+end_with(main)
+"""
+    assert _interrupted(text, "ending") == (-signal.SIGINT, "", "")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from gazelle._version import __version__
 
+# As typing has it: importing that would be most of the time this module takes.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from gazelle.simulator import Simulation
 
 __all__ = ["Simulation", "__version__"]

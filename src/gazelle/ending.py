@@ -1,19 +1,113 @@
-"""The end of a process that has been on a graph."""
+"""How a process hears that it is to end, and how it ends."""
 
 from __future__ import annotations
 
 import atexit
 import os
 import signal
-import socket
 import sys
 import threading
-from collections.abc import Callable
-from typing import NoReturn
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import TYPE_CHECKING, NoReturn
 
-__all__ = ["at_stop_signal", "end_with"]
+if TYPE_CHECKING:
+    import socket
+
+__all__ = [
+    "StopEvent",
+    "at_stop_signal",
+    "end_at_interrupts",
+    "end_with",
+    "interrupts_held",
+    "raise_interrupts",
+    "raise_or_end",
+]
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_IMPORTING = "<frozen importlib._bootstrap>"
+
+
+class StopEvent(threading.Event):
+    """Set when a program is to end; it knows whether the program has come to look at it.
+
+    Attributes:
+        was_looked_at: False while the program still loads.
+    """
+
+    def __init__(self, patience_s: float | None = None) -> None:
+        """Be not set.
+
+        Args:
+            patience_s: how long the process may go on after `request`; None for as long as it
+                takes, for programs that write files at their end.
+        """
+        super().__init__()
+        self.was_looked_at = False
+        self._patience_s = patience_s
+
+    def is_set(self) -> bool:
+        """Tell whether the program is to end."""
+        self.was_looked_at = True
+        return super().is_set()
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until the program is to end."""
+        self.was_looked_at = True
+        return super().wait(timeout)
+
+    def request(self) -> None:
+        """Ask the program to end; one that still loads has nothing to undo and ends at once."""
+        if not self.was_looked_at:
+            os._exit(0)
+        if self._patience_s is not None and not super().is_set():
+            late = threading.Timer(self._patience_s, os._exit, (0,))
+            late.daemon = True
+            late.start()
+        self.set()
+
+
+@contextmanager
+def interrupts_held() -> Iterator[None]:
+    """Let processes that are started now hear SIGINT when they call `end_at_interrupts`.
+
+    Python makes an exception of SIGINT before it has loaded what would catch it: a launch that is
+    ended early would print the insides of every interpreter. For programs of Gazelle only, as any
+    other would never hear the signal.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_at_interrupts() -> None:
+    """Let SIGINT end the process at once and without a word: it has nothing to undo so far."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+
+
+def raise_interrupts() -> None:
+    """Let SIGINT raise `KeyboardInterrupt`, but end the process while it imports a module.
+
+    No program catches what is raised in the midst of an import, and it may come from anywhere
+    there. Shells without job control start programs behind ``&`` with SIGINT ignored, and Python
+    leaves it at that; rospy, rclpy and roslaunch do not, so scripts rely on ``kill -INT``.
+    """
+    signal.signal(signal.SIGINT, raise_or_end)
+
+
+def raise_or_end(number: int, frame: FrameType | None) -> None:
+    """Be the handler that `raise_interrupts` sets."""
+    one = frame
+    while one is not None:
+        if one.f_code.co_filename == _IMPORTING:
+            end_at_interrupts()
+            os.kill(os.getpid(), signal.SIGINT)
+        one = one.f_back
+    signal.default_int_handler(number, frame)
 
 
 def end_with(main: Callable[[], int]) -> NoReturn:
@@ -24,6 +118,9 @@ def end_with(main: Callable[[], int]) -> NoReturn:
     cannot be, and the process would abort with the work long done.
     """
     code = _code_of(main)
+    if threading.current_thread() is threading.main_thread():
+        # Who asks once more does not want to wait for what is left to do.
+        end_at_interrupts()
     # Also tells the pools of concurrent.futures to end, whose threads wait for ever otherwise.
     threading._shutdown()  # type: ignore[attr-defined]
     atexit._run_exitfuncs()
@@ -43,6 +140,8 @@ def at_stop_signal(stop: Callable[[], object]) -> None:
     as the signal comes, or whose signal the kernel gave to another thread, sleeps on. So a thread
     is woken by the signal's number and calls it too; it must not mind being called twice.
     """
+    import socket
+
     near, far = socket.socketpair()
     far.setblocking(False)
     for number in _SIGNALS:

@@ -46,6 +46,44 @@ def test_echo_ends_when_its_reader_goes(robot: Node, pump) -> None:
     assert (found.stdout, found.stderr) == ('data: "hi"\n', "")
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs a pipe that can break")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--help"],
+        ["--version"],
+        ["nonsense"],
+        ["rostopic"],
+        ["rosbag", "--help"],
+        ["ros2", "--help"],
+        ["ros2", "topic", "--help"],
+        ["gz", "--help"],
+        ["roslaunch", "--help"],
+        ["gzserver", "--help"],
+        ["doctor", "--help"],
+    ],
+    ids=" ".join,
+)
+@pytest.mark.parametrize("unbuffered", ["", "1"], ids=["buffered", "unbuffered"])
+def test_a_reader_that_has_gone_is_no_error(words: list[str], unbuffered: str) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    found = subprocess.run(
+        [*_GAZELLE, *words],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        check=False,
+        env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+    )
+    os.close(writer)
+    assert "Traceback" not in found.stderr
+    assert "BrokenPipeError" not in found.stderr
+    # 255 is what `gz --help` ends with in any case.
+    assert found.returncode in (0, 1, 2, 64, 255)
+
+
 def test_unknown_topic_is_exit_code_1(graph: Graph) -> None:
     words = [*_GAZELLE, "rostopic", "info", "/nothing"]
     found = subprocess.run(words, capture_output=True, text=True, timeout=20, check=False)

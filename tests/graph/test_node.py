@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -17,6 +18,7 @@ from gazelle.interfaces import (
 String = message_type("std_msgs/msg/String")
 Empty = service_type("std_srvs/srv/Empty")
 Wait = Callable[..., Any]
+PATIENCE_S = 30.0
 
 
 def test_names_are_resolved_and_remapped(graph: Graph) -> None:
@@ -55,6 +57,30 @@ def test_newer_node_of_the_same_name_ends_the_older(
     assert "shutdown request: [/n] Reason: new node registered with same name" in (
         capsys.readouterr().err
     )
+
+
+def test_a_callback_that_outlives_its_node_is_no_error(
+    graph: Graph, other: Graph, capsys: pytest.CaptureFixture[str]
+) -> None:
+    node = graph.create_node("n")
+    publisher = node.create_publisher("out", String)
+    begun, ended = threading.Event(), threading.Event()
+
+    threads: list[threading.Thread] = []
+
+    def pass_on(message: Any) -> None:
+        threads.append(threading.current_thread())
+        begun.set()
+        ended.wait(PATIENCE_S)
+        publisher.publish(message)
+
+    node.create_subscription("in", String, pass_on)
+    other.create_node("m").create_publisher("in", String, latch=True).publish(String(data="x"))
+    assert begun.wait(PATIENCE_S)
+    node.shutdown()
+    ended.set()
+    threads[0].join(PATIENCE_S)
+    assert capsys.readouterr().err == ""
 
 
 def test_shutdown_takes_everything_off_the_graph(

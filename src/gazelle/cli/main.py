@@ -25,6 +25,20 @@ def main(argv: Sequence[str] | None = None) -> int:
         130 for Ctrl-C.
     """
     words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _main(words)
+    except BrokenPipeError:
+        # The reader of our output has gone, as in `rostopic list | head`.
+        return _with_nobody_listening()
+
+
+def _with_nobody_listening() -> int:
+    """Let what is written from now on go nowhere; that nobody reads is no failure."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _main(words: list[str]) -> int:
     if not words or words[0] in {"-h", "--help", "help"}:
         print(_usage())
         return 0 if words else 2
@@ -75,10 +89,6 @@ def _run(name: str, rest: list[str]) -> int:
     except GazelleError as error:
         print(f"{name}: {error}", file=sys.stderr)
         return 1
-    except BrokenPipeError:
-        # The reader of our output has gone, as in `rostopic list | head`.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except KeyboardInterrupt:
         return 130
 

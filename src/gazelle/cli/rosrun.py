@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import shlex
 import sys
+from contextlib import nullcontext
 
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.launch.environment import node_environment
+from gazelle.ending import interrupts_held
+from gazelle.launch.environment import is_own_command, node_environment
 from gazelle.launch.executables import find_executable
 from gazelle.launch.lockstep import is_simulator
 from gazelle.workspace import Workspace
@@ -49,8 +51,10 @@ def main(argv: list[str]) -> int:
         from gazelle.launch.real_ros import start_bridges
 
         start_bridges(environment)
+    held = interrupts_held() if is_own_command(words, environment["PATH"]) else nullcontext()
     try:
-        os.execvpe(words[0], words, environment)  # noqa: S606 - running the node is the purpose
+        with held:
+            os.execvpe(words[0], words, environment)  # noqa: S606 - running the node is the purpose
     except OSError as error:
         print(f"rosrun: cannot run '{words[0]}': {error.strerror}", file=sys.stderr)
         return 126

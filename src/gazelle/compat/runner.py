@@ -8,11 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType, TracebackType
 
-from gazelle.compat.finder import install
-from gazelle.compat.python2 import compile_source
-from gazelle.ending import end_with
-from gazelle.graph.parent import end_with_parent
-from gazelle.launch.environment import drop_in_folder
+from gazelle.ending import end_at_interrupts, end_with, raise_interrupts
 
 __all__ = ["main", "run_script"]
 
@@ -22,6 +18,11 @@ def main(words: list[str]) -> int:
     if not words:
         sys.stderr.write("usage: python -m gazelle.compat.runner SCRIPT [args…]\n")
         return 2
+    end_at_interrupts()
+    from gazelle.compat.finder import install
+    from gazelle.graph.parent import end_with_parent
+    from gazelle.launch.environment import drop_in_folder
+
     end_with_parent()
     sys.excepthook = _tell
     drop_ins = str(drop_in_folder())
@@ -34,6 +35,7 @@ def main(words: list[str]) -> int:
         function, words = words[1], words[2:]
     path = Path(words[0])
     entry = _entry_point(path, function)
+    raise_interrupts()
     return run_script(path, words) if entry is None else _run_entry_point(*entry, words)
 
 
@@ -44,6 +46,8 @@ def run_script(path: Path, argv: list[str]) -> int:
     except OSError as error:
         sys.stderr.write(f"cannot read '{path}': {error.strerror}\n")
         return 2
+    from gazelle.compat.python2 import compile_source
+
     code = compile_source(source, str(path))
     module = ModuleType("__main__")
     module.__file__ = str(path)

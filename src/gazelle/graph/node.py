@@ -293,6 +293,9 @@ class Node:
         self._created = [item for item in self._created if item is not one]
 
     def _on_error(self, text: str) -> None:
+        if self._closed and isinstance(sys.exception(), GraphError):
+            # A callback wanted something of the node that was shut down meanwhile.
+            return
         self.log(Level.ERROR, text)
 
     def _on_warning(self, text: str) -> None:

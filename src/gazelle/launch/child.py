@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 import sys
 
-from gazelle.graph.parent import end_with_parent
+from gazelle.ending import end_at_interrupts
 
 __all__ = ["main"]
 
 
 def main(words: list[str]) -> int:
     """Replace this process by the command; the parent-death signal survives exec."""
+    end_at_interrupts()
+    from gazelle.graph.parent import end_with_parent
+
     end_with_parent()
     try:
         os.execvp(words[0], words)  # noqa: S606 - starting what a launch file names is the purpose

@@ -4,13 +4,24 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.workspace import Workspace
 
-__all__ = ["ROS_COMMANDS", "command_folder", "drop_in_folder", "node_environment", "ros_home"]
+__all__ = [
+    "ROS_COMMANDS",
+    "command_folder",
+    "drop_in_folder",
+    "is_own_command",
+    "node_environment",
+    "ros_home",
+]
+
+# What makes several commands of one.
+_SHELL_SIGNS = frozenset(";&|`\n")
 
 ROS_COMMANDS = (
     "catkin",
@@ -81,6 +92,23 @@ def command_folder() -> Path:
             part.chmod(0o755)
             part.replace(script)
     return folder
+
+
+def is_own_command(words: Sequence[str], path: str | None) -> bool:
+    """Tell whether a command is one of Gazelle's, which all begin with `end_at_interrupts`.
+
+    Args:
+        words: the command, or one word that a shell splits.
+        path: ``PATH`` where it is looked for.
+    """
+    if list(words[:2]) == [sys.executable, "-m"]:
+        return words[2].startswith("gazelle.")
+    text = " ".join(words)
+    if not set(text).isdisjoint(_SHELL_SIGNS):
+        return False
+    name, *_ = [*text.removeprefix("exec ").split(), ""]
+    found = shutil.which(name, path=path) if name else None
+    return found is not None and command_folder() in Path(found).parents
 
 
 def node_environment(environ: Mapping[str, str], workspace: Workspace) -> dict[str, str]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from gazelle.ending import interrupts_held
 from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.executables import Executable
@@ -73,7 +74,7 @@ def start_process(
         PARENT_VARIABLE: str(os.getpid()),
     }
     folder = executable.folder if process.spec.cwd == "node" and executable.folder else cwd
-    with _log_stream(process) as log:
+    with _log_stream(process) as log, interrupts_held():
         process.popen = subprocess.Popen(
             words, env=variables, cwd=folder, stdout=log, stderr=None, start_new_session=True
         )

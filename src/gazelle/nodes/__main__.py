@@ -5,18 +5,21 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from pathlib import Path
 
-from gazelle.ending import at_stop_signal, end_with
-from gazelle.errors import GazelleError
-from gazelle.graph.parent import end_with_parent
+from gazelle.ending import StopEvent, at_stop_signal, end_at_interrupts, end_with
 
 __all__ = ["main"]
+
+# Less than the five seconds after which ROS 2's launch complains.
+_PATIENCE_S = 3.0
 
 
 def main(words: list[str]) -> int:
     """Run a node, or a host of nodes, in this process."""
+    end_at_interrupts()
+    from gazelle.graph.parent import end_with_parent
+
     end_with_parent()
     if words and words[0] == "--host":
         from gazelle.nodes.host import host
@@ -31,13 +34,17 @@ def main(words: list[str]) -> int:
 
 
 def _single(name: str, argv: list[str]) -> int:
+    from gazelle.errors import GazelleError
     from gazelle.graph import Graph
     from gazelle.nodes.arguments import read_arguments
     from gazelle.nodes.host import run_node
     from gazelle.nodes.log_file import LogFile
+    from gazelle.nodes.registry import builtin_node
 
-    stop = threading.Event()
-    at_stop_signal(stop.set)
+    found = builtin_node(*name.split("/", 1)) if "/" in name else None
+    is_writer = found is not None and found.writes_at_end
+    stop = StopEvent(None if is_writer else _PATIENCE_S)
+    at_stop_signal(stop.request)
     namespace = os.environ.get("ROS_NAMESPACE", "/")
     try:
         with Graph.open() as graph:

@@ -6,6 +6,7 @@ import json
 import os
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable
 from typing import Any, TextIO
@@ -16,6 +17,9 @@ from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.registry import builtin_node
 
 __all__ = ["host"]
+
+_LAST_WORDS_S = 2.0
+_END_S = 4.0
 
 
 def host(status_fd: int, commands: TextIO) -> int:
@@ -35,6 +39,9 @@ def host(status_fd: int, commands: TextIO) -> int:
                 nodes.start(command["start"], graph)
             else:
                 nodes.stop(command["stop"])
+        hurry = threading.Timer(_END_S, os._exit, (0,))
+        hurry.daemon = True
+        hurry.start()
         nodes.tell_all_to_stop()
         # Nodes that sleep on a clock that stands still wake only by this.
         graph.clock.close()
@@ -65,8 +72,10 @@ class _Nodes:
             stop.set()
 
     def join(self) -> None:
+        """Give all of them together a moment to end; one that still loads cannot hear of it."""
+        deadline_s = time.monotonic() + _LAST_WORDS_S
         for _, thread in self._running.values():
-            thread.join(timeout=2.0)
+            thread.join(timeout=max(0.0, deadline_s - time.monotonic()))
 
     def _run(self, request: dict[str, Any], graph: Graph, stop: threading.Event) -> None:
         code = 1

@@ -40,6 +40,7 @@ class BuiltinNode:
         help: one line about it.
         aliases: other ``(package, type)`` names it answers to.
         name: what the node calls itself when nobody names it, its type when empty.
+        writes_at_end: it writes files when it is told to end, and must not be hurried.
     """
 
     package: str
@@ -49,6 +50,7 @@ class BuiltinNode:
     help: str
     aliases: tuple[tuple[str, str], ...] = ()
     name: str = ""
+    writes_at_end: bool = False
 
     def load(self) -> Callable[..., Any]:
         """Import and return the function."""
@@ -157,7 +159,14 @@ _NODES = (
         help="deactivates and unloads controllers, ROS 2's older name",
     ),
     *(
-        BuiltinNode("rosbag", name, f"gazelle.nodes.rosbag.{name}:run", light=False, help=about)
+        BuiltinNode(
+            "rosbag",
+            name,
+            f"gazelle.nodes.rosbag.{name}:run",
+            light=False,
+            help=about,
+            writes_at_end=name == "record",
+        )
         for name, about in (
             ("record", "records topics into a bag"),
             ("play", "plays a bag"),

@@ -15,7 +15,7 @@ from typing import Any
 import psutil
 import pytest
 
-from gazelle.launch.ros2 import LaunchDescription, LaunchService, logging
+from gazelle.launch.ros2 import LaunchDescription, LaunchService, child_process, logging
 from gazelle.launch.ros2 import actions as a
 from gazelle.launch.ros2.event_handlers import OnProcessIO
 from gazelle.launch.ros2.events import process as process_events
@@ -100,6 +100,19 @@ def test_a_terminal_is_emulated_when_asked_for(run: Run) -> None:
     asked = a.ExecuteProcess(cmd=[sys.executable, "-c", code], cached_output=True)
     run(asked, emulate_tty="true")
     assert asked.get_stdout() == "True True\n"
+
+
+_MASK = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
+
+
+@pytest.mark.parametrize("is_own", [True, False])
+def test_only_commands_of_ours_begin_deaf_to_ctrl_c(
+    run: Run, monkeypatch: pytest.MonkeyPatch, is_own: bool
+) -> None:
+    monkeypatch.setattr(child_process, "is_own_command", lambda _words, _path: is_own)
+    one = a.ExecuteProcess(cmd=[sys.executable, "-c", _MASK], output="screen")
+    assert any(line.endswith(f"] {is_own}") for line in run(one).lines)
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_shell_takes_the_words_joined(run: Run) -> None:

@@ -9,11 +9,13 @@ import signal
 import subprocess
 import sys
 from collections.abc import Sequence
+from contextlib import nullcontext
 from types import FrameType
 
 from gazelle.cli.ros2.verbs import fail, guarded
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.launch.environment import node_environment
+from gazelle.ending import interrupts_held
+from gazelle.launch.environment import is_own_command, node_environment
 from gazelle.launch.executables import find_executable
 from gazelle.nodes.registry import builtin_types
 from gazelle.workspace import Workspace
@@ -63,7 +65,8 @@ def _run(options: argparse.Namespace) -> int:
 def _run_words(words: Sequence[str], environment: dict[str, str]) -> int:
     sys.stdout.flush()
     try:
-        process = subprocess.Popen(words, env=environment)
+        with interrupts_held() if is_own_command(words, None) else nullcontext():
+            process = subprocess.Popen(words, env=environment)
     except OSError as error:
         return fail(f"cannot run '{words[0]}': {error.strerror}")
     _pass_signals_on(process)

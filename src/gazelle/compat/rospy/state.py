@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
+from gazelle.ending import raise_or_end
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node, offer_loggers
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
@@ -20,7 +21,13 @@ from gazelle.nodes.log_file import keep_log
 __all__ = ["STATE", "NodeState"]
 
 _LAST_CHANCE_S = 2.0
-_PLAIN_HANDLERS = (signal.default_int_handler, signal.SIG_DFL, signal.SIG_IGN, None)
+_PLAIN_HANDLERS = (
+    signal.default_int_handler,
+    raise_or_end,
+    signal.SIG_DFL,
+    signal.SIG_IGN,
+    None,
+)
 _LEVELS = {1: Level.DEBUG, 2: Level.INFO, 4: Level.WARN, 8: Level.ERROR, 16: Level.FATAL}
 
 

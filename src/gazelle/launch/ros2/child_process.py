@@ -7,10 +7,12 @@ import contextlib
 import os
 import pty
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.ending import interrupts_held
+from gazelle.launch.environment import is_own_command
 from gazelle.launch.guard import Guard
 
 __all__ = ["ChildProcess", "Guarded", "start_child"]
@@ -150,6 +152,32 @@ class _Terminal(asyncio.Protocol):
         self._child.pipe_connection_lost(self._fd, exc)
 
 
+class _Held:
+    """Starts a process with SIGINT held, and lets it go before anything else has its turn."""
+
+    def __init__(self, starting: Coroutine[Any, Any, Any]) -> None:
+        self._starting = starting
+
+    def __await__(self) -> Generator[Any, None, Any]:
+        with interrupts_held():
+            # The process is started in the first step; all others wait for its pipes.
+            try:
+                awaited = self._starting.send(None)
+            except StopIteration as done:
+                return done.value
+        while True:
+            try:
+                sent = yield awaited
+            except BaseException as error:  # noqa: BLE001 - it is the coroutine's to handle
+                step, value = self._starting.throw, error
+            else:
+                step, value = self._starting.send, sent
+            try:
+                awaited = step(value)
+            except StopIteration as done:
+                return done.value
+
+
 async def start_child(
     on_start: Callable[[ChildProcess], None],
     on_output: Callable[[int, bytes], None],
@@ -190,11 +218,14 @@ async def start_child(
         "start_new_session": True,
     }
     started = lambda: ChildProcess(loop, on_start, on_output)  # noqa: E731
+    starting = (
+        loop.subprocess_shell(started, " ".join(cmd), **options)
+        if shell
+        else loop.subprocess_exec(started, *cmd, **options)
+    )
     try:
-        if shell:
-            _, child = await loop.subprocess_shell(started, " ".join(cmd), **options)
-        else:
-            _, child = await loop.subprocess_exec(started, *cmd, **options)
+        holds = is_own_command(cmd, variables.get("PATH"))
+        _, child = await (_Held(starting) if holds else starting)
     except BaseException:
         for _fd, near, _far in terminals:
             os.close(near)
