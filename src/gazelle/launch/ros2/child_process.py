@@ -166,14 +166,15 @@ class _Held:
             except StopIteration as done:
                 return done.value
         while True:
+            caught: BaseException | None = None
+            sent: Any = None
             try:
                 sent = yield awaited
             except BaseException as error:  # noqa: BLE001 - it is the coroutine's to handle
-                step, value = self._starting.throw, error
-            else:
-                step, value = self._starting.send, sent
+                caught = error
             try:
-                awaited = step(value)
+                go_on = self._starting
+                awaited = go_on.send(sent) if caught is None else go_on.throw(caught)
             except StopIteration as done:
                 return done.value
 
