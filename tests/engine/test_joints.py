@@ -189,13 +189,41 @@ def test_fixed_loop_welds_two_chains():
     assert abs(engine.joint("pair::joint0").position) < 1e-2
 
 
-def test_unsupported_loop_joint_is_reported():
-    links, joints = discs()
-    loop = Joint("slide", JointType.PRISMATIC, "disc0", "disc1", axis=Z)
-    diagnostics = Diagnostics()
-    engine_of(Model("pair", links=tuple(links), joints=(*joints, loop)), diagnostics)
-    (finding,) = diagnostics.by_code("engine.loop-joint")
-    assert "'slide' of type prismatic closes a kinematic loop" in finding.message
+def test_prismatic_loop_lets_its_links_slide_only():
+    """Two carriages on rails of their own, tied to each other across the rails."""
+    x, y = JointAxis((1, 0, 0)), JointAxis((0, 1, 0))
+    links = tuple(Link(name, Pose((0, i, 0)), inertial=SMALL) for i, name in enumerate("ab"))
+    rails = (
+        Joint("rail_a", JointType.PRISMATIC, "world", "a", axis=x),
+        Joint("rail_b", JointType.PLANAR, "world", "b", Pose((0, 1, 0)), axis=Z),
+    )
+    loop = Joint("tie", JointType.PRISMATIC, "a", "b", Pose((0, 1, 0)), axis=y)
+    engine = engine_of(Model("m", links=links, joints=(*rails, loop)))
+    engine.joint("m::rail_a").set_effort(1.0)
+    engine.joint("m::tie").set_effort(0.5)
+    engine.step(1000)
+    first, second = (engine.link(f"m::{name}").T_world_link() for name in "ab")
+    assert first.position_m[0] == pytest.approx(0.25, rel=0.02)
+    assert second.position_m[0] == pytest.approx(first.position_m[0], abs=1e-3)
+    assert second.position_m[1] == pytest.approx(1.25, rel=0.02)
+    assert engine.joint("m::tie").position == pytest.approx(0.25, rel=0.02)
+    assert second.rpy_rad[2] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_screw_loop_turns_what_slides():
+    z = JointAxis((0, 0, 1))
+    links = (Link("nut", inertial=SMALL), Link("spindle", inertial=SMALL))
+    joints = (
+        Joint("slide", JointType.PRISMATIC, "world", "nut", axis=z),
+        Joint("turn", JointType.CONTINUOUS, "world", "spindle", axis=z),
+        Joint("thread", JointType.SCREW, "nut", "spindle", axis=z, thread_pitch_rad_m=10.0),
+    )
+    engine = engine_of(Model("m", links=links, joints=joints), gravity_m_s2=(0, 0, 0))
+    engine.joint("m::turn").set_effort(0.02)
+    engine.step(1000)
+    turned = engine.joint("m::turn").position
+    assert turned == pytest.approx(0.5 * 0.02 / (0.01 + 1.0 / 10.0**2), rel=0.05)
+    assert engine.joint("m::slide").position == pytest.approx(-turned / 10.0, rel=1e-2)
 
 
 def test_joint_of_the_world_ties_two_models():

@@ -30,6 +30,8 @@ class ReadContext:
         version: SDF version that decides between old and new meanings, ``(major, minor)``.
         include_chain: files being read, outermost first; finds cycles.
         in_world: the text is part of a world, which goes on without a broken model.
+        inserts: robots take in the links and joints that stand in ``<gazebo>``; programs that know
+            URDF only, such as planners and state publishers, leave them off.
         cache: files read so far, so that a model included a hundred times is read and reported
             once; shared by all contexts made from one.
     """
@@ -41,6 +43,7 @@ class ReadContext:
     version: tuple[int, int] = (1, 12)
     include_chain: tuple[Path, ...] = ()
     in_world: bool = False
+    inserts: bool = True
     cache: dict[Hashable, Any] = field(default_factory=dict, compare=False, repr=False)
 
     def resolve(self, uri: str) -> Resolved:

@@ -38,6 +38,7 @@ def load_models(
     workspace: Workspace | None,
     diagnostics: Diagnostics,
     mappings: Mapping[str, str] | None = None,
+    inserts: bool = True,
 ) -> tuple[Model, ...]:
     """Read URDF, xacro or SDF: a file, a model's folder, a URI, a model's name, or the text.
 
@@ -47,12 +48,13 @@ def load_models(
         workspace: finds packages, models and meshes.
         diagnostics: receives every finding.
         mappings: values of ``<xacro:arg>`` by name, for xacro files.
+        inserts: see `ReadContext`.
 
     Returns:
         The models; none when nothing could be read, with the reason reported as an error.
     """
     found = Diagnostics()
-    models = _load_models(str(source), workspace, found, mappings)
+    models = _load_models(str(source), workspace, found, mappings, inserts=inserts)
     _pass_on(found, diagnostics)
     return models
 
@@ -62,9 +64,11 @@ def _load_models(
     workspace: Workspace | None,
     diagnostics: Diagnostics,
     mappings: Mapping[str, str] | None,
+    *,
+    inserts: bool = True,
 ) -> tuple[Model, ...]:
     if text.lstrip("\ufeff \t\r\n").startswith("<"):
-        return _models_of_text(text, workspace, diagnostics)
+        return _models_of_text(text, workspace, diagnostics, inserts=inserts)
     path = _locate(text, workspace, diagnostics)
     if path is None:
         return ()
@@ -75,7 +79,7 @@ def _load_models(
             diagnostics,
         )
         return () if model is None else (model,)
-    return _models_of_file(path, workspace, diagnostics, mappings)
+    return _models_of_file(path, workspace, diagnostics, mappings, inserts=inserts)
 
 
 def load_world(
@@ -164,11 +168,11 @@ def _peek(path: Path) -> str:
 
 
 def _models_of_text(
-    text: str, workspace: Workspace | None, diagnostics: Diagnostics
+    text: str, workspace: Workspace | None, diagnostics: Diagnostics, *, inserts: bool = True
 ) -> tuple[Model, ...]:
     place = place_of_text(text)
     root = read_text(text, diagnostics)
-    context = ReadContext(workspace, diagnostics, place, None)
+    context = ReadContext(workspace, diagnostics, place, None, inserts=inserts)
     return () if root is None else _models_of_root(root, context)
 
 
@@ -177,6 +181,8 @@ def _models_of_file(
     workspace: Workspace | None,
     diagnostics: Diagnostics,
     mappings: Mapping[str, str] | None,
+    *,
+    inserts: bool = True,
 ) -> tuple[Model, ...]:
     root = read_xml(path, diagnostics)
     if root is None:
@@ -194,7 +200,8 @@ def _models_of_file(
         return ()
     if not is_xacro:
         root = placed(root, exact=True)
-    context = ReadContext(workspace, diagnostics, str(path), path.resolve().parent)
+    folder = path.resolve().parent
+    context = ReadContext(workspace, diagnostics, str(path), folder, inserts=inserts)
     return tuple(replace(model, file=path) for model in _models_of_root(root, context))
 
 

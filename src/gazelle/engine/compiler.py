@@ -192,7 +192,7 @@ def _add_world_joints(builder: SpecBuilder) -> None:
         for link in model.links
     }
     for joint in builder.world.joints:
-        add_world_joint(builder.spec, joint, poses, builder.step_s, builder.diagnostics)
+        add_world_joint(builder.spec, joint, poses, builder.step_s)
 
 
 def _compile(spec: Any) -> Any:

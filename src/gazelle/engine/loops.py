@@ -8,15 +8,18 @@ import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType, Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.joints import couple, equality_solver
+from gazelle.engine.joints import add_joint, couple, equality_solver
 from gazelle.engine.library import mujoco
-from gazelle.engine.names import scoped
+from gazelle.engine.names import bridge, scoped
 from gazelle.engine.tree import WORLD, KinematicTree
 from gazelle.geometry import Pose
 
 __all__ = ["add_loop", "add_world_joint"]
 
 _LEVER_M = 0.1
+# Light beside every link of a robot, and heavy enough to be computed with.
+_BRIDGE_KG = 1e-3
+_BRIDGE_KG_M2 = 1e-6
 
 
 def add_loop(
@@ -37,7 +40,7 @@ def add_loop(
     )
     base = model.T_world_model.inverse()
     poses = tuple(links.get(name, base) for name in (joint.parent, joint.child))
-    _constrain(spec, joint, (bodies[0], bodies[1]), (poses[0], poses[1]), step_s, diagnostics)
+    _constrain(spec, joint, model.name, (bodies[0], bodies[1]), (poses[0], poses[1]), step_s)
 
 
 def add_world_joint(
@@ -45,7 +48,6 @@ def add_world_joint(
     joint: Joint,
     poses: dict[str, Pose],
     step_s: float,
-    diagnostics: Diagnostics,
 ) -> None:
     """Add a joint of the world between links of models (SDF 1.11).
 
@@ -54,26 +56,25 @@ def add_world_joint(
         joint: with ``model::link`` names, its frame in the world.
         poses: ``T_world_link`` of every link, joints at zero.
         step_s: length of a step.
-        diagnostics: takes what is approximated.
     """
     bodies = tuple(name if name in poses else WORLD for name in (joint.parent, joint.child))
     frames = tuple(poses.get(name, Pose()) for name in (joint.parent, joint.child))
-    _constrain(spec, joint, (bodies[0], bodies[1]), (frames[0], frames[1]), step_s, diagnostics)
+    _constrain(spec, joint, WORLD, (bodies[0], bodies[1]), (frames[0], frames[1]), step_s)
 
 
 def _constrain(
     spec: Any,
     joint: Joint,
+    model: str,
     bodies: tuple[str, str],
     poses: tuple[Pose, Pose],
     step_s: float,
-    diagnostics: Diagnostics,
 ) -> None:
     T_parent_joint = poses[0].inverse() @ joint.T_model_joint
     match joint.type:
-        case JointType.BALL | JointType.UNIVERSAL:
+        case JointType.BALL:
             _connect(spec, bodies, T_parent_joint.position_m, step_s)
-        case JointType.REVOLUTE | JointType.CONTINUOUS | JointType.REVOLUTE2:
+        case JointType.REVOLUTE | JointType.CONTINUOUS:
             axis = np.asarray(T_parent_joint.rotate((joint.axis or JointAxis()).xyz))
             for side in (-_LEVER_M, _LEVER_M):
                 anchor = np.asarray(T_parent_joint.position_m) + side * axis
@@ -83,22 +84,34 @@ def _constrain(
         case JointType.FLOATING:
             pass
         case _:
-            _weld(spec, bodies, poses, step_s)
-            diagnostics.report(
-                "engine.loop-joint",
-                f"joint '{joint.name}' of type {joint.type.value} closes a kinematic loop; the"
-                " engine closes loops with fixed, revolute, ball and universal joints only and"
-                " holds its links fixed to each other",
-                joint.span,
-            )
-            return
-    if joint.type in (JointType.UNIVERSAL, JointType.REVOLUTE2):
-        diagnostics.report(
-            "engine.loop-joint",
-            f"joint '{joint.name}' of type {joint.type.value} closes a kinematic loop; the engine"
-            f" holds it as a {'ball' if joint.type is JointType.UNIVERSAL else 'revolute'} joint",
-            joint.span,
-        )
+            _bridge(spec, joint, model, bodies, poses, step_s)
+
+
+def _bridge(
+    spec: Any,
+    joint: Joint,
+    model: str,
+    bodies: tuple[str, str],
+    poses: tuple[Pose, Pose],
+    step_s: float,
+) -> None:
+    """Give the joint a light body of its own on the parent, and weld the child to that.
+
+    MuJoCo has no constraints for slides, threads and crossed axes. The joint keeps its name, so it
+    has a position, limits and motors as others have.
+    """
+    parent = spec.worldbody if bodies[0] == WORLD else spec.body(bodies[0])
+    T_parent_child = poses[0].inverse() @ poses[1]
+    name = bridge(scoped(model, joint.name))
+    body = parent.add_body(name=name)
+    body.pos = list(T_parent_child.position_m)
+    body.quat = list(T_parent_child.quat_wxyz)
+    body.explicitinertial = True
+    body.mass = _BRIDGE_KG
+    body.inertia = [_BRIDGE_KG_M2] * 3
+    body.gravcomp = 1.0
+    add_joint(spec, body, joint, model, poses[1].inverse() @ joint.T_model_joint, step_s)
+    _weld(spec, (name, bodies[1]), (poses[1], poses[1]), step_s)
 
 
 def _connect(

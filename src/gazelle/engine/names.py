@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 __all__ = [
+    "bridge",
     "joint_part",
     "lock",
     "part_of",
@@ -56,6 +57,11 @@ def lock(joint: str) -> str:
 def weld(first: str, second: str) -> str:
     """Return the name of the constraint that holds two links together."""
     return f"{first}{_MARK}weld{_MARK}{second}"
+
+
+def bridge(joint: str) -> str:
+    """Return the name of the body between a joint that closes a loop and its child."""
+    return f"{joint}{_MARK}bridge"
 
 
 def tyre(link: str) -> str:

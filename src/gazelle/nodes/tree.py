@@ -72,7 +72,7 @@ def read_description(text: str) -> Model:
             loads the robot into a world reports all of them with their places.
     """
     diagnostics = Diagnostics()
-    context = ReadContext(None, diagnostics, place_of_text(text), None)
+    context = ReadContext(None, diagnostics, place_of_text(text), None, inserts=False)
     root = read_text(text, diagnostics)
     model = None if root is None else read_urdf(root, context=context)
     if model is None:

@@ -80,7 +80,10 @@ class Measurements:
 
         spec = place.sensor.spec
         assert isinstance(spec, ContactSpec)
-        names = frozenset(f"{place.link_name}::{name}" for name in spec.collisions)
+        model = place.link_name.partition("::")[0]
+        names = frozenset(
+            f"{owner}::{name}" for name in spec.collisions for owner in (place.link_name, model)
+        )
         return watched_contacts(self._engine.contacts(), names)
 
     def force_torque(self, place: SensorPlace) -> WrenchRecord:

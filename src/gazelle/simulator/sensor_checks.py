@@ -57,8 +57,9 @@ def _check_collisions(
     link = model.link(place.link_name.split("::", 1)[1])
     assert link is not None
     names = [collision.name for collision in link.collisions]
+    of_others = {f"{one.name}::{item.name}" for one in model.links for item in one.collisions}
     for wanted in spec.collisions:
-        if wanted not in names:
+        if wanted not in names and wanted not in of_others:
             text = f"contact sensor '{place.name}' watches collision '{wanted}', which link "
             text += f"'{link.name}' does not have: it never feels anything there"
             fix = did_you_mean(wanted, names) or f"the link's collisions: {', '.join(names) or '-'}"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from tests.description.checks.pain import FIXTURES, examined, place
 
-from gazelle.description.checks.lumped import collision_names, lumped_links
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
 from gazelle.description.urdf import read_urdf
+from gazelle.description.urdf.lumped import collision_names, lumped_links
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 

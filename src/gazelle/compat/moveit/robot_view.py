@@ -44,7 +44,7 @@ class RobotView:
         texts = {part: _text(node, f"{description}{part}") for part in ("", "_semantic")}
         diagnostics = Diagnostics()
         workspace = Workspace.discover()
-        models = load_models(texts[""], workspace=workspace, diagnostics=diagnostics)
+        models = load_models(texts[""], workspace=workspace, diagnostics=diagnostics, inserts=False)
         if not models:
             diagnostics.raise_if_errors()
             raise GazelleError(f"parameter '{description}' is no robot")

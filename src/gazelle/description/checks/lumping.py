@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gazelle.description.checks.lumped import collision_names, lumped_joints, lumped_links
 from gazelle.description.model import Link, Model, PluginTag
+from gazelle.description.urdf.lumped import collision_names, lumped_joints, lumped_links
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

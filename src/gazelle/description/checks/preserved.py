@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.description.checks.lumped import lumped_links
 from gazelle.description.model import Joint, JointType, Model
+from gazelle.description.urdf.lumped import lumped_links
 from gazelle.diagnostics import Diagnostics
 
 __all__ = ["check_preserved"]

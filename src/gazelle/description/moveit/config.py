@@ -160,7 +160,7 @@ def _robot(tree: Settings, key: str, workspace: Workspace | None) -> Model | Non
         message = f"there is no parameter '{key}' with a URDF"
         tree.diagnostics.report("moveit.no-description", message)
         return None
-    models = load_models(text, workspace=workspace, diagnostics=tree.diagnostics)
+    models = load_models(text, workspace=workspace, diagnostics=tree.diagnostics, inserts=False)
     return models[0] if models else None
 
 

@@ -63,7 +63,11 @@ def read_moveit_config(
         return None
     given = {**files.arguments, **(mappings or {})}
     models = load_models(
-        files.urdf, workspace=workspace, diagnostics=diagnostics, mappings=given or None
+        files.urdf,
+        workspace=workspace,
+        diagnostics=diagnostics,
+        mappings=given or None,
+        inserts=False,
     )
     if not models:
         return None

@@ -23,7 +23,7 @@ from gazelle.description.sdf.versions import version_of
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 
-__all__ = ["included_model", "read_model"]
+__all__ = ["included_model", "model_around", "read_model"]
 
 _Named = TypeVar("_Named", Link, Joint)
 
@@ -61,6 +61,19 @@ def included_model(
         context.cache[key] = _model_of_file(path, tag, context)
     parts: ModelParts | None = context.cache[key]
     return None if parts is None else _overridden(parts, tag, context)
+
+
+def model_around(merged: ModelParts, tag: Tag, context: ReadContext) -> Model:
+    """Return the model of a ``<model>`` element into which another one is merged.
+
+    Args:
+        merged: gives links, joints and frames under their own names.
+        tag: the element.
+        context: where problems are reported.
+    """
+    nested = (merged, *_nested_models(tag, context))
+    links = named_children(tag, "link", context)
+    return _ModelReader(tag, merged.model.name, context, links, nested).read().model
 
 
 def _overridden(parts: ModelParts, tag: Tag, context: ReadContext) -> ModelParts:

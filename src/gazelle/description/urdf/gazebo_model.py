@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import ContactSpec, Joint, Link, Model, PluginTag
+from gazelle.description.model import Joint, Link, Model, PluginTag
 from gazelle.description.sdf.plugins import read_plugin
 from gazelle.description.urdf.gazebo_joints import apply_to_joint
 from gazelle.description.urdf.gazebo_links import apply_to_link
-from gazelle.description.urdf.gazebo_values import bool_value, report_unknown
+from gazelle.description.urdf.gazebo_values import (
+    blocks_by_reference,
+    bool_value,
+    report_unknown,
+)
+from gazelle.description.urdf.insertions import INSERTED_WORDS
+from gazelle.description.urdf.watching import with_watched_collisions
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 
@@ -21,17 +26,17 @@ _MODEL_WORDS = ("allow_auto_disable", "plugin", "self_collide", "static")
 _WITHOUT_EFFECT = ("canonicalBody", "enable_wind")
 _OLD_PREFIX = "controller:"
 _WORLD = "world"
-_LUMP = "_fixed_joint_lump__"
 
 
-def apply_gazebo(model: Model, blocks: Mapping[str, list[Tag]], context: ReadContext) -> Model:
+def apply_gazebo(model: Model, robot: Tag, context: ReadContext) -> Model:
     """Return the model with every ``<gazebo>`` block applied.
 
     Args:
         model: the robot as URDF describes it.
-        blocks: the ``<gazebo>`` elements by reference.
+        robot: the ``<robot>`` with the blocks.
         context: where to report, and look-up of files.
     """
+    blocks = blocks_by_reference(robot)
     links = {link.name: link for link in model.links}
     joints = {joint.name: joint for joint in model.joints}
     for reference, tags in blocks.items():
@@ -41,12 +46,8 @@ def apply_gazebo(model: Model, blocks: Mapping[str, list[Tag]], context: ReadCon
             joints[reference] = apply_to_joint(joints[reference], tags, context)
         elif reference:
             _report_reference(reference, tags, links, joints, context)
-    names = frozenset(item.name for link in links.values() for item in link.collisions)
-    model = replace(
-        model,
-        links=tuple(_with_watched_names(link, names) for link in links.values()),
-        joints=tuple(joints.values()),
-    )
+    model = replace(model, links=tuple(links.values()), joints=tuple(joints.values()))
+    model = with_watched_collisions(model, robot)
     for block in blocks.get("", ()):
         for tag in block.children:
             model = _apply_model_word(model, tag, context)
@@ -71,8 +72,8 @@ def _apply_model_word(model: Model, tag: Tag, context: ReadContext) -> Model:
     if tag.name in _WITHOUT_EFFECT:
         message = f"<{tag.name}> for the whole robot has no effect"
         context.diagnostics.report("urdf.gazebo-no-effect", message, tag.span)
-    elif tag.name not in _MODEL_WORDS:
-        known = (*_MODEL_WORDS, *_WITHOUT_EFFECT)
+    elif tag.name not in (*_MODEL_WORDS, *INSERTED_WORDS):
+        known = (*_MODEL_WORDS, *INSERTED_WORDS, *_WITHOUT_EFFECT)
         report_unknown(tag, "the whole robot", known, context)
     return model
 
@@ -88,34 +89,6 @@ def _old_controller(tag: Tag, context: ReadContext) -> PluginTag:
     fix = f'write <plugin name="{name}" filename="{library}">…</plugin>'
     context.diagnostics.report("urdf.old-controller", message, tag.span, fix=fix)
     return PluginTag(name, library, tag)
-
-
-def _with_watched_names(link: Link, names: frozenset[str]) -> Link:
-    """Return the link with its contact sensors watching collisions by their URDF names.
-
-    Files written for Gazebo name what lumping makes of a collision: ``base`` of link ``tip`` is
-    ``base_footprint_fixed_joint_lump__base_collision_2`` there.
-    """
-    sensors = tuple(
-        replace(sensor, spec=replace(sensor.spec, collisions=_watched(sensor.spec, names)))
-        if isinstance(sensor.spec, ContactSpec)
-        else sensor
-        for sensor in link.sensors
-    )
-    return replace(link, sensors=sensors)
-
-
-def _watched(spec: ContactSpec, names: frozenset[str]) -> tuple[str, ...]:
-    return tuple(
-        next((item for item in _readings(name) if item in names), name) for name in spec.collisions
-    )
-
-
-def _readings(name: str) -> tuple[str, ...]:
-    """Return what a collision of Gazebo's may be called in URDF, the likeliest first."""
-    own = name.rpartition(_LUMP)[2]
-    numbered = re.sub(r"_\d+$", "", own)
-    return name, own, numbered, numbered.removesuffix("_collision")
 
 
 def _says_more(tag: Tag) -> bool:

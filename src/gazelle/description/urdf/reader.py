@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from gazelle.description.urdf.attributes import check_vocabulary, origin_of
 from gazelle.description.urdf.gazebo_model import apply_gazebo
 from gazelle.description.urdf.gazebo_values import blocks_by_reference
 from gazelle.description.urdf.inertia import with_inertia
+from gazelle.description.urdf.insertions import inserted_joints, with_insertions
 from gazelle.description.urdf.joints import ReadJoint, read_joint
 from gazelle.description.urdf.links import read_link
 from gazelle.description.urdf.materials import global_materials
@@ -62,7 +63,9 @@ def read_urdf(text: str | Tag, *, context: ReadContext, name: str | None = None)
     own_name = _robot_name(robot, context)
     links = _read_links(robot, context)
     joints = _read_joints(robot, context)
-    transmissions = _read_transmissions(robot, joints, context)
+    whole_robot = blocks_by_reference(robot).get("", [])
+    names = (*joints, *inserted_joints(whole_robot))
+    transmissions = _read_transmissions(robot, names, context)
     for sensor in robot.find_all("sensor"):
         message = "<sensor> directly under <robot> was never used by ROS or Gazebo; it is ignored"
         diagnostics.report("urdf.sensor-ignored", message, sensor.span)
@@ -72,14 +75,15 @@ def read_urdf(text: str | Tag, *, context: ReadContext, name: str | None = None)
     if root is None:
         return None
     model = _placed(name or own_name, robot, root, links, joints, context)
-    model = apply_gazebo(model, blocks_by_reference(robot), context)
+    model = apply_gazebo(model, robot, context)
     model = with_inertia(model, _broken_inertials(robot, links), context)
-    return replace(
+    model = replace(
         model,
         joints=tuple(_with_known_leader(joint, model, context) for joint in model.joints),
         transmissions=transmissions,
         ros2_controls=tuple(_read_ros2_control(tag) for tag in robot.find_all("ros2_control")),
     )
+    return with_insertions(model, whole_robot, context) if context.inserts else model
 
 
 def _root_of(text: str | Tag, context: ReadContext) -> Tag | None:
@@ -146,7 +150,7 @@ def _read_joints(robot: Tag, context: ReadContext) -> dict[str, ReadJoint]:
 
 
 def _read_transmissions(
-    robot: Tag, joints: Mapping[str, ReadJoint], context: ReadContext
+    robot: Tag, joints: Collection[str], context: ReadContext
 ) -> tuple[TransmissionTag, ...]:
     found = (read_transmission(tag, joints, context) for tag in robot.find_all("transmission"))
     return tuple(item for item in found if item is not None)

@@ -122,13 +122,6 @@ ENTRIES = (
         "read its words; simplify the collisions where contacts are too many",
     ),
     Entry(
-        "engine.loop-joint",
-        "warning",
-        "A joint that closes a loop is approximated",
-        "Loops are closed by constraints, which exist for fixed, revolute and ball joints.",
-        "close the loop with a fixed, revolute or ball joint",
-    ),
-    Entry(
         "engine.gearbox",
         "warning",
         "A gearbox has no effect",

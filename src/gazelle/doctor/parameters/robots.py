@@ -128,6 +128,10 @@ def _models(
 ) -> tuple[Model, ...]:
     """Read a description; what is wrong with it is told where it is examined itself."""
     found = load_models(
-        path, workspace=workspace, diagnostics=Diagnostics(), mappings=dict(mappings)
+        path,
+        workspace=workspace,
+        diagnostics=Diagnostics(),
+        mappings=dict(mappings),
+        inserts=False,
     )
     return tuple(model for model in found if model.source_format == "urdf")

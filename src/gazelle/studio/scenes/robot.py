@@ -28,7 +28,7 @@ def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
 
     text = _description(studio, params)
     found = Diagnostics()
-    models = load_models(text, workspace=Workspace.discover(), diagnostics=found)
+    models = load_models(text, workspace=Workspace.discover(), diagnostics=found, inserts=False)
     findings = [
         {"level": item.severity.name.lower(), "text": str(item.message), "code": item.code}
         for item in found
