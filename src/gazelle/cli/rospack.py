@@ -59,7 +59,7 @@ def _about(command: str, name: str, workspace: Workspace) -> int:
         print(error, file=sys.stderr)
         return 1
     if command == "find":
-        print(package.path)
+        print(package.share)
     elif command == "depends-on1":
         users = [item.name for item in _sorted(workspace) if name in item.depends]
         print("\n".join(users), end="\n" if users else "")

@@ -141,7 +141,7 @@ class RosPack:
             ResourceNotFound: there is no such package.
         """
         try:
-            return str(self._workspace.package(name).path)
+            return str(self._workspace.package(name).share)
         except NotFoundError as error:
             raise ResourceNotFound(str(error)) from error
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gazelle.diagnostics.catalogue import entry_for
+from gazelle.diagnostics.share_links import as_written
 from gazelle.diagnostics.span import SourceSpan
 from gazelle.errors import UserFileError
 
@@ -71,8 +72,11 @@ class Diagnostics:
         return len(self._items)
 
     def add(self, diagnostic: Diagnostic) -> None:
-        """Keep one finding, unless the very same one is there already."""
-        self._items.setdefault(diagnostic)
+        """Keep one finding, unless the very same one is there already.
+
+        Links that stand for installed files are told as the user's files.
+        """
+        self._items.setdefault(_of_users_files(diagnostic))
 
     def report(
         self,
@@ -126,3 +130,11 @@ class Diagnostics:
         """
         if self.errors:
             raise UserFileError(tuple(self._items))
+
+
+def _of_users_files(item: Diagnostic) -> Diagnostic:
+    span = None if item.span is None else item.span.as_written()
+    message, fix = as_written(item.message), as_written(item.fix)
+    if (span, message, fix) == (item.span, item.message, item.fix):
+        return item
+    return replace(item, span=span, message=message, fix=fix)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from gazelle.diagnostics.share_links import as_written
 
 __all__ = ["SourceSpan"]
 
@@ -33,3 +35,10 @@ class SourceSpan:
             if self.column:
                 text += f":{self.column}"
         return text
+
+    def as_written(self) -> SourceSpan:
+        """Return the place in the user's file where `file` is a link to it."""
+        file, via = as_written(self.file), tuple(item.as_written() for item in self.via)
+        if file == self.file and via == self.via:
+            return self
+        return replace(self, file=file, via=via)

@@ -71,14 +71,14 @@ def get_package_prefix(package_name: str) -> str:
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """Return the folder of a package's data: ``share/NAME``, or the source folder.
+    """Return the folder of a package's data: ``share/NAME``, or what stands for it.
 
     Raises:
         PackageNotFoundError: there is no such package.
         ValueError: the name is not legal.
     """
     del print_warning
-    return str(_package(package_name).path)
+    return str(_package(package_name).share)
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from gazelle.limits.names import is_file
 from gazelle.workspace.entry_points import console_scripts
+from gazelle.workspace.installed import installed_files
 
 __all__ = ["executable_names", "executables_named"]
 
@@ -29,6 +30,10 @@ def executables_named(
         _add(found, prefix / "lib" / package / type_name)
         _add(found, path / type_name)
         return tuple(found)
+    installed = installed_files(path, package)
+    for name in _spellings(type_name):
+        if f"lib/{package}/{name}" in installed:
+            _add(found, installed[f"lib/{package}/{name}"])
     target = console_scripts(path).get(type_name)
     if target is not None:
         _add(found, _module_file(path, target))
@@ -48,6 +53,9 @@ def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str
     if prefix is not None:
         return tuple(sorted(file.name for file in _files_below(prefix / "lib" / package)))
     names = set(console_scripts(path))
+    start = f"lib/{package}/"
+    installed = (target for target in installed_files(path, package) if target.startswith(start))
+    names.update(target.removeprefix(start) for target in installed)
     for file in _files_below(path):
         top = file.relative_to(path).parts[0]
         is_script = top in _SCRIPT_FOLDERS and file.suffix in _SCRIPT_SUFFIXES

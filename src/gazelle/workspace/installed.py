@@ -1,36 +1,48 @@
-"""Where the files of a source package lie that its CMakeLists.txt installs to other places.
+"""Where the files of a source package lie that its build files install to other places.
 
 ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})`` makes
-``$(find pkg)/urdf`` of what is ``description/urdf`` in the source folder. In a workspace that
-was never built such addresses lead nowhere without reading that line.
+``$(find pkg)/urdf`` of what is ``description/urdf`` in the source folder, and a row of
+``data_files`` in ``setup.py`` may do the same. In a workspace that was never built such addresses
+lead nowhere without reading those lines.
 """
 
 from __future__ import annotations
 
-import re
+import posixpath
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
-from gazelle.limits.names import exists, is_file
+from gazelle.limits import read_limited
+from gazelle.limits.names import exists, is_file, is_folder
+from gazelle.workspace.building.cmake_lists import read_cmake_lists
+from gazelle.workspace.building.install_rules import InstallRule, cmake_rules
+from gazelle.workspace.building.plan import Plan, add_rules
+from gazelle.workspace.building.setup_file import read_setup
+from gazelle.workspace.crawler import manifest_in
+from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
 
-__all__ = ["installed_source"]
+__all__ = ["install_rules", "installed_files", "installed_source"]
 
-_LISTS = "CMakeLists.txt"
-_MANIFESTS = ("package.xml", "manifest.xml")
-_COMMENT = re.compile(r"#[^\n]*")
-_INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
-_AMENT_AUTO = re.compile(r"\bament_auto_package\s*\(([^()]*)\)", re.IGNORECASE)
-_PROJECT = re.compile(r"\bproject\s*\(\s*([\w.+-]+)", re.IGNORECASE)
-_FOLDERS, _FILES, _TO_SHARE = "DIRECTORY", ("FILES", "PROGRAMS"), "INSTALL_TO_SHARE"
-_KEYWORD = re.compile(r"[A-Z_]{3,}")
+_BUILD_FILES = ("CMakeLists.txt", "setup.py")
 
 
-class _Rule(NamedTuple):
-    """What lies at `target` of the share folder when the package is installed."""
+def install_rules(folder: Path, name: str) -> tuple[InstallRule, ...]:
+    """Return the rules of a source package whose places are known, read once.
 
-    target: str
-    source: str
+    Args:
+        folder: of the package.
+        name: of the package.
+    """
+    return _rules(folder, name)
+
+
+def installed_files(folder: Path, name: str) -> Mapping[str, Path]:
+    """Return the files that installing puts below the prefix, their sources by their places."""
+    plan = Plan()
+    rules = (rule for rule in install_rules(folder, name) if exists(folder / rule.source))
+    add_rules(plan, folder, rules, "{path}")
+    return {item.target: item.source for item in plan.items.values() if item.source is not None}
 
 
 def installed_source(path: Path) -> Path | None:
@@ -43,72 +55,56 @@ def installed_source(path: Path) -> Path | None:
     if package is None:
         return None
     inside = path.relative_to(package).as_posix()
-    for rule in _rules(package / _LISTS):
-        if inside == rule.target:
-            found = package / rule.source
-        elif not rule.target or inside.startswith(rule.target + "/"):
-            found = package / rule.source / inside[len(rule.target) :].lstrip("/")
-        else:
+    name = _name_of(package)
+    found = _sources(install_rules(package, name), f"share/{name}/{inside}")
+    places = (Path(posixpath.normpath(package / source)) for source in found)
+    return next((place for place in places if place != path and exists(place)), None)
+
+
+def _sources(rules: Iterable[InstallRule], target: str) -> Iterable[str]:
+    """Yield the sources that rules put at a place, a folder's place included."""
+    for rule in rules:
+        destination = posixpath.normpath(rule.destination.lstrip("/"))
+        if not rule.is_folder:
+            if target == f"{destination}/{rule.renamed or posixpath.basename(rule.source)}":
+                yield rule.source
             continue
-        if found != path and exists(found):
-            return found
-    return None
+        top = f"{destination}/{posixpath.basename(rule.source)}" if rule.keeps_name else destination
+        if target == top:
+            yield rule.source
+        elif target.startswith(top + "/"):
+            source = posixpath.normpath(f"{rule.source}{target[len(top) :]}")
+            if not rule.matching or posixpath.normpath(rule.target(source) or "") == target:
+                yield source
 
 
+@lru_cache(maxsize=1024)
 def _is_package(folder: Path) -> bool:
-    return is_file(folder / _LISTS) and any(is_file(folder / name) for name in _MANIFESTS)
+    return manifest_in(folder) is not None and any(is_file(folder / name) for name in _BUILD_FILES)
 
 
 @lru_cache(maxsize=256)
-def _rules(lists: Path) -> tuple[_Rule, ...]:
-    """Return the rules of a file whose places in the source and in the share folder differ."""
-    text = _COMMENT.sub("", lists.read_text(encoding="utf-8", errors="replace"))
-    project = _PROJECT.search(text)
-    name = project.group(1) if project else lists.parent.name
-    for variable in ("${PROJECT_NAME}", "${CMAKE_PROJECT_NAME}"):
-        text = text.replace(variable, name)
-    text = text.replace("${CATKIN_PACKAGE_SHARE_DESTINATION}", f"share/{name}")
-    text = text.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "").replace("${PROJECT_SOURCE_DIR}/", "")
-    found: list[_Rule] = []
-    for command in _INSTALL.finditer(text):
-        found.extend(_rules_of(command.group(1).replace('"', " ").split(), f"share/{name}"))
-    for command in _AMENT_AUTO.finditer(text):
-        words = command.group(1).replace('"', " ").split()
-        if _TO_SHARE in words:
-            found.extend(_placed(_values(words, _TO_SHARE), ""))
-    return tuple(rule for rule in found if rule.target != rule.source)
+def _name_of(folder: Path) -> str:
+    manifest = manifest_in(folder)
+    if manifest is None or manifest.name != "package.xml":
+        return folder.name
+    try:
+        return quick_name(read_limited(manifest, MANIFEST_BYTES)) or folder.name
+    except OSError:
+        return folder.name
 
 
-def _rules_of(words: list[str], share: str) -> list[_Rule]:
-    destination = next(iter(_values(words, "DESTINATION")), "").rstrip("/")
-    if destination != share and not destination.startswith(share + "/"):
-        return []
-    target = destination[len(share) :].lstrip("/")
-    if words[0] == _FOLDERS:
-        return _placed(_values(words, _FOLDERS), target)
-    if words[0] not in _FILES:
-        return []
-    renamed = next(iter(_values(words, "RENAME")), "")
-    sources = _values(words, words[0])
-    return [_Rule(_joined(target, renamed or Path(item).name), item) for item in sources]
-
-
-def _placed(folders: list[str], target: str) -> list[_Rule]:
-    """Return where folders go: with a slash at the end their contents, else they themselves."""
-    return [
-        _Rule(target if item.endswith("/") else _joined(target, Path(item).name), item.rstrip("/"))
-        for item in folders
-    ]
-
-
-def _values(words: list[str], keyword: str) -> list[str]:
-    """Return the words after a keyword, up to the next one."""
-    if keyword not in words:
-        return []
-    rest = words[words.index(keyword) + 1 :]
-    end = next((place for place, word in enumerate(rest) if _KEYWORD.fullmatch(word)), len(rest))
-    return rest[:end]
-
-
-def _joined(folder: str, name: str) -> str:
-    return f"{folder}/{name}" if folder else name
+@lru_cache(maxsize=256)
+def _rules(folder: Path, name: str) -> tuple[InstallRule, ...]:
+    if not is_folder(folder):
+        return ()
+    try:
+        lists, setup = read_cmake_lists(folder, name), read_setup(folder)
+    except OSError:
+        return ()
+    found = [] if lists is None else [*cmake_rules(lists, f"share/{name}").rules]
+    # Of a package with both files, CMake's is the one that builds it, unless it is for colcon's
+    # Python packages alone.
+    if setup is not None and (not found or setup.is_for_ament):
+        found += setup.rules
+    return tuple(rule for rule in found if rule.is_known and "$<" not in rule.source)

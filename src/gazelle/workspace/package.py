@@ -9,6 +9,7 @@ from gazelle.limits.names import exists
 from gazelle.workspace.crawler import FoundPackage
 from gazelle.workspace.executables import executable_names, executables_named
 from gazelle.workspace.manifest import Export, Manifest
+from gazelle.workspace.share import share_folder
 
 __all__ = ["Package", "package_from"]
 
@@ -50,6 +51,16 @@ class Package:
             return 1
         return 2 if self.build_type.startswith("ament") else None
 
+    @property
+    def share(self) -> Path:
+        """The folder that look-ups of the user's code get: files lie where installing puts them.
+
+        `path` itself where that moves nothing.
+        """
+        if self.prefix is not None or self.is_builtin:
+            return self.path
+        return share_folder(self.path, self.name, has_devel_space=self.ros_generation == 1)
+
     def find_file(self, relative: str) -> Path | None:
         """Return a file or folder of the package by its path inside, None when absent."""
         path = self.path / relative
@@ -81,7 +92,7 @@ class Package:
             value = export.get(attribute) if export.name == tag else None
             for part in (value or "").split(":"):
                 if part.strip():
-                    found.append(Path(part.strip().replace("${prefix}", str(self.path))))
+                    found.append(Path(part.strip().replace("${prefix}", str(self.share))))
         return tuple(found)
 
 

@@ -33,7 +33,7 @@ def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
         return [str(Path(words[0]).resolve()), *words[1:]]
     package, file, *rest = words
     try:
-        folder = Workspace.discover().package(package).path
+        folder = Workspace.discover().package(package).share
     except NotFoundError as error:
         text = f"[{file}] is neither a launch file in package [{package}] nor is [{package}] a"
         raise RLException(f"{text} launch file name: {error}") from error

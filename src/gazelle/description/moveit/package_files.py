@@ -142,7 +142,7 @@ def _urdf(
         return own, arguments
     package, relative = part.get("package"), part.get("relative_path")
     if relative:
-        base = workspace.package(str(package)).path if package else folder
+        base = workspace.package(str(package)).share if package else folder
         return base / str(relative), arguments
     candidates = [*_with_endings(config, _URDF[:2]), *_with_endings(folder / "urdf", _URDF)]
     if candidates:

@@ -26,6 +26,7 @@ from gazelle.description.xacro.session import Console, run_session
 from gazelle.description.xacro.writing import Written, written
 from gazelle.description.xml import Tag, parse_xml, with_places
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics.share_links import written_file
 from gazelle.workspace import Workspace
 
 __all__ = ["Expanded", "expand_xacro"]
@@ -133,7 +134,9 @@ def _first_run(
                 _print_failure(error, library, task.verbosity, console)
             report_left_out(session, task.file, diagnostics)
             return found_failure(error, library, session, task.file)
-        dependencies = tuple(dict.fromkeys(str(item) for item in library.all_includes))
+        dependencies = tuple(
+            dict.fromkeys(str(written_file(item)) for item in library.all_includes)
+        )
     if console is None:
         report_printed(session, task.file, diagnostics)
     report_left_out(session, task.file, diagnostics)

@@ -190,7 +190,7 @@ def _finder(workspace: Workspace | None) -> Callable[[str], str]:
     def find(name: str) -> str:
         if workspace is None:
             raise LookupError(f"package '{name}' not found: there is no workspace to look in")
-        return str(workspace.package(name).path)
+        return str(workspace.package(name).share)
 
     return find
 

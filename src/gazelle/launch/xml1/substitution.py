@@ -108,7 +108,7 @@ class Substitution:
     def _find(self, rest: list[str]) -> str:
         name = _one(rest, "find")
         try:
-            return str(self.workspace.package(name).path)
+            return str(self.workspace.package(name).share)
         except NotFoundError as error:
             raise SubstitutionError("launch.package-missing", f"$(find {name}): {error}") from error
 

@@ -51,7 +51,7 @@ def run_prefix(options: argparse.Namespace) -> int:
     """Print the prefix, the source folder of a package that is not installed."""
     package = named_package(Workspace.discover(), options.package_name)
     if options.share:
-        print(package.path)
+        print(package.share)
         return 0
     print(package.prefix or package.path)
     if package.prefix is None and not package.is_builtin:
