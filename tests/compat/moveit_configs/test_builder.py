@@ -19,6 +19,10 @@ from gazelle.compat.moveit_configs import (
 )
 from gazelle.compat.moveit_configs.template import rendered
 from gazelle.errors import LaunchError, UserFileError
+from gazelle.launch.ros2.context import LaunchContext
+from gazelle.launch.ros2.nodes.utilities.evaluating import evaluate_parameters
+from gazelle.launch.ros2.nodes.utilities.normalizing import normalize_parameters
+from gazelle.launch.ros2.substitutions import LaunchConfiguration, TextSubstitution
 from gazelle.workspace import ament_index
 
 _URDF = (
@@ -273,3 +277,27 @@ def test_luck_has_its_parameters(
         "max_acceleration": 1.0,
     }
     assert "Cannot infer SRDF" in caplog.text
+
+
+def test_mappings_may_be_substitutions(config: Path) -> None:
+    """As the demos of moveit_resources hand over their arguments."""
+    builder = MoveItConfigsBuilder("arm")
+    builder.robot_description(mappings={"tip": LaunchConfiguration("tip"), "n": "1"})
+    builder.robot_description_semantic(mappings={"x": [TextSubstitution(text="a"), "b"]})
+    context = LaunchContext()
+    context.launch_configurations["tip"] = "gripper"
+    configs = builder.to_moveit_configs()
+    (urdf,) = configs.robot_description.values()
+    (srdf,) = configs.robot_description_semantic.values()
+    assert '<link name="gripper"/>' in urdf.evaluate(context)
+    assert '<group name="g">' in srdf.evaluate(context)
+    evaluated = evaluate_parameters(context, normalize_parameters([configs.to_dict()]))
+    assert '<link name="gripper"/>' in str(evaluated[0]["robot_description"])
+
+
+def test_urdf_that_is_not_there_comes_by_topic(
+    config: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    MoveItConfigsBuilder("arm").robot_description("config/arn.urdf.xacro")
+    assert "did you mean 'arm.urdf.xacro'?" in caplog.text
+    assert "will be loaded from /robot_description topic" in caplog.text

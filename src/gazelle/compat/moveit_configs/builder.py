@@ -9,7 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.compat.moveit_configs.configs import MoveItConfigs
-from gazelle.compat.moveit_configs.files import load_xacro, load_yaml
+from gazelle.compat.moveit_configs.files import (
+    ParameterBuilderFileNotFoundError,
+    load_xacro,
+    load_yaml,
+    raise_if_file_not_found,
+)
 from gazelle.compat.moveit_configs.parameters import ParameterBuilder
 from gazelle.description.moveit import DEFAULT_CONFIGS
 from gazelle.workspace.ament_index import get_package_share_directory
@@ -34,6 +39,19 @@ def get_pattern_matches(folder: Path, pattern: re.Pattern[str]) -> list[Any]:
     files = sorted(one for one in folder.iterdir() if one.is_file())
     found = [(file, pattern.search(file.name)) for file in files]
     return [match[1] if match.re.groups else file for file, match in found if match]
+
+
+def _expanded(file: Path, mappings: Mapping[Any, Any] | None) -> Any:
+    """Return a file's expanded text, or a parameter that will be it when the launch runs."""
+    plain = (str, int, float, Path)
+    if all(isinstance(one, plain) for pair in (mappings or {}).items() for one in pair):
+        return load_xacro(file, mappings)
+    # Programs without a launch build their parameters here too, and have no use for it.
+    from gazelle.compat.moveit_configs.xacro_substitution import Xacro
+    from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterValue
+
+    raise_if_file_not_found(file)
+    return ParameterValue(Xacro(str(file), mappings=mappings), value_type=str)
 
 
 class MoveItConfigsBuilder(ParameterBuilder):
@@ -71,17 +89,26 @@ class MoveItConfigsBuilder(ParameterBuilder):
     def robot_description(
         self, file_path: str | Path | None = None, mappings: Mapping[str, Any] | None = None
     ) -> MoveItConfigsBuilder:
-        """Load the URDF; `mappings` are arguments of xacro."""
+        """Load the URDF; `mappings` are arguments of xacro, texts or substitutions.
+
+        With substitutions the file is expanded when the launch knows their values. Without the
+        file it is said that the URDF has to come by topic, as the original does.
+        """
         file = self._urdf if file_path is None else self._package_path / file_path
-        text = load_xacro(file, mappings or self._xacro_args)
+        try:
+            text = _expanded(file, mappings or self._xacro_args)
+        except ParameterBuilderFileNotFoundError as error:
+            _LOGGER.warning("%s", error)
+            _LOGGER.warning("The robot description will be loaded from /robot_description topic")
+            return self
         self._configs.robot_description = {self._name: text}
         return self
 
     def robot_description_semantic(
         self, file_path: str | Path | None = None, mappings: Mapping[str, Any] | None = None
     ) -> MoveItConfigsBuilder:
-        """Load the SRDF; `mappings` are arguments of xacro."""
-        text = load_xacro(self._package_path / (file_path or self._srdf), mappings)
+        """Load the SRDF; `mappings` are arguments of xacro, texts or substitutions."""
+        text = _expanded(self._package_path / (file_path or self._srdf), mappings)
         self._configs.robot_description_semantic = {f"{self._name}_semantic": text}
         return self
 

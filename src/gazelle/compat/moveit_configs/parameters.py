@@ -57,6 +57,11 @@ class ParameterBuilder:
         self._parameters[parameter_name] = parameter_value
         return self
 
+    def path_parameter(self, parameter_name: str, file_path: str) -> ParameterBuilder:
+        """Add a parameter with the path of one of the package's files."""
+        self._parameters[parameter_name] = str(self._package_path / file_path)
+        return self
+
     def to_dict(self) -> dict[str, Any]:
         """Return all parameters."""
         return self._parameters
