@@ -118,6 +118,22 @@ def test_missing_package_is_named_with_its_place(package: Path) -> None:
     assert "package 'tests_pgk' not found; did you mean 'tests_pkg'?" in error.message
 
 
+@pytest.mark.parametrize(
+    ("package_name", "fix"),
+    [
+        ("velodyne_driver", "velodyne_driver is the driver of a real laser scanner"),
+        ("plotjuggler", "plotjuggler is a window that is not here; `rviz` opens Studio"),
+    ],
+)
+def test_missing_package_of_ros_is_told_with_what_does_its_work(
+    package: Path, package_name: str, fix: str
+) -> None:
+    _, diagnostics = _find(package_name, "node", package)
+    (error,) = diagnostics
+    assert error.message == f"package '{package_name}' not found"
+    assert error.fix.startswith(fix)
+
+
 def test_missing_executable_lists_what_there_is(package: Path) -> None:
     (package / "scripts" / "drive.py").write_text("print()\n", encoding="utf-8")
     _, diagnostics = _find("tests_pkg", "driver.py", package)

@@ -216,6 +216,30 @@ def test_ros2_spawner_brings_type_and_file(graph, monkeypatch, tmp_path):
         assert manager.controllers["fourth"].type == "test_controllers/Recorder"
 
 
+@pytest.mark.parametrize("section", ["/mira/third", "/**/third", "/**"])
+def test_parameters_of_the_spawners_node_are_the_controllers(graph, monkeypatch, tmp_path, section):
+    file = tmp_path / "third.yaml"
+    file.write_text(
+        f"{section}:\n  ros__parameters:\n    type: test_controllers/Recorder\n    joint: right\n"
+    )
+    with manager_world(graph, monkeypatch, 2) as manager:
+        words = ["third", "--ros-args", "--params-file", str(file)]
+        assert Spawner(graph, controller_spawner_ros2.run, words).join() == 0
+        assert manager.controllers["third"].commands == ("right/effort",)
+
+
+def test_controller_ros_args_are_told_to_the_controllers_node(graph, monkeypatch, tmp_path):
+    file = tmp_path / "third.yaml"
+    file.write_text("/**/third:\n  ros__parameters:\n    joint: left\n")
+    words = ["third", "-t", "test_controllers/Recorder"]
+    words += ["--controller-ros-args", f"--ros-args --params-file {file} -p joint:=right"]
+    words += ["--controller-ros-args", "-r third/state:=/elsewhere"]
+    with manager_world(graph, monkeypatch, 2) as manager:
+        assert Spawner(graph, controller_spawner_ros2.run, words).join() == 0
+        assert manager.controllers["third"].commands == ("right/effort",)
+        assert manager.source.remappings("third") == (("third/state", "/elsewhere"),)
+
+
 def test_ros2_spawner_fails_with_the_managers_reason(graph, monkeypatch, lines):
     controllers = {"a": {"joint": "left"}, "b": {"joint": "left"}}
     with manager_world(graph, monkeypatch, 2, controllers):

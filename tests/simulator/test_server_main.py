@@ -25,6 +25,7 @@ class Arguments:
     remappings: Mapping[str, str] = field(default_factory=dict)
     params: Mapping[str, Any] = field(default_factory=dict)
     started_by: int = 0
+    parameter_files: tuple[Path, ...] = ()
 
 
 @pytest.fixture
@@ -46,6 +47,28 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
         thread.join(PATIENCE_S)
         assert not thread.is_alive()
     assert codes == [0] * len(threads)
+
+
+@pytest.mark.parametrize("by_file", [True, False])
+def test_publish_rate_of_gazebo_is_the_clocks(
+    graph: Graph, start: Callable[..., None], tmp_path: Path, by_file: bool
+) -> None:
+    file = tmp_path / "gazebo.yaml"
+    file.write_text("gazebo:\n  ros__parameters:\n    publish_rate: 20.0\n")
+    files, params = ((file,), {}) if by_file else ((), {"publish_rate": 20.0})
+    seen: list[int] = []
+    came = threading.Event()
+    listener = graph.create_node("listener", anonymous=True)
+
+    def take(message: Any) -> None:
+        seen.append(message.clock.nanosec // 1_000_000 % 1000)
+        if len(seen) > 5:
+            came.set()
+
+    listener.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), take)
+    start("empty", name="gzserver", started_by=2, parameter_files=files, params=params)
+    assert came.wait(PATIENCE_S)
+    assert {one % 50 for one in seen} == {0}
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,15 @@ __all__ = ["ControllerParameters", "flattened", "nested"]
 # Keys every controller may have that the controller manager itself reads. Launch files give the
 # description to all nodes of the process.
 _MANAGED = frozenset(
-    {"type", "use_sim_time", "params_file", "update_rate", "is_async", "robot_description"}
+    {
+        "type",
+        "use_sim_time",
+        "params_file",
+        "node_options_args",
+        "update_rate",
+        "is_async",
+        "robot_description",
+    }
 )
 # Keys of every controller's that change nothing here, and why.
 _IDLE = {"fallback_controllers": "a controller that fails is stopped, no other takes its place"}

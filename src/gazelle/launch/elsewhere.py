@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-__all__ = ["replacement_of"]
+from gazelle.errors import NotFoundError
+
+__all__ = ["missing_package", "replacement_of"]
 
 _DRIVER = "the driver of a real {}, which a simulation does not need: {}"
 _CAMERA = _DRIVER.format("camera", "a <sensor type='camera'> publishes its topics")
 _LIDAR = _DRIVER.format("laser scanner", "a <sensor type='gpu_lidar'> or 'ray' publishes its scan")
 _BRIDGE = "a bridge to programs outside of ROS; `gazelle bridge` is one"
-_VIEW = "a window that is not here; `rviz2` opens Studio, which shows the same topics"
-_PANEL = "a panel of rqt that is not here; `ros2 topic`, `ros2 param` and Studio show the same"
+_VIEW = "a window that is not here; `{rviz}` opens Studio, which shows the same topics"
+_PANEL = "a panel of rqt that is not here; `{topic}`, `{param}` and Studio show the same"
 _JOYSTICK = "for a joystick; `joy` and `teleop_twist_joy` are here, with the kernel's joysticks"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
@@ -49,9 +51,41 @@ _KNOWN = {
 _FAMILIES = {"rqt_": _PANEL}
 
 
-def replacement_of(package: str) -> str:
-    """Return what a package of ROS is and what replaces it here; empty when that is not known."""
+# Commands by the version of ROS whose user is told of them.
+_COMMANDS = {
+    1: {
+        "topic": "rostopic",
+        "param": "rosparam",
+        "rviz": "rviz",
+    },
+    2: {
+        "topic": "ros2 topic",
+        "param": "ros2 param",
+        "rviz": "rviz2",
+    },
+}
+
+
+def replacement_of(package: str, ros_version: int = 2) -> str:
+    """Return what a package of ROS is and what replaces it here; empty when that is not known.
+
+    Args:
+        package: its name.
+        ros_version: whose commands are named.
+    """
     known = _KNOWN.get(package, "")
     if not known:
         known = next((text for start, text in _FAMILIES.items() if package.startswith(start)), "")
+    known = known.format_map(_COMMANDS[ros_version])
     return f"{package} is {known}" if known.startswith(("the ", "a ", "compiled")) else known
+
+
+def missing_package(error: NotFoundError, ros_version: int) -> tuple[str, str]:
+    """Return what is said of a package that is not found, and what to do about it.
+
+    A package of ROS whose work is done by something here cannot be put into a workspace: most are
+    C++.
+    """
+    known = "" if error.nearest else replacement_of(error.name, ros_version)
+    text = str(error)
+    return (text.partition("\n")[0].partition(";")[0] if known else text), known

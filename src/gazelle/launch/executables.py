@@ -11,6 +11,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
+from gazelle.launch.elsewhere import missing_package
 from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
@@ -59,11 +60,12 @@ def find_executable(
     diagnostics: Diagnostics,
     span: SourceSpan | None = None,
     environ: Mapping[str, str] | None = None,
+    ros_version: int = 1,
 ) -> Executable | None:
     """Return what runs a node; None (and a diagnostic) when nothing does.
 
     The order is: a file of the user's package, a built-in node, an executable of an installed
-    ROS (``lib/<package>`` below its prefixes).
+    ROS (``lib/<package>`` below its prefixes). The diagnostic names commands of `ros_version`.
     """
     found = _in_workspace(package, type_name, workspace, diagnostics, span)
     if found is not None:
@@ -78,7 +80,7 @@ def find_executable(
     native = _native(package, type_name, os.environ if environ is None else environ)
     if native is not None:
         return Executable((str(native),), folder=native.parent)
-    _report_missing(package, type_name, workspace, diagnostics, span)
+    _report_missing(package, type_name, workspace, diagnostics, span, ros_version)
     return None
 
 
@@ -148,13 +150,15 @@ def _report_missing(
     workspace: Workspace,
     diagnostics: Diagnostics,
     span: SourceSpan | None,
+    ros_version: int,
 ) -> None:
     existing, found = set(builtin_types(package)), None
     try:
         found = workspace.package(package)
     except NotFoundError as error:
         if not existing:
-            diagnostics.report("launch.package-missing", str(error), span)
+            message, fix = missing_package(error, ros_version)
+            diagnostics.report("launch.package-missing", message, span, fix=fix)
             return
     source = _compiled_source(found, type_name) if found is not None else None
     if source is not None:

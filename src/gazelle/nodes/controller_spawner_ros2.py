@@ -63,7 +63,9 @@ def spawn(node: Node, arguments: NodeArguments, stop: threading.Event) -> int:
         LaunchError: the arguments are wrong.
     """
     options = spawner_options(arguments.rest)
-    files = [Path(one) for one in options.param_file]
+    # Parameters of the spawner's own node are the controllers', as ros2_control's spawner has it.
+    named = [*map(Path, options.param_file), *arguments.parameter_files]
+    files = list(dict.fromkeys(named))
     missing = next((str(one) for one in files if not one.is_file()), None)
     if missing is not None:
         raise LaunchError(f"[Errno 2] No such file or directory: '{missing}'")
@@ -178,9 +180,6 @@ class _Spawner:
             _FailedError: one of them failed.
         """
         options, client = self._options, self._client
-        if options.controller_ros_args:
-            words = " ".join(options.controller_ros_args)
-            self._say("warn", f"--controller-ros-args '{words}' has no effect")
         self._wait()
         loaded = {one.name for one in client.controllers()}
         activated: list[str] = []
@@ -240,6 +239,9 @@ class _Spawner:
     def _parameters(self, name: str) -> dict[str, Any]:
         """Return what the manager is to know of a controller before it loads it."""
         values: dict[str, Any] = {}
+        words = [word for text in self._options.controller_ros_args for word in text.split()]
+        if words:
+            values[f"{name}.node_options_args"] = words
         chosen = self._options.controller_type
         if self._files:
             values[f"{name}.params_file"] = [str(one.resolve()) for one in self._files]

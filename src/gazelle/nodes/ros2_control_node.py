@@ -121,7 +121,9 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
     manager = ControllerManager(
         robot,
         namespace=node.namespace,
-        make_ports=lambda one: make_ports(host, Resources(host), node.namespace, one, 2),
+        make_ports=lambda one: make_ports(
+            host, Resources(host), node.namespace, one, 2, source.remappings(one)
+        ),
         source=source,
         diagnostics=host.diagnostics,
         update_rate_hz=rate_hz,

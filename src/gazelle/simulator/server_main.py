@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle._version import __version__
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["check_server_plugins", "offers_ros2", "ros_version_of", "serve"]
 
+_RATE = "publish_rate"
 _ROS1_PLUGINS = frozenset({"gazebo_ros_api_plugin", "gazebo_ros_paths_plugin"})
 
 _ROS2_PLUGINS = frozenset(
@@ -52,6 +54,8 @@ class _Arguments(Protocol):
     def rest(self) -> tuple[str, ...]: ...
     @property
     def started_by(self) -> int: ...
+    @property
+    def parameter_files(self) -> tuple[Path, ...]: ...
 
 
 def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
@@ -78,7 +82,8 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
     offer_loggers(node)
     try:
         version = ros_version_of(options, arguments.started_by)
-        return _serve_world(options, node, diagnostics, stop, version)
+        rate_hz = None if version == 1 else _clock_rate(arguments, node, diagnostics)
+        return _serve_world(options, node, diagnostics, stop, (version, rate_hz))
     except GazelleError as error:
         _show(diagnostics)
         if not isinstance(error, NotFoundError) or error.kind != "world":
@@ -95,8 +100,10 @@ def _serve_world(
     node: Any,
     diagnostics: Diagnostics,
     stop: threading.Event,
-    ros_version: int,
+    ros: tuple[int, float | None],
 ) -> int:
+    """Run the world; `ros` is the version of ROS and the clock's rate, None where nobody chose."""
+    ros_version, clock_rate_hz = ros
     workspace = Workspace.discover()
     world = world_from(options.world or "empty", workspace, diagnostics)
     server = WorldServer(
@@ -116,6 +123,7 @@ def _serve_world(
         server,
         ros2=offers_ros2(options),
         report=lambda found: _show(found, verbose=options.verbose),
+        clock_rate_hz=clock_rate_hz,
     )
     offer_views(server)
     node.log("info", "Finished loading Gazebo ROS API Plugin.")
@@ -132,6 +140,25 @@ def _serve_world(
         if dropped:
             node.log("info", f"{dropped} camera frames were dropped, rendering was late")
     return 0
+
+
+def _clock_rate(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> float | None:
+    """Return ``publish_rate`` of ROS 2's node ``gazebo``, None where it is not given.
+
+    The files are read again under the node's own name: launch files start ``gzserver``.
+    """
+    from gazelle.control.sources.files import FileSource
+
+    name = node.name.rpartition("/")[2]
+    source = FileSource(arguments.parameter_files, node.namespace, diagnostics, manager=name)
+    value = arguments.params.get(_RATE, source.manager_tree().get(_RATE))
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        text = f"parameter '{_RATE}' of {node.name} is {value!r}, not a number; it is dropped"
+        diagnostics.report("simulator.unknown-argument", text, source.place(name, _RATE))
+        return None
+    return max(0.0, float(value))
 
 
 def offers_ros2(options: ServerOptions) -> bool:

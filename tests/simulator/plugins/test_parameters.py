@@ -89,7 +89,7 @@ def test_arguments_of_a_ros_block_are_the_words_of_a_command_line() -> None:
     assert keys.ros.parameter_files == ("/etc/gains.yaml",)
     assert keys.ros.remappings == (("a", "b"), ("c", "d"))
     (found,) = diagnostics.by_code("plugin.unknown-parameter")
-    assert found.message == "argument '-p use_sim_time:=true' of <ros> has no effect"
+    assert found.message == "argument '-p use_sim_time' of <ros> has no effect"
     keys.report_unread()
     (idle,) = diagnostics.by_code("plugin.idle-parameter")
     assert "--params-file /etc/gains.yaml" in idle.message

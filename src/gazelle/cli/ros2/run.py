@@ -50,7 +50,9 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     workspace, diagnostics = Workspace.discover(), Diagnostics()
     package, name = options.package_name, options.executable_name
-    found = find_executable(package, name, workspace=workspace, diagnostics=diagnostics)
+    found = find_executable(
+        package, name, workspace=workspace, diagnostics=diagnostics, ros_version=2
+    )
     render(diagnostics)
     if found is None:
         if package not in workspace.packages and not builtin_types(package):

@@ -108,7 +108,7 @@ class ControllerManager:
             )
         chosen = type_name or self._maker.type_of(name)
         self._maker.class_of(name, chosen)
-        self._take_parameter_files(name)
+        self._take_named(name)
         record = ControllerRecord(name, chosen, ControllerState.UNCONFIGURED, self._rate_of(name))
         if self.robot.generation == 1:
             self._make(record)
@@ -338,17 +338,12 @@ class ControllerManager:
             self._report(name, "update_rate", text)
         return min(float(value), self.update_rate_hz)
 
-    def _take_parameter_files(self, name: str) -> None:
-        """Read the files that a spawner named for a controller (``<controller>.params_file``)."""
-        from pathlib import Path
-
+    def _take_named(self, name: str) -> None:
+        """Read what a spawner told of a controller before it was loaded."""
         from gazelle.control.sources.files import FileSource
 
-        own = self.source.manager_tree().get(name)
-        files = own.get("params_file") if isinstance(own, Mapping) else None
-        if isinstance(self.source, FileSource) and files:
-            for file in [files] if isinstance(files, str) else files:
-                self.source.add_file(Path(str(file)))
+        if isinstance(self.source, FileSource):
+            self.source.take_named(name)
 
     def _report(self, name: str, key: str, text: str) -> None:
         full = self.source.full_name(name, key)

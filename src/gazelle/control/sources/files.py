@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.control.parameters import flattened, nested
+from gazelle.control.sources.ros_arguments import read_ros_arguments
 from gazelle.control.sources.yaml_file import NodeSection, read_parameter_file
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
@@ -37,6 +38,7 @@ class FileSource:
         self._diagnostics = diagnostics
         self._manager = manager
         self._sections: list[NodeSection] = []
+        self._remappings: dict[str, tuple[tuple[str, str], ...]] = {}
         self._overrides = {name: nested(tree) for name, tree in (overrides or {}).items()}
         for path in files:
             self.add_file(path)
@@ -81,6 +83,30 @@ class FileSource:
         node = controller or self._manager
         _merge(self._overrides.setdefault(node, {}), nested({key: value}))
 
+    def take_named(self, controller: str) -> None:
+        """Read what a spawner told the manager of a controller.
+
+        That is its ``params_file`` and the words of its ``node_options_args``, whose rules are
+        `remappings` then. Values of those words go before all files.
+        """
+        own = self.manager_tree().get(controller)
+        if not isinstance(own, Mapping):
+            return
+        files, words = (_listed(own.get(key)) for key in ("params_file", "node_options_args"))
+        given = read_ros_arguments(words)
+        for file in (*files, *given.files):
+            self.add_file(Path(file))
+        for key, value in given.values.items():
+            self.set(controller, key, value)
+        self._remappings[controller] = given.remappings
+        if given.strange:
+            text = f"--controller-ros-args of '{controller}': '{' '.join(given.strange)}' has no"
+            self._diagnostics.report("control.bad-value", f"{text} effect")
+
+    def remappings(self, controller: str) -> tuple[tuple[str, str], ...]:
+        """Return the rules for a controller's names, of what `take_named` has read."""
+        return self._remappings.get(controller, ())
+
     def full_name(self, controller: str, key: str) -> str:
         """Return the name within the controller's node."""
         return key
@@ -105,6 +131,10 @@ class FileSource:
     def _matching(self, node: str) -> list[NodeSection]:
         full = f"{self.namespace}/{node}"
         return [section for section in self._sections if section.matches(full)]
+
+
+def _listed(value: Any) -> list[str]:
+    return [value] if isinstance(value, str) else [str(one) for one in value or ()]
 
 
 def _has_type(tree: Any) -> bool:

@@ -13,6 +13,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
+from gazelle.launch.elsewhere import missing_package
 from gazelle.limits import Budget, LimitError, compile_limited
 from gazelle.workspace import Workspace
 
@@ -110,7 +111,9 @@ class Substitution:
         try:
             return str(self.workspace.package(name).share)
         except NotFoundError as error:
-            raise SubstitutionError("launch.package-missing", f"$(find {name}): {error}") from error
+            text, fix = missing_package(error, 1)
+            code = "launch.package-missing"
+            raise SubstitutionError(code, f"$(find {name}): {text}", fix) from error
 
     def _env(self, rest: list[str]) -> str:
         name = _one(rest, "env")

@@ -27,6 +27,7 @@ def offer_gazebo_ros(
     *,
     ros2: bool = False,
     report: Callable[[Diagnostics], None] = lambda found: None,
+    clock_rate_hz: float | None = None,
 ) -> None:
     """Offer ``/clock`` and ``/gazebo/*``, and set ``/use_sim_time``.
 
@@ -34,10 +35,11 @@ def offer_gazebo_ros(
         server: the world.
         ros2: offer the services of ROS 2's gazebo_ros (``/spawn_entity`` …) as well.
         report: called with what was found about each spawned model.
+        clock_rate_hz: how often the clock is told, 0 for every step; ROS 1's parameter when None.
     """
     resources = server.world_resources
     server.node.parameters.set("/use_sim_time", True)
-    offer_states(server, resources)
+    offer_states(server, resources, clock_rate_hz)
     entities = Entities(server)
     models, links, joints = (
         ModelServices(server, entities),

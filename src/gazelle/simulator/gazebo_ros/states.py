@@ -21,15 +21,20 @@ _EVERY_STEP = Fraction(1)
 _CLOCKS_PER_REAL_S = 500.0
 
 
-def offer_states(server: WorldServer, resources: Resources) -> None:
+def offer_states(
+    server: WorldServer, resources: Resources, clock_rate_hz: float | None = None
+) -> None:
     """Publish clock and states every step while somebody listens.
 
-    The ROS parameter ``/gazebo/pub_clock_frequency`` lowers the clock's rate, as in gazebo_ros.
+    ``clock_rate_hz``, or the ROS parameter ``/gazebo/pub_clock_frequency``, lowers the clock's
+    rate, as in gazebo_ros; 0 is every step.
     A world that is to run faster than real time shows the clock 500 times a second of real time.
     """
     engine = server.engine
     clock = resources.publisher("/clock", "rosgraph_msgs/Clock")
-    rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
+    rate_hz = clock_rate_hz
+    if rate_hz is None:
+        rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
 
     def publish_clock() -> None:
         if not server.paused and engine.iteration % _steps_between_clocks(server):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
+from gazelle.control.sources.ros_arguments import read_ros_arguments
 from gazelle.description.model import PluginTag
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, floats_from
@@ -14,9 +14,6 @@ from gazelle.simulator.plugins.table import Parameter, PluginTable
 __all__ = ["ParameterReader", "RosBlock"]
 
 _ROS_WORDS = ("namespace", "remapping", "argument", "parameter")
-_REMAP_FLAGS = ("-r", "--remap")
-_FILE_FLAGS = ("--params-file",)
-_VALUE_FLAGS = ("-p", "--param")
 _ROS2 = 2
 
 
@@ -201,38 +198,16 @@ class ParameterReader:
 def _read_ros_block(tag: Tag | None, diagnostics: Diagnostics) -> RosBlock:
     if tag is None:
         return RosBlock()
-    rules = [child.text for child in tag.find_all("remapping")]
-    arguments, files = _read_arguments(tag.find_all("argument"), diagnostics)
+    found = read_ros_arguments(child.text for child in tag.find_all("argument"))
     for child in tag.children:
         if child.name not in _ROS_WORDS:
             text = f"<ros> has no element <{child.name}>; it has no effect"
             hint = did_you_mean(child.name, _ROS_WORDS)
             diagnostics.report("plugin.unknown-parameter", text, child.span, fix=hint)
-    pairs = [rule.partition(":=")[::2] for rule in (*rules, *arguments)]
-    remappings = tuple((source.strip(), target.strip()) for source, target in pairs)
-    return RosBlock(tag.text_of("namespace"), remappings, True, files)
-
-
-def _read_arguments(
-    tags: Sequence[Tag], diagnostics: Diagnostics
-) -> tuple[list[str], tuple[str, ...]]:
-    """Return remapping rules and parameter files of a node's command line, word by word."""
-    rules, files, flag = [], [], ""
-    for tag in tags:
-        for word in tag.text.split():
-            if flag in _FILE_FLAGS:
-                files.append(word)
-                flag = ""
-            elif flag in _VALUE_FLAGS:
-                text = f"argument '{flag} {word}' of <ros> has no effect"
-                diagnostics.report("plugin.unknown-parameter", text, tag.span)
-                flag = ""
-            elif flag in _REMAP_FLAGS or (not flag and ":=" in word):
-                rules.append(word)
-                flag = ""
-            elif word in (*_FILE_FLAGS, *_REMAP_FLAGS, *_VALUE_FLAGS):
-                flag = word
-            elif word not in {"--ros-args", "--"}:
-                text = f"argument '{word}' of <ros> has no effect"
-                diagnostics.report("plugin.unknown-parameter", text, tag.span)
-    return rules, tuple(files)
+    for word in (*(f"-p {name}" for name in found.values), *found.strange):
+        text = f"argument '{word}' of <ros> has no effect"
+        diagnostics.report("plugin.unknown-parameter", text, tag.span)
+    pairs = [child.text.partition(":=")[::2] for child in tag.find_all("remapping")]
+    rules = tuple((source.strip(), target.strip()) for source, target in pairs)
+    namespace = tag.text_of("namespace")
+    return RosBlock(namespace, (*rules, *found.remappings), True, found.files)

@@ -61,7 +61,9 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     manager = ControllerManager(
         robot,
         namespace=namespace,
-        make_ports=lambda one: make_ports(host, resources, namespace, one, 2, remappings),
+        make_ports=lambda one: make_ports(
+            host, resources, namespace, one, 2, (*source.remappings(one), *remappings)
+        ),
         source=source,
         diagnostics=host.diagnostics,
         update_rate_hz=options.update_rate_hz,

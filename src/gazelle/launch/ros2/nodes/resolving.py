@@ -73,6 +73,7 @@ def node_command(
         diagnostics=diagnostics,
         span=place,
         environ=context.environment,
+        ros_version=2,
     )
     if found is not None:
         for one in diagnostics:
