@@ -68,7 +68,8 @@ def test_header_is_put_around_and_taken_away(bench: Any) -> None:
 
 
 def test_same_name_needs_no_passing_and_another_type_is_told(bench: Any) -> None:
-    said, seen = _logged(bench), bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")
+    said = _logged(bench)
+    bench.node.create_publisher("/cmd_vel", _TWIST)
     bench.start(
         _BRIDGE,
         "/cmd_vel@geometry_msgs/msg/TwistStamped]gz.msgs.Twist",
@@ -81,7 +82,15 @@ def test_same_name_needs_no_passing_and_another_type_is_told(bench: Any) -> None
     arrow = "GZ->ROS Bridge: [/clock (gz.msgs.Clock) -> /clock (rosgraph_msgs/msg/Clock)] (Lazy 0)"
     assert f"Creating {arrow}" in lines
     assert any("no bridge between [a/B] and [gz.msgs.Clock]" in line for line in lines)
-    assert seen == []
+
+
+def test_who_listens_without_the_header_is_not_told_of(bench: Any) -> None:
+    said = _logged(bench)
+    bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")
+    bench.listen("/cmd_vel", "std_msgs/msg/String")
+    bench.start(_BRIDGE, "/cmd_vel@geometry_msgs/msg/TwistStamped]gz.msgs.Twist")
+    bench.eventually(lambda: any("/cmd_vel carries std_msgs/msg/String" in one.msg for one in said))
+    assert not [one.msg for one in said if "geometry_msgs/msg/Twist here" in one.msg]
 
 
 def test_lazy_bridge_listens_only_while_somebody_listens_to_it(bench: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Kind, MessageInfo, Node, RawMessage, Subscription
 from gazelle.interfaces import from_cdr, message_type
 from gazelle.interfaces.definition import Field
@@ -120,8 +121,21 @@ class Relay:
         name = self._source.name
         for one in self._source.node.graph.entities():
             is_end = one.kind in (Kind.PUBLISHER, Kind.SUBSCRIPTION) and one.name == name
-            if is_end and one.type_name not in (self._type_name, ANY_TYPE):
-                self._tell_type(one.type_name)
+            if not is_end or one.type_name in (self._type_name, ANY_TYPE):
+                continue
+            if one.kind is Kind.SUBSCRIPTION and self._differs_by_header(one.type_name):
+                # Drives of the simulator take both, whichever they show; a subscription that
+                # does not says so itself when a message comes.
+                continue
+            self._tell_type(one.type_name)
+
+    def _differs_by_header(self, other: str) -> bool:
+        try:
+            one: Any = message_type(self._type_name)
+            two: Any = message_type(other)
+        except GazelleError:
+            return False
+        return wrapped_field(one, two) is not None or wrapped_field(two, one) is not None
 
     def _tell_type(self, other: str) -> None:
         if other in self._told:
