@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
 
+from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
 from gazelle.nodes.robot_state_publisher import StateToTf
 from gazelle.nodes.tree import joint_tree, read_description
@@ -47,6 +49,55 @@ def test_fixed_joints_are_static_and_moving_ones_are_not() -> None:
     (fixed,) = _states().fixed(0)
     assert (fixed.header.frame_id, fixed.child_frame_id) == ("slide", "cam")
     assert fixed.transform.translation.z == 0.5
+
+
+SDF_ROBOT = """<sdf version="1.8"><model name="r" canonical_link="base">
+  <link name="base"><pose>0 0 0.5 0 0 0</pose></link>
+  <link name="arm"><pose>2 0 0.5 0 0 0</pose></link>
+  <link name="tip"><pose>3 0 0.5 0 0 0</pose></link>
+  <joint name="turn" type="revolute"><parent>base</parent><child>arm</child>
+    <pose>-1 0 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint>
+  <joint name="mount" type="fixed"><parent>arm</parent><child>tip</child></joint>
+</model></sdf>"""
+
+
+def test_robot_in_sdf_has_its_frames_at_its_joints() -> None:
+    states = StateToTf(joint_tree(read_description(SDF_ROBOT)))
+    (mount,) = states.fixed(0)
+    # 'arm' stands at its joint, one metre before its own pose.
+    assert (mount.header.frame_id, mount.child_frame_id) == ("arm", "tip")
+    assert mount.transform.translation.x == pytest.approx(2.0)
+    arm = _by_child(states.moving(_joint_state(10**9, turn=math.pi / 2)))["arm"]
+    assert arm.header.frame_id == "base"
+    assert arm.transform.translation.x == pytest.approx(1.0)
+    assert arm.transform.translation.z == pytest.approx(0.0)
+    assert arm.transform.rotation.z == pytest.approx(math.sqrt(0.5))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            '<sdf version="1.8"><world name="w"/></sdf>',
+            "SDFormat xml has 0 models, and a robot is one",
+        ),
+        (
+            SDF_ROBOT.replace('<joint name="mount"', '<link name="loose"/><joint name="mount"'),
+            "model 'r' has 2 root links ('base', 'loose'), and a robot has one",
+        ),
+        (
+            SDF_ROBOT.replace(
+                "</model>",
+                '<joint name="again" type="fixed"><parent>base</parent><child>tip</child></joint>'
+                "</model>",
+            ),
+            "Link [tip] must only be a child of one joint",
+        ),
+    ],
+)
+def test_sdf_that_is_no_tree_is_no_robot(text: str, said: str) -> None:
+    with pytest.raises(LaunchError, match=re.escape(said)):
+        read_description(text)
 
 
 def test_turning_joint_turns_about_its_axis_after_its_origin() -> None:

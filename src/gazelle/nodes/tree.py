@@ -11,8 +11,11 @@ from typing import Any
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
+from gazelle.description.sdf import read_sdf
+from gazelle.description.sdf.robot_frames import with_links_at_joints
 from gazelle.description.text_place import place_of_text, read_text
 from gazelle.description.urdf import read_urdf
+from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
 from gazelle.geometry import Pose
@@ -67,6 +70,8 @@ class TreeJoint:
 def read_description(text: str) -> Model:
     """Read a ``robot_description`` for its links and joints only; meshes are not looked for.
 
+    It may be SDF, as ROS 2's nodes take it by ``sdformat_urdf``.
+
     Raises:
         LaunchError: the text is no usable robot; the first error in one line, since whoever
             loads the robot into a world reports all of them with their places.
@@ -74,13 +79,26 @@ def read_description(text: str) -> Model:
     diagnostics = Diagnostics()
     context = ReadContext(None, diagnostics, place_of_text(text), None, inserts=False)
     root = read_text(text, diagnostics)
-    model = None if root is None else read_urdf(root, context=context)
+    if root is not None and root.name == "sdf":
+        model = _sdf_robot(root, context)
+    else:
+        model = None if root is None else read_urdf(root, context=context)
     if model is None:
         first = diagnostics.errors[0] if diagnostics.errors else None
         where = f" at {first.span}" if first is not None and first.span is not None else ""
         what = f"{first.message}{where} [{first.code}]" if first is not None else "it is empty"
         raise LaunchError(f"robot_description is no robot: {what}")
     return model
+
+
+def _sdf_robot(root: Tag, context: ReadContext) -> Model | None:
+    models = read_sdf(root, context=context).models
+    if len(models) == 1:
+        return with_links_at_joints(models[0], context.diagnostics)
+    if not context.diagnostics.errors:
+        message = f"SDFormat xml has {len(models)} models, and a robot is one"
+        context.diagnostics.report("urdf.no-robot", message, root.span)
+    return None
 
 
 def robot_of(node: Node) -> Model | None:
