@@ -49,6 +49,16 @@ def test_wrong_flags_are_told_in_the_words_of_gflags(words: str, message: str) -
     assert str(wrong.value).startswith(message)
 
 
+def test_programs_that_allow_reparsing_go_on_after_unknown_flags() -> None:
+    told: list[str] = []
+    words = ["-use_sim", "true", "-nam", "-x", "2"]
+    assert read_flags(words, _KINDS, "usage", on_unknown=told.append) == {"x": 2.0}
+    assert told == [
+        "unknown command line flag 'use_sim'",
+        "unknown command line flag 'nam'; did you mean 'name'?",
+    ]
+
+
 def test_cartographer_takes_its_flags_in_every_spelling(tmp_path: Any) -> None:
     (tmp_path / "robot.lua").write_text("TRAJECTORY_BUILDER_2D.max_range = 3.5\n")
     words = (f"--configuration_directory={tmp_path}", "--configuration-basename", "robot.lua")

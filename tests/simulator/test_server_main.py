@@ -175,12 +175,14 @@ def test_help_and_version_are_printed(graph: Graph, capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out.startswith("Gazelle ")
 
 
-def test_a_missing_world_is_one_clear_error(
+def test_a_missing_world_is_told_and_the_empty_one_runs(
     graph: Graph, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    assert serve(Arguments(("no_such.world",)), graph, threading.Event()) == 1
+    words = ("no_such.world", "--iters", "1")
+    assert serve(Arguments(words), graph, threading.Event()) == 0
     text = "".join(capfd.readouterr())
     assert "Could not open file: world 'no_such.world' not found" in text
+    assert "Falling back on worlds/empty.world" in text
 
 
 def test_an_unknown_server_plug_in_is_reported(

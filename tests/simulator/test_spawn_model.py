@@ -12,6 +12,7 @@ import pytest
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.messages import message_class
 from gazelle.simulator.spawn_model import spawn_model
 
 BOX = """<?xml version="1.0"?>
@@ -173,6 +174,32 @@ def test_a_missing_parameter_names_it(console: Console) -> None:
     assert console.said[-1] == (
         "error: Error: param does not exist or is empty; the parameter is '/robot_descriptoin'"
     )
+
+
+_SPAWN_ENTITY = ["-entity", "box", "-timeout", "0.1"]
+
+
+def test_the_ros_2_script_gives_up_without_a_simulator(console: Console, box: str) -> None:
+    assert spawn_model([*_SPAWN_ENTITY, "-file", box], console, threading.Event()) == 1
+    assert console.said[-1] == (
+        "error: Service /spawn_entity unavailable. Was Gazebo started with GazeboRosFactory?"
+    )
+
+
+def test_a_simulator_that_loads_its_world_is_waited_for(
+    graph: Graph, console: Console, box: str
+) -> None:
+    simulator = graph.create_node("gazebo")
+    codes: list[int] = []
+    stop = threading.Event()
+    words = [*_SPAWN_ENTITY, "-file", box]
+    thread = threading.Thread(target=lambda: codes.append(spawn_model(words, console, stop)))
+    thread.start()
+    thread.join(0.5)
+    assert thread.is_alive()
+    simulator.create_publisher("/clock", message_class("rosgraph_msgs/Clock"))
+    thread.join(30.0)
+    assert codes == [1]
 
 
 def test_told_to_stop_it_ends(console: Console, box: str) -> None:

@@ -215,18 +215,14 @@ def test_package_index_answers_with_that_folder(
 
 
 def test_launch_file_of_a_package_that_was_never_built_runs(heron: Path, gazelle) -> None:
-    run = gazelle(
-        "ros2", "launch", "heron", "heron.launch.py", ROS_PACKAGE_PATH=str(heron.parent)
-    )
+    run = gazelle("ros2", "launch", "heron", "heron.launch.py", ROS_PACKAGE_PATH=str(heron.parent))
     run.wait_for_line("x: 2")
 
 
 def test_mistake_in_such_a_launch_file_is_told_at_the_users_line(heron: Path, gazelle) -> None:
     file = heron / "bringup/launch/heron.launch.py"
     file.write_text("import os\nraise RuntimeError('no')\n")
-    run = gazelle(
-        "ros2", "launch", "heron", "heron.launch.py", ROS_PACKAGE_PATH=str(heron.parent)
-    )
+    run = gazelle("ros2", "launch", "heron", "heron.launch.py", ROS_PACKAGE_PATH=str(heron.parent))
     assert run.wait() == 1
     assert f"{file}:2: error: RuntimeError: no" in run.text
     assert "gazelle/installed" not in run.text

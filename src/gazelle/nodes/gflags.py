@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Literal
 
 from gazelle.diagnostics import did_you_mean
@@ -17,7 +17,11 @@ _NO = frozenset({"0", "f", "false", "n", "no"})
 
 
 def read_flags(
-    words: Sequence[str], kinds: Mapping[str, Kind], usage: str = ""
+    words: Sequence[str],
+    kinds: Mapping[str, Kind],
+    usage: str = "",
+    *,
+    on_unknown: Callable[[str], None] | None = None,
 ) -> dict[str, bool | float | str]:
     """Return the flags that are given; the last one of a name counts.
 
@@ -29,6 +33,8 @@ def read_flags(
         words: of the command line.
         kinds: the program's flags.
         usage: what is added to a message about a wrong flag.
+        on_unknown: told of flags that the program lacks, for those that allow reparsing
+            (``AllowCommandLineReparsing``) and go on; its value counts as a word of no flag.
 
     Raises:
         LaunchError: a flag is unknown, has no value or a wrong one.
@@ -47,7 +53,11 @@ def read_flags(
         if not name:
             hint = did_you_mean(written.replace("-", "_"), kinds)
             hint = f"; {hint}" if hint else ""
-            raise LaunchError(f"unknown command line flag '{written}'{hint}{end}")
+            message = f"unknown command line flag '{written}'{hint}"
+            if on_unknown is None:
+                raise LaunchError(f"{message}{end}")
+            on_unknown(message)
+            continue
         if kinds[name] == "bool":
             value = value if equals else "false" if is_not else "true"
         elif not equals:

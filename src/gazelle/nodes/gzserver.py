@@ -11,10 +11,19 @@ from gazelle.nodes.ros2_console import print_ros2
 __all__ = ["run"]
 
 
-def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Run a world until told to stop."""
+def run(
+    arguments: NodeArguments, graph: Graph, stop: threading.Event, *, falls_back: bool = True
+) -> int:
+    """Run a world until told to stop.
+
+    Args:
+        arguments: how the node was started.
+        graph: where topics and services go.
+        stop: set to end it.
+        falls_back: run the empty world where the named one is not found.
+    """
     from gazelle.simulator.server_main import serve
 
     if arguments.generation == 2:
         graph.console = print_ros2
-    return serve(arguments, graph, stop)
+    return serve(arguments, graph, stop, falls_back=falls_back)

@@ -21,6 +21,7 @@ from gazelle.simulator.world_server import WorldServer
 from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
+    from gazelle.description.model import World
     from gazelle.graph import Graph
 
 __all__ = ["check_server_plugins", "offers_ros2", "ros_version_of", "serve"]
@@ -58,13 +59,16 @@ class _Arguments(Protocol):
     def parameter_files(self) -> tuple[Path, ...]: ...
 
 
-def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
+def serve(
+    arguments: _Arguments, graph: Graph, stop: threading.Event, *, falls_back: bool = True
+) -> int:
     """Run a world on a graph until told to stop.
 
     Args:
         arguments: node name, namespace, remappings and the words of gzserver.
         graph: where topics and services go.
         stop: set from outside (signals) to end.
+        falls_back: run the empty world where the named one is not found, as Gazebo Classic does.
 
     Returns:
         the exit code: 0, or 1 when the world cannot be read or the physics diverged.
@@ -83,13 +87,13 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
     try:
         version = ros_version_of(options, arguments.started_by)
         rate_hz = None if version == 1 else _clock_rate(arguments, node, diagnostics)
-        return _serve_world(options, node, diagnostics, stop, (version, rate_hz))
+        workspace = Workspace.discover()
+        world = _world(options, node, workspace, diagnostics, falls_back=falls_back)
+        ros = (version, rate_hz)
+        return _serve_world(options, world, workspace, node, diagnostics, stop, ros)
     except GazelleError as error:
         _show(diagnostics)
-        if not isinstance(error, NotFoundError) or error.kind != "world":
-            node.log("fatal", str(error))
-        else:
-            node.log("fatal", f"Could not open file: {error}")
+        node.log("fatal", str(error))
         return 1
     finally:
         node.shutdown()
@@ -97,6 +101,8 @@ def serve(arguments: _Arguments, graph: Graph, stop: threading.Event) -> int:
 
 def _serve_world(
     options: ServerOptions,
+    world: World,
+    workspace: Workspace,
     node: Any,
     diagnostics: Diagnostics,
     stop: threading.Event,
@@ -104,8 +110,6 @@ def _serve_world(
 ) -> int:
     """Run the world; `ros` is the version of ROS and the clock's rate, None where nobody chose."""
     ros_version, clock_rate_hz = ros
-    workspace = Workspace.discover()
-    world = world_from(options.world or "empty", workspace, diagnostics)
     server = WorldServer(
         world,
         node=node,
@@ -159,6 +163,25 @@ def _clock_rate(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> f
         diagnostics.report("simulator.unknown-argument", text, source.place(name, _RATE))
         return None
     return max(0.0, float(value))
+
+
+def _world(
+    options: ServerOptions,
+    node: Any,
+    workspace: Workspace,
+    diagnostics: Diagnostics,
+    *,
+    falls_back: bool,
+) -> World:
+    """Return the world that is named, or the empty one with an error when it is not there."""
+    try:
+        return world_from(options.world or "empty", workspace, diagnostics)
+    except NotFoundError as error:
+        if error.kind != "world" or not falls_back:
+            raise
+        node.log("error", f"Could not open file: {error}")
+    node.log("warn", "Falling back on worlds/empty.world")
+    return world_from("empty", workspace, diagnostics)
 
 
 def offers_ros2(options: ServerOptions) -> bool:

@@ -42,7 +42,12 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Create a model, say how it went, and end."""
     node = start_node(arguments, graph)
     try:
-        flags = read_flags(arguments.rest, _FLAGS, _USAGE)
+        flags = read_flags(
+            arguments.rest,
+            _FLAGS,
+            _USAGE,
+            on_unknown=lambda message: node.log("warn", f"{message}; it has no effect"),
+        )
         return _create(node, _options(node, arguments, flags), arguments, stop)
     except GazelleError as error:
         node.log("error", str(error))

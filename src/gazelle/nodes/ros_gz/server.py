@@ -19,7 +19,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     file = str(arguments.params.get("world_sdf_file") or "")
     text = str(arguments.params.get("world_sdf_string") or "")
     if file or not text:
-        return run_server(replace(arguments, rest=(file,) if file else ()), graph, stop)
+        named = replace(arguments, rest=(file,) if file else ())
+        return run_server(named, graph, stop, falls_back=False)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "world.sdf"
         path.write_text(text, encoding="utf-8")
