@@ -75,7 +75,11 @@ def _replaced(
     ]
 
 
-_NOT_HERE = ("launch.package-missing", "ros2_launch.package-missing")
+_NOT_HERE = (
+    "launch.package-elsewhere",
+    "launch.package-missing",
+    "ros2_launch.package-missing",
+)
 
 
 def _packages(findings: list[Diagnostic], known: frozenset[str]) -> list[Diagnostic]:

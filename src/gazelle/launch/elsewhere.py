@@ -13,6 +13,10 @@ _BRIDGE = "a bridge to programs outside of ROS; `gazelle bridge` is one"
 _VIEW = "a window that is not here; `{rviz}` opens Studio, which shows the same topics"
 _PANEL = "a panel of rqt that is not here; `{topic}`, `{param}` and Studio show the same"
 _JOYSTICK = "for a joystick; `joy` and `teleop_twist_joy` are here, with the kernel's joysticks"
+_MARKER = "a marker in RViz that drives; Studio's teleop and `teleop_twist_keyboard` drive as well"
+_INDUSTRIAL = "the link to a real arm's controller; `move_group` and ros_control's are here"
+_DEPTH = "compiled filters of a depth camera's pictures; the simulated camera has clouds itself"
+_SCANS = "compiled code that joins or makes scans; a <sensor> with a wider angle gives one"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
 _FIRMWARE = "the firmware's link of a real robot; a simulated one publishes these topics itself"
@@ -27,6 +31,7 @@ _KNOWN = {
         ("realsense2_camera", "openni2_camera", "openni_launch", "zed_wrapper"), _CAMERA
     ),
     **dict.fromkeys(("depthai_ros_driver", "depthai_ros", "azure_kinect_ros_driver"), _CAMERA),
+    **dict.fromkeys(("astra_camera", "astra_launch", "freenect_camera"), _CAMERA),
     **dict.fromkeys(("rplidar_ros", "sllidar_ros2", "urg_node", "urg_node2", "ydlidar"), _LIDAR),
     **dict.fromkeys(("sick_scan", "sick_scan2", "sick_scan_xd", "velodyne", "ld08_driver"), _LIDAR),
     **dict.fromkeys(("velodyne_driver", "velodyne_pointcloud", "ouster_ros"), _LIDAR),
@@ -37,6 +42,11 @@ _KNOWN = {
     **dict.fromkeys(("plotjuggler", "plotjuggler_ros", "mapviz", "rviz_visual_tools"), _VIEW),
     **dict.fromkeys(("joy_teleop", "spacenav", "spacenav_node", "ps3joy", "wiimote"), _JOYSTICK),
     **dict.fromkeys(("rtabmap_ros", "rtabmap_slam", "rtabmap_launch", "octomap_server"), _MAPPING),
+    "interactive_marker_twist_server": _MARKER,
+    **dict.fromkeys(("rgbd_launch", "openni2_launch", "freenect_launch"), _DEPTH),
+    **dict.fromkeys(("ira_laser_tools", "pointcloud_to_laserscan"), _SCANS),
+    **dict.fromkeys(("industrial_robot_client", "industrial_robot_simulator"), _INDUSTRIAL),
+    **dict.fromkeys(("industrial_msgs", "industrial_core", "industrial_utils"), _INDUSTRIAL),
     **dict.fromkeys(("image_proc", "stereo_image_proc", "depth_image_proc"), _VISION),
     **dict.fromkeys(("apriltag_ros", "aruco_ros", "find_object_2d", "yolo_ros"), _VISION),
     **dict.fromkeys(

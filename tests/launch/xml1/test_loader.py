@@ -132,6 +132,24 @@ def test_all_mistakes_of_a_file_show_at_once(tmp_path: Path) -> None:
     assert config.params == {"/good": 1}
 
 
+def test_tags_that_need_a_package_of_ros_that_is_not_here_are_left_out(tmp_path: Path) -> None:
+    text = """<launch>
+  <include file="$(find rosbridge_server)/launch/rosbridge_websocket.launch"/>
+  <rosparam command="load" file="$(find interactive_marker_twist_server)/config/planar.yaml"/>
+  <arg name="camera" default="$(find rgbd_launch)"/>
+  <include file="$(arg camera)/launch/kinect_frames.launch"/>
+  <param name="good" value="1"/>
+</launch>"""
+    config, diagnostics = _load(text, tmp_path)
+    assert config.params == {"/good": 1}
+    assert not diagnostics.errors
+    assert [item.code for item in diagnostics] == ["launch.package-elsewhere"] * 3
+    assert [item.span.line for item in diagnostics if item.span] == [2, 3, 4]
+    (bridge, *_) = diagnostics
+    assert "$(find rosbridge_server): package 'rosbridge_server' not found" in bridge.message
+    assert bridge.fix.startswith("rosbridge_server is a bridge to programs outside of ROS")
+
+
 def test_what_needs_an_unreadable_argument_says_nothing_more(tmp_path: Path) -> None:
     text = """<launch>
   <arg name="model" default="$(env NO_SUCH_MODEL)"/>

@@ -102,6 +102,15 @@ ENTRIES = (
         "ResourceNotFound",
     ),
     Entry(
+        "launch.package-elsewhere",
+        "warning",
+        "A package of ROS is not here",
+        "Where ROS is installed it would be found. The tag that needs it is left out, as nodes of "
+        "such packages are.",
+        "put the package's sources into the workspace, or do without it",
+        "ResourceNotFound",
+    ),
+    Entry(
         "launch.include-missing",
         "error",
         "An included file does not exist",

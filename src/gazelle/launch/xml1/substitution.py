@@ -111,9 +111,7 @@ class Substitution:
         try:
             return str(self.workspace.package(name).share)
         except NotFoundError as error:
-            text, fix = missing_package(error, 1)
-            code = "launch.package-missing"
-            raise SubstitutionError(code, f"$(find {name}): {text}", fix) from error
+            raise _not_found(name, error) from error
 
     def _env(self, rest: list[str]) -> str:
         name = _one(rest, "env")
@@ -196,6 +194,15 @@ _EVAL_NAMES: dict[str, Any] = {
     "true": True,
     "false": False,
 }
+
+
+def _not_found(name: str, error: NotFoundError) -> SubstitutionError:
+    """Return an error for a wrong name, and a warning for a package that everybody else has."""
+    text, what = missing_package(error, 1)
+    if not what:
+        return SubstitutionError("launch.package-missing", f"$(find {name}): {text}")
+    message = f"$(find {name}): {text}; this tag is left out, the rest goes on"
+    return SubstitutionError("launch.package-elsewhere", message, what)
 
 
 def _one(rest: list[str], word: str) -> str:
