@@ -17,6 +17,7 @@ _MARKER = "a marker in RViz that drives; Studio's teleop and `teleop_twist_keybo
 _INDUSTRIAL = "the link to a real arm's controller; `move_group` and ros_control's are here"
 _DEPTH = "compiled filters of a depth camera's pictures; the simulated camera has clouds itself"
 _SCANS = "compiled code that joins or makes scans; a <sensor> with a wider angle gives one"
+_VELOCITIES = "compiled code that smooths or chooses velocities; `twist_mux` chooses by priority"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
 _FIRMWARE = "the firmware's link of a real robot; a simulated one publishes these topics itself"
@@ -58,7 +59,7 @@ _KNOWN = {
     **dict.fromkeys(("nav2_loopback_sim", "nav2_smac_planner"), _NAV2),
     **dict.fromkeys(("nav2_minimal_tb3_sim", "nav2_minimal_tb4_sim"), _MODELS),
 }
-_FAMILIES = {"rqt_": _PANEL}
+_FAMILIES = {"rqt_": _PANEL, "yocs_": _VELOCITIES}
 
 
 # Commands by the version of ROS whose user is told of them.

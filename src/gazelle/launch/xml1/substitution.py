@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
-from gazelle.launch.elsewhere import missing_package
+from gazelle.launch.elsewhere import replacement_of
 from gazelle.limits import Budget, LimitError, compile_limited
 from gazelle.workspace import Workspace
 
@@ -198,10 +198,10 @@ _EVAL_NAMES: dict[str, Any] = {
 
 def _not_found(name: str, error: NotFoundError) -> SubstitutionError:
     """Return an error for a wrong name, and a warning for a package that everybody else has."""
-    text, what = missing_package(error, 1)
+    what = replacement_of(name, 1)
     if not what:
-        return SubstitutionError("launch.package-missing", f"$(find {name}): {text}")
-    message = f"$(find {name}): {text}; this tag is left out, the rest goes on"
+        return SubstitutionError("launch.package-missing", f"$(find {name}): {error}")
+    message = f"$(find {name}): package '{name}' not found; this tag is left out, the rest goes on"
     return SubstitutionError("launch.package-elsewhere", message, what)
 
 
