@@ -130,6 +130,22 @@ def test_the_prefix_of_the_command_line_goes_before_what_its_filter_names(run: R
     assert own.cmd == ["nice", "false"]
 
 
+def test_what_began_before_an_error_ends_with_the_launch(run: Run) -> None:
+    """The error stands among entities that one description yields."""
+
+    def fail(_context: Any) -> None:
+        raise LookupError("no such package")
+
+    first = a.ExecuteProcess(cmd=["sleep", "60"])
+    second = a.ExecuteProcess(cmd=["sleep", "60"])
+    ran = run(a.GroupAction([first, second]), a.OpaqueFunction(function=fail))
+    assert ran.code == 1 and "no such package" in ran.text
+    for process in (first, second):
+        assert process.process_details is not None
+        assert not psutil.pid_exists(process.process_details["pid"])
+        assert process.return_code == -signal.SIGINT
+
+
 def test_a_process_that_dies_is_told_with_code_and_command(run: Run) -> None:
     process = a.ExecuteProcess(cmd=["sh", "-c", "exit 3"])
     ran = run(process)

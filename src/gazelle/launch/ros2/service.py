@@ -205,7 +205,7 @@ class LaunchService:
             raise RuntimeError(
                 f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'"
             )
-        self.__pairs += visit_all_entities_and_collect_futures(entity, self.context)
+        visit_all_entities_and_collect_futures(entity, self.context, self.__pairs)
 
     def __tell(self, error: Exception) -> None:
         message = f"Caught exception in launch (see debug for traceback): {error}"

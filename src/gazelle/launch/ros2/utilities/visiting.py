@@ -17,16 +17,24 @@ _Pair = tuple[LaunchDescriptionEntity, "asyncio.Future[Any]"]
 
 
 def visit_all_entities_and_collect_futures(
-    entity: LaunchDescriptionEntity, context: LaunchContext
+    entity: LaunchDescriptionEntity, context: LaunchContext, pairs: list[_Pair] | None = None
 ) -> list[_Pair]:
-    """Visit an entity, then what it yields, depth first; return what takes time."""
+    """Visit an entity, then what it yields, depth first; return what takes time.
+
+    Args:
+        entity: the first one.
+        context: what the launch knows.
+        pairs: a list to add to: what has begun before an entity raised an error stays in it.
+    """
+    pairs = [] if pairs is None else pairs
     try:
         yielded = entity.visit(context)
         future = entity.get_asyncio_future()
     except Exception as error:
         keep_place(error, getattr(entity, "place", None))
         raise
-    pairs: list[_Pair] = [] if future is None else [(entity, future)]
+    if future is not None:
+        pairs.append((entity, future))
     for one in yielded or ():
-        pairs += visit_all_entities_and_collect_futures(one, context)
+        visit_all_entities_and_collect_futures(one, context, pairs)
     return pairs
