@@ -161,6 +161,24 @@ def test_closing_wakes_sleepers(simulated: Graph) -> None:
     assert outcome == [False]
 
 
+def test_a_node_that_ends_is_not_asked_to_carry_the_clock(simulated: Graph) -> None:
+    ending, staying = simulated.create_node("ending"), simulated.create_node("staying")
+
+    def look_again(_reason: str) -> None:
+        # As when a parameter changes in another thread at this very moment.
+        simulated.clock.use(False)
+        simulated.clock.use(True)
+
+    ending.on_shutdown(look_again)
+    for node in simulated.nodes:
+        if node is not staying and node is not ending:
+            node.shutdown()
+    ending.shutdown()
+    owners = [one.node for one in simulated.entities() if one.name == "/clock"]
+    assert staying.name in owners
+    assert ending.name not in owners
+
+
 def test_stop_ends_a_sleep_while_simulated_time_stands_still(simulated: Graph) -> None:
     clock, stop = simulated.create_node("a").clock, threading.Event()
     slept: list[bool] = []

@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph
+from gazelle.graph import Graph, parameters
+from gazelle.graph.parameters import ParameterShare
 
 
 def test_every_member_sees_the_same_parameters(
@@ -61,6 +62,26 @@ def test_cached_reads_follow_changes(
     graph.parameters.delete("/a")
     eventually(lambda: other.parameters.get_cached("/a", None) is None)
     assert changed == ["/a", "/a", "/a"]
+
+
+def test_an_owner_that_is_slow_is_waited_for_while_there_is_a_hub(
+    join: Callable[..., Graph], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parameters, "_NO_OWNER_S", 0.0)
+    asked: list[Any] = []
+    answer = ParameterShare._answer
+
+    def answer_late(share: ParameterShare, query: Any) -> None:
+        asked.append(query)
+        if len(asked) > 3:
+            answer(share, query)
+        else:
+            query.drop()
+
+    monkeypatch.setattr(ParameterShare, "_answer", answer_late)
+    join(role="hub").parameters.set("/speed", 2)
+    assert join(role="client").parameters.get("/speed") == 2
+    assert len(asked) == 4
 
 
 def test_nearest_names_help(graph: Graph) -> None:

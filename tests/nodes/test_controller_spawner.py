@@ -13,9 +13,10 @@ from tests.control.manager_world import manager_world
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, LogRecord
-from gazelle.interfaces import message_type
+from gazelle.interfaces import message_type, service_type
 from gazelle.nodes import controller_spawner, controller_spawner_ros2
 from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.controller_manager_client import ManagerClient
 
 Run = Callable[..., int]
 
@@ -151,7 +152,7 @@ def test_a_manager_that_is_elsewhere_is_named_when_the_time_is_up(graph, monkeyp
 
 def test_a_paused_simulation_never_times_out(graph, monkeypatch, lines):
     graph.parameters.set("/use_sim_time", True)
-    graph.create_node("other")
+    graph.create_node("other").create_publisher("/clock", message_type("rosgraph_msgs/Clock"))
     monkeypatch.setattr(controller_spawner, "_PATIENCE_S", 0.05)
     monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
     spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
@@ -161,6 +162,33 @@ def test_a_paused_simulation_never_times_out(graph, monkeypatch, lines):
     assert spawner.end() == 0
     assert "INFO: Waiting for /clock to be available..." in lines
     assert any("there is no controller manager at all" in line for line in lines)
+
+
+def test_without_a_clock_the_time_is_the_walls(graph, lines):
+    graph.parameters.set("/use_sim_time", True)
+    graph.create_node("other")
+    spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.2", "left"])
+    assert spawner.join() == 0
+    assert any("couldn't find the expected controller_manager ROS" in line for line in lines)
+
+
+def test_a_manager_that_still_comes_is_not_taken_for_the_other_generations(graph, monkeypatch):
+    node = graph.create_node("cm")
+    load, configure = (
+        service_type(f"controller_manager_msgs/{one}Controller") for one in ("Load", "Configure")
+    )
+    client = ManagerClient(graph.create_node("asking"), "/cm")
+    look = graph.has_service
+
+    def look_and_go_on(name):
+        found = look(name)
+        node.create_service("/cm/configure_controller", configure, lambda _request: None)
+        return found
+
+    node.create_service("/cm/load_controller", load, lambda _request: None)
+    monkeypatch.setattr(graph, "has_service", look_and_go_on)
+    assert client.generation == 2
+    assert ManagerClient(node, "/nowhere", generation=2).generation == 2
 
 
 def test_ros1_unspawner_stops_controllers_and_starts_them_again(graph, monkeypatch):

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.errors import GraphError
 from gazelle.graph.errors import TimeJumpError
 from gazelle.graph.wire import resolve_type
 
@@ -155,19 +156,33 @@ class Clock:
     def refresh(self) -> None:
         """Use simulated or wall time, as the parameter says now."""
         with self._switching:
+            if self._closed:
+                # What waits for time has been woken; the subscription goes with its node.
+                return
             wanted = bool(self._nodes) and self._is_sim_time_wanted()
             if self._nodes and wanted != self._use_sim_time:
                 with self._lock:
                     self._use_sim_time = wanted
                     self._wake(everybody=True)
             if wanted and self._subscription is None:
-                self._owner = self._nodes[0]
-                self._subscription = self._owner.create_subscription(
-                    "/clock", resolve_type(_CLOCK_TYPE), self._on_clock, inline=True
-                )
+                self._subscribe()
             elif not wanted and self._subscription is not None:
                 self._subscription.unregister()
                 self._owner = self._subscription = None
+
+    def _subscribe(self) -> None:
+        """Let the first node that is not about to end carry the subscription."""
+        for node in self._nodes:
+            try:
+                subscription = node.create_subscription(
+                    "/clock", resolve_type(_CLOCK_TYPE), self._on_clock, inline=True
+                )
+            except GraphError:
+                if not node.closed:
+                    raise
+                continue
+            self._owner, self._subscription = node, subscription
+            return
 
     def close(self) -> None:
         """Wake everybody who sleeps."""

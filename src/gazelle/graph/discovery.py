@@ -16,6 +16,9 @@ __all__ = ["Discovery"]
 
 _ASK_S = 2.0
 _MOST_REPLIES = 1 << 20
+# A node's parts come one after the other; on a machine with much to do they take their time.
+_QUIET_S = 1.0
+_LONGEST_S = 10.0
 
 
 class Discovery:
@@ -30,6 +33,7 @@ class Discovery:
         self._entities: dict[str, Entity] = {}
         self._by_gid: dict[bytes, Entity] = {}
         self._changed = threading.Condition()
+        self._changed_s = time.monotonic()
         self._listeners: list[Callable[[Entity, bool], None]] = []
         self._subscriber: Any = None
 
@@ -100,6 +104,28 @@ class Discovery:
                 self._changed.wait(left)
         return True
 
+    def settles(
+        self, condition: Callable[[Iterable[Entity]], bool], *, quiet_s: float = _QUIET_S
+    ) -> bool:
+        """Tell whether a condition on the known entities holds once nothing comes any more.
+
+        What is not there yet may be on its way, as long as other things come: so a program that
+        acts upon something's absence asks this.
+
+        Args:
+            condition: looked at after every change; when it holds, that is the answer.
+            quiet_s: nothing has come or gone for so long; ten seconds are waited at most.
+        """
+        deadline = time.monotonic() + _LONGEST_S
+        with self._changed:
+            while not condition(self._entities.values()):
+                now = time.monotonic()
+                left = min(self._changed_s + quiet_s, deadline) - now
+                if left <= 0:
+                    return False
+                self._changed.wait(left)
+        return True
+
     def _on_token(self, sample: Any) -> None:
         import zenoh
 
@@ -109,6 +135,7 @@ class Discovery:
             return
         is_there = sample.kind == zenoh.SampleKind.PUT
         with self._changed:
+            self._changed_s = time.monotonic()
             if is_there:
                 self._entities[key] = self._by_gid[entity_gid(key)] = entity
             else:

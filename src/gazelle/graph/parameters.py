@@ -26,6 +26,7 @@ __all__ = ["ParameterShare", "ParameterStore", "global_parameters"]
 
 _REQUIRED: Any = object()
 _NO_OWNER_S = 3.0
+_SLOW_OWNER_S = 30.0
 _RETRY_S = 0.02
 _ASK_S = 5.0
 
@@ -124,7 +125,13 @@ class ParameterShare:
         )
 
     def _ask_owner(self, request: dict[str, Any]) -> dict[str, Any]:
+        """Ask until the owner answers.
+
+        The hub owns the parameters, a moment after it can be reached. While there is a hub, it
+        may have much to do; without one, another process takes it over within a second.
+        """
         payload = to_json(request)
+        longest = time.monotonic() + _SLOW_OWNER_S
         deadline = time.monotonic() + _NO_OWNER_S
         while True:
             for reply in self._session.get(self._key, payload=payload, timeout=_ASK_S):
@@ -134,7 +141,10 @@ class ParameterShare:
                     return answer
             if self._owner:
                 return self._handle(request)
-            if time.monotonic() > deadline:
+            now = time.monotonic()
+            if self._session.info.routers_zid():
+                deadline = now + _NO_OWNER_S
+            if now > min(deadline, longest):
                 raise GraphError(
                     "no process holds the parameters (Unable to communicate with master!)\n"
                     "  fix: start a launch, a simulator or `gazelle roscore`"

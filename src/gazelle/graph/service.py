@@ -208,9 +208,9 @@ class ServiceClient:
             lost_s = now_s if was_asked or not lost_s else lost_s
             if now_s > deadline_s:
                 raise self._late(timeout_s)
-            self._await_server(now_s - lost_s)
+            self._await_server(now_s - lost_s, deadline_s)
 
-    def _await_server(self, since_s: float) -> None:
+    def _await_server(self, since_s: float, deadline_s: float) -> None:
         """Wait before the next question.
 
         Raises:
@@ -224,6 +224,8 @@ class ServiceClient:
             time.sleep(_RETRY_S)
             return
         was_there = not servers and time.monotonic() - self._seen_s < since_s + _BACK_S
+        if not (was_there or servers or self._closed) and self._comes(deadline_s):
+            return
         if not was_there or self._closed or since_s > _BACK_S:
             raise self._unavailable()
         if self._graph.discovery.wait_for(self._is_offered, _LOOK_S) or since_s < _GONE_S:
@@ -232,6 +234,11 @@ class ServiceClient:
             is_there = hub_knows(self._graph.port, self._selector)
         if not is_there:
             raise self._unavailable()
+
+    def _comes(self, deadline_s: float) -> bool:
+        """Tell whether the service comes with what else comes to the graph just now."""
+        settles = self._graph.discovery.settles
+        return settles(lambda known: self._is_offered(known) or time.monotonic() > deadline_s)
 
     def unregister(self) -> None:
         """Give the client up; calling it twice does nothing."""

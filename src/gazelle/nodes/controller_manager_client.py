@@ -10,14 +10,16 @@ from typing import Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, Node
+from gazelle.graph import Entity, Graph, Kind, Node
 from gazelle.interfaces import message_type, ros1_service_type, service_type
 
 __all__ = ["ManagerClient"]
 
 _POLL_S = 0.1
 _CALL_S = 30.0
-_GONE_S = 3.0
+_GONE_S = 10.0
+# A manager's services come one after the other.
+_QUIET_S = 0.5
 _LATE_S = 1.5
 _LOAD = "/load_controller"
 _PACKAGE = "controller_manager_msgs"
@@ -31,25 +33,37 @@ class ManagerClient:
         name: the manager's global name, such as ``/mira/controller_manager``.
     """
 
-    def __init__(self, node: Node, name: str, stop: threading.Event | None = None) -> None:
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        stop: threading.Event | None = None,
+        *,
+        generation: int = 0,
+    ) -> None:
         """Take a node and the manager's name; nothing is called yet.
 
         Args:
             node: a started node of the graph.
             name: resolved by the node.
             stop: ends waiting early.
+            generation: of the manager, where the program is of one; 0 when its services tell.
         """
         self.name = node.resolve_name(name)
         self._node = node
         self._stop = stop or threading.Event()
-        self._generation = 0
+        self._generation = generation
 
     @property
     def generation(self) -> int:
         """1 for ros_control, 2 for ros2_control, told from the services; 0 when it is not there."""
         graph = self._node.graph
         if not self._generation and graph.has_service(f"{self.name}/load_controller"):
-            is_ros2 = graph.has_service(f"{self.name}/configure_controller")
+            own = f"{self.name}/configure_controller"
+            is_ros2 = graph.discovery.settles(
+                lambda known: any(one.kind is Kind.SERVICE and one.name == own for one in known),
+                quiet_s=_QUIET_S,
+            )
             self._generation = 2 if is_ros2 else 1
         return self._generation
 
@@ -65,7 +79,8 @@ class ManagerClient:
 
         Args:
             service: below the manager's name.
-            timeout_s: on the node's clock, so a paused simulation takes no time; None for ever.
+            timeout_s: on the node's clock, so a paused simulation takes no time, and on the wall's
+                while nobody publishes ``/clock``; None for ever.
             late: called again and again while it is not there, every `late_s` real seconds.
             late_s: see `late`.
 
@@ -77,6 +92,7 @@ class ManagerClient:
         """
         graph, clock = self._node.graph, self._node.clock
         start_ns, told_s = clock.now_ns(), time.monotonic()
+        looked_s, without_clock_s = told_s, 0.0
         used_sim_time, alive = clock.use_sim_time, _Alive(graph)
         while not self._stop.is_set():
             if graph.wait_for_service(f"{self.name}/{service}", _POLL_S):
@@ -85,7 +101,11 @@ class ManagerClient:
             if clock.use_sim_time != used_sim_time or clock.now_ns() < start_ns:
                 # Another clock, or one that went back: count anew.
                 used_sim_time, start_ns = clock.use_sim_time, clock.now_ns()
-            if timeout_s is not None and clock.now_ns() - start_ns > timeout_s * 1e9:
+            since_s, looked_s = time.monotonic() - looked_s, time.monotonic()
+            if clock.use_sim_time and not graph.publisher_count("/clock"):
+                without_clock_s += since_s
+            waited_s = max((clock.now_ns() - start_ns) * 1e-9, without_clock_s)
+            if timeout_s is not None and waited_s > timeout_s:
                 return False
             if late is not None and time.monotonic() - told_s > late_s:
                 told_s = time.monotonic()
@@ -109,15 +129,22 @@ class ManagerClient:
         names = (one.name for one in self._node.graph.services())
         return tuple(name.removesuffix(_LOAD) for name in names if name.endswith(_LOAD))
 
-    def find(self, *, may_be_another: bool, late: Callable[[], None] = lambda: None) -> bool:
+    def find(
+        self,
+        *,
+        may_be_another: bool,
+        late: Callable[[], None] = lambda: None,
+        timeout_s: float | None = None,
+    ) -> bool:
         """Wait for the manager, for commands that people type; what is waited for is said once.
 
         Args:
             may_be_another: take the only one there is when it has another name, and say so.
             late: called when the manager lets itself be waited for.
+            timeout_s: in wall time; None for ever.
 
         Returns:
-            False when waiting was ended.
+            False when waiting was ended, or the time was up.
 
         Raises:
             GraphError: the graph is gone.
@@ -128,7 +155,7 @@ class ManagerClient:
             there = self.managers()
             if self.name in there:
                 return True
-            if may_be_another and len(there) == 1:
+            if may_be_another and len(there) == 1 and not self._comes():
                 _tell(f"there is no {self.name}; {there[0]}, the only one there is, is used")
                 self.name = there[0]
                 return True
@@ -138,8 +165,18 @@ class ManagerClient:
                 _tell(text)
                 late()
             alive.check()
+            if timeout_s is not None and time.monotonic() - start_s > timeout_s:
+                return False
             self._stop.wait(_POLL_S)
         return False
+
+    def _comes(self) -> bool:
+        """Tell whether the manager, or one more, comes with what else comes to the graph."""
+        return self._node.graph.discovery.settles(
+            lambda known: (
+                self.name in (found := {_manager_of(one) for one in known}) or len(found) > 2
+            )
+        )
 
     def call(self, service: str, kind: str, *, timeout_s: float = _CALL_S, **fields: Any) -> Any:
         """Call a service with the layout of the manager's generation and return its answer.
@@ -249,6 +286,12 @@ class _Alive:
             self._seen_s = now_s
         elif now_s - self._seen_s > _GONE_S:
             raise GraphError("the graph has ended: its launch or simulator is gone")
+
+
+def _manager_of(one: Entity) -> str:
+    """Return the manager that an entity is the service of, an empty name for none."""
+    is_one = one.kind is Kind.SERVICE and one.name.endswith(_LOAD)
+    return one.name.removesuffix(_LOAD) if is_one else ""
 
 
 def _tell(text: str) -> None:

@@ -92,7 +92,7 @@ def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
     parser.add_argument("--switch-timeout", type=float, default=5.0)
     options = parser.parse_args(_own_words(words))
-    client = ManagerClient(node, options.controller_manager, stop)
+    client = ManagerClient(node, options.controller_manager, stop, generation=2)
     late = _teller(node, client, "switch_controller")
     if not client.wait("switch_controller", late=late, late_s=_LATE_S):
         return 1
@@ -171,7 +171,7 @@ class _Spawner:
         name = options.controller_manager
         if options.namespace and not name.startswith("/"):
             name = f"/{options.namespace.strip('/')}/{name}"
-        self._client = ManagerClient(node, name, stop)
+        self._client = ManagerClient(node, name, stop, generation=2)
 
     def run(self) -> None:
         """Load, configure and activate.

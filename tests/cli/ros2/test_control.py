@@ -10,6 +10,7 @@ import pytest
 from tests.control.manager_world import manager_world
 
 from gazelle.cli import controller_manager
+from gazelle.cli.ros2 import control
 from gazelle.cli.ros2 import main as ros2
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
@@ -269,6 +270,14 @@ def test_a_manager_that_is_named_is_waited_for_and_said_once(ros1, capsys, monke
     asking.join(30)
     line = "waiting for /leg/controller_manager; controller managers are: /mira/controller_manager"
     assert capsys.readouterr().err.splitlines() == [line]
+
+
+def test_without_a_manager_it_gives_up_and_says_what_is_missing(graph, run, monkeypatch):
+    monkeypatch.setattr(control, "_PATIENCE_S", 0.2)
+    code, text = run("list_controllers")
+    assert code == 1
+    assert "Could not contact service /controller_manager/list_controllers" in text
+    assert "there is no controller manager at all" in text
 
 
 def test_waiting_ends_with_the_graph(free_port, monkeypatch):

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.geometry import Pose
-from gazelle.interfaces import message_type
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 
@@ -95,3 +95,25 @@ def test_what_is_wrong_is_said(bench: Any, sim: Simulation, tmp_path: Path) -> N
     ]
     bench.eventually(lambda: all(any(t in one.msg for one in said) for t in expected))
     assert len(sim.server.engine.world.models) == 1
+
+
+def test_services_of_a_world_may_come_one_after_the_other(bench: Any) -> None:
+    world = bench.graph.create_node("gazebo")
+    spawn, properties = (
+        service_type(f"gazebo_msgs/{one}") for one in ("SpawnModel", "GetWorldProperties")
+    )
+    named: list[str] = []
+
+    def put(request: Any) -> Any:
+        named.append(request.model_name)
+        return spawn.Response(success=True)
+
+    world.create_service("/gazebo/spawn_sdf_model", spawn, put)
+    bench.start(_CREATE, "-name", "crate", "-string", _BOX, "-allow_renaming")
+    asked = "/gazebo/get_world_properties"
+    bench.eventually(lambda: any(one.name == asked for one in bench.graph.entities()))
+    assert named == []
+    told = properties.Response(model_names=["crate"], success=True)
+    world.create_service(asked, properties, lambda _request: told)
+    assert bench.wait() == [0]
+    assert named == ["crate_1"]

@@ -34,6 +34,8 @@ _USAGE = (
     "usage: create -world [arg] [-file FILE] [-param PARAM] [-topic TOPIC] [-string STRING] "
     "[-name NAME] [-allow_renaming RENAMING] [-x X] [-y Y] [-z Z] [-R ROLL] [-P PITCH] [-Y YAW]"
 )
+_SPAWN = ("/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel")
+_PROPERTIES = ("/gazebo/get_world_properties", "gazebo_msgs/GetWorldProperties")
 _POLL_S = 0.1
 _TELL_S = 5.0
 
@@ -77,10 +79,12 @@ def _create(
     node: Node, options: Mapping[str, Any], arguments: NodeArguments, stop: threading.Event
 ) -> int:
     text = _text(node, options, arguments, stop)
-    if not _wait(node, "/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel", stop):
-        node.log("info", "Entity creation was interrupted.")
-        return 0
-    kind: Any = service_type("gazebo_msgs/SpawnModel")
+    # A world's services come one after the other; both are called.
+    for service, its_kind in (_SPAWN, _PROPERTIES):
+        if not _wait(node, service, its_kind, stop):
+            node.log("info", "Entity creation was interrupted.")
+            return 0
+    kind: Any = service_type(_SPAWN[1])
     request = kind.Request(model_name=_name(node, options), model_xml=text)
     pose = Pose.from_xyz_rpy(
         (options["x"], options["y"], options["z"]), (options["R"], options["P"], options["Y"])
@@ -88,7 +92,7 @@ def _create(
     place, turn = request.initial_pose.position, request.initial_pose.orientation
     place.x, place.y, place.z = pose.position_m
     turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
-    answer = node.create_client("/gazebo/spawn_sdf_model", kind).call(request)
+    answer = node.create_client(_SPAWN[0], kind).call(request)
     if not answer.success:
         node.log("error", f"Entity creation failed.\n {answer.status_message}")
         return 1
@@ -136,8 +140,8 @@ def _name(node: Node, options: Mapping[str, Any]) -> str:
     wanted = str(options["name"])
     if not wanted or not options[_RENAMING]:
         return wanted
-    kind: Any = service_type("gazebo_msgs/GetWorldProperties")
-    client = node.create_client("/gazebo/get_world_properties", kind)
+    kind: Any = service_type(_PROPERTIES[1])
+    client = node.create_client(_PROPERTIES[0], kind)
     taken = set(client.call(kind.Request()).model_names)
     name, count = wanted, 0
     while name in taken:

@@ -64,7 +64,7 @@ def run(options: Mapping[str, str]) -> int:
 
 def _of_worlds(link: WorldLink) -> list[str]:
     """A world answers to any name; the list has the one that its topics have."""
-    if not link.graph.has_service("/gazebo/control_world"):
+    if not link.graph.finds_service("/gazebo/control_world"):
         return []
     topics = (_OF_WORLD.match(one.name) for one in link.graph.topics())
     world = next((found.group(1) for found in topics if found), "default")

@@ -14,6 +14,7 @@ __all__ = ["main"]
 
 _NAME = "Name of the controller"
 _MANAGER = "controller_manager"
+_PATIENCE_S = 10.0
 
 
 def main(argv: list[str]) -> int:
@@ -30,7 +31,10 @@ def main(argv: list[str]) -> int:
         with joined() as graph:
             node = graph.create_node("ros2control", anonymous=True, rosout=False)
             client = ManagerClient(node, options.controller_manager)
-            client.find(may_be_another=options.controller_manager == _MANAGER)
+            others = options.controller_manager == _MANAGER
+            if not client.find(may_be_another=others, timeout_s=_PATIENCE_S):
+                service = f"{client.name}/list_controllers"
+                raise ToolError(f"Could not contact service {service}; {client.elsewhere()}")
             _refuse_ros1(client)
             return int(getattr(module, options.verb)(client, options))
     except (ToolError, GraphError) as error:

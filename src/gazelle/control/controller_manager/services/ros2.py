@@ -22,12 +22,13 @@ def offer_ros2(manager: ControllerManager, ports: OwnedPorts) -> None:
     """Offer the services and parameters of the node ``controller_manager``."""
     services = _Services(manager, ports)
     for name, type_name, handler in (
+        # Only ROS 2 has this one: whoever sees any of the others has seen it before.
+        ("configure_controller", "ConfigureController", services.configure),
         ("list_controllers", "ListControllers", services.list_controllers),
         ("list_controller_types", "ListControllerTypes", services.list_types),
         ("list_hardware_components", "ListHardwareComponents", services.list_components),
         ("list_hardware_interfaces", "ListHardwareInterfaces", services.list_interfaces),
         ("load_controller", "LoadController", services.load),
-        ("configure_controller", "ConfigureController", services.configure),
         ("cleanup_controller", "CleanupController", services.cleanup),
         ("unload_controller", "UnloadController", services.unload),
         ("switch_controller", "SwitchController", services.switch),

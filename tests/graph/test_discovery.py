@@ -1,0 +1,65 @@
+"""What is known of the graph, while it still comes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from types import SimpleNamespace
+from typing import Any
+
+import zenoh
+
+from gazelle.graph import Entity, Graph, Kind
+from gazelle.graph.discovery import Discovery
+from gazelle.graph.keys import token
+from gazelle.interfaces import service_type
+
+Empty = service_type("std_srvs/srv/Empty")
+_SHORT_S = 0.05
+
+
+def _comes(discovery: Discovery, kind: Kind, name: str, number: int) -> None:
+    entity = Entity("1f", 0, number, kind, "/n", name, "std_srvs/srv/Empty")
+    sample = SimpleNamespace(key_expr=token(0, entity), kind=zenoh.SampleKind.PUT)
+    discovery._on_token(sample)
+
+
+def _seen(discovery: Discovery, coming: list[tuple[Kind, str]]) -> Callable[[Any], bool]:
+    """Return a condition that lets one thing more come each time it does not hold."""
+
+    def condition(known: Iterable[Entity]) -> bool:
+        found = any(one.name == "/wanted" for one in known)
+        if not found and coming:
+            _comes(discovery, *coming.pop(0), number=len(coming))
+        return found
+
+    return condition
+
+
+def test_what_comes_with_the_rest_is_found() -> None:
+    discovery = Discovery(None, 0)  # type: ignore[arg-type]
+    coming = [(Kind.SERVICE, name) for name in ("/a", "/b", "/c", "/wanted")]
+    assert discovery.settles(_seen(discovery, coming), quiet_s=_SHORT_S)
+    assert coming == []
+
+
+def test_what_does_not_come_is_missing_once_it_is_quiet() -> None:
+    discovery = Discovery(None, 0)  # type: ignore[arg-type]
+    coming = [(Kind.SERVICE, name) for name in ("/a", "/b")]
+    assert not discovery.settles(_seen(discovery, coming), quiet_s=_SHORT_S)
+    assert [one.name for one in discovery.known()] == ["/a", "/b"]
+
+
+def test_a_service_that_is_about_to_come_is_called(
+    graph: Graph, other: Graph, eventually: Callable[..., Any]
+) -> None:
+    server = other.create_node("server")
+    client = graph.create_node("caller").create_client("late", Empty)
+    other.discovery.listen(
+        lambda one, _is_there: (
+            server.create_service("late", Empty, lambda _request: Empty.Response())
+            if one.name == "/begin"
+            else None
+        )
+    )
+    graph.create_node("begin").create_client("begin", Empty)
+    assert client.call(Empty.Request()) == Empty.Response()
