@@ -130,8 +130,10 @@ def _serve_world(
         clock_rate_hz=clock_rate_hz,
     )
     offer_views(server)
-    node.log("info", "Finished loading Gazebo ROS API Plugin.")
-    node.log("info", "Physics dynamic reconfigure ready.")
+    if ros_version != 2:
+        # Plug-ins of ROS 1 say this; ROS 2 and gz have neither.
+        node.log("info", "Finished loading Gazebo ROS API Plugin.")
+        node.log("info", "Physics dynamic reconfigure ready.")
     threading.Thread(target=_stop_with, args=(stop, server), daemon=True).start()
     try:
         server.run(options.iterations)

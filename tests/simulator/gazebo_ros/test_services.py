@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 
 from gazelle.geometry import Pose
+from gazelle.graph import Graph
 from gazelle.simulator import Simulation
+from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.messages import (
     message_class,
     pose_message,
@@ -455,3 +457,19 @@ def test_faster_than_real_time_the_clock_shows_500_times_a_real_second(
     sim.server.paused = True
     sim.server.step(5)
     assert len(clock) == 105
+
+
+@pytest.mark.parametrize(("version", "has_them"), [(1, True), (2, False)])
+def test_only_a_world_for_ros1_has_its_dynamic_parameters(
+    free_port: int, version: int, has_them: bool
+) -> None:
+    with Graph.open(port=free_port, role="hub", environ={}) as graph:
+        sim = Simulation.load(world="empty", node=graph.create_node("gazebo"))
+        sim.server.ros_version = version
+        offer_gazebo_ros(sim.server, ros2=version == 2)
+        topics = dict(graph.topic_names_and_types())
+        services = {one.name for one in graph.services()}
+        for name in ("parameter_descriptions", "parameter_updates", "set_model_state"):
+            assert (f"/gazebo/{name}" in topics) is has_them
+        assert ("/gazebo/set_parameters" in services) is has_them
+        sim.close()

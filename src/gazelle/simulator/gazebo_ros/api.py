@@ -54,6 +54,10 @@ def offer_gazebo_ros(
         for row in group.ros2_rows() if ros2 else ():
             resources.service(join_names("/", row.name), row.type, row.handler)
 
+    if server.ros_version == 2:
+        # These topics are ROS 1's.
+        return
+
     def log_problem(problem: str) -> None:
         if problem:
             server.node.log("ERROR", problem)

@@ -1,4 +1,7 @@
-"""``/gazebo``'s dynamic parameters: step, rate and gravity act, ODE's words are only kept."""
+"""The world's physics settings: step, rate and gravity act, ODE's words are only kept.
+
+In ROS 1 they are ``/gazebo``'s dynamic parameters too; ROS 2 has no dynamic_reconfigure.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +24,18 @@ class PhysicsParameters:
 
     def __init__(self, server: WorldServer, resources: Resources) -> None:
         self._server = server
-        self._dynamic = DynamicParameters(
-            resources,
-            server,
-            "/gazebo",
-            _rows(server),
-            changed=self._apply,
+        rows = _rows(server)
+        self._own: dict[str, Any] = {row.name: row.default for row in rows}
+        self._dynamic = (
+            None
+            if server.ros_version == 2
+            else DynamicParameters(resources, server, "/gazebo", rows, changed=self._apply)
         )
 
     @property
     def values(self) -> dict[str, Any]:
         """Present values by name."""
-        return self._dynamic.values
+        return self._own if self._dynamic is None else self._dynamic.values
 
     def set(self, values: dict[str, Any]) -> tuple[str, ...]:
         """Change some values, as ``set_physics_properties`` does.
@@ -40,10 +43,11 @@ class PhysicsParameters:
         Returns:
             the names of those that have changed and have no effect here.
         """
-        before = dict(self._dynamic.values)
-        self._dynamic.values.update(values)
-        self._apply(self._dynamic.values)
-        self._dynamic.announce()
+        before = dict(self.values)
+        self.values.update(values)
+        self._apply(self.values)
+        if self._dynamic is not None:
+            self._dynamic.announce()
         return tuple(
             name for name in values if name not in _ACTING and values[name] != before[name]
         )
