@@ -13,7 +13,7 @@ import yaml
 from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
 from gazelle.nodes.robot_state_publisher import StateToTf
-from gazelle.nodes.tree import joint_tree, read_description
+from gazelle.nodes.tree import joint_tree, read_description, segment_names
 
 ROBOT = """<robot name="r">
   <link name="base"/><link name="arm"/><link name="slide"/><link name="cam"/><link name="twin"/>
@@ -184,3 +184,30 @@ def test_two_nodes_of_ros2_with_one_name_stay(bench: Any, tmp_path: Path) -> Non
         bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
     bench.eventually(lambda: len(got) == 2)
     assert bench.stop() == [0, 0]
+
+
+_ON_WORLD = ROBOT.replace(
+    '<link name="base"/>',
+    '<link name="world"/><link name="base"/><joint name="stand" type="fixed">'
+    '<origin xyz="0 0 2"/><parent link="world"/><child link="base"/></joint>',
+)
+
+
+@pytest.mark.parametrize("generation", [1, 2])
+def test_a_root_link_called_world_is_a_frame(bench: Any, tmp_path: Path, generation: int) -> None:
+    static = bench.listen("/tf_static", "tf2_msgs/msg/TFMessage")
+    if generation == 2:
+        (tmp_path / "r.urdf").write_text(_ON_WORLD)
+        bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
+    else:
+        bench.graph.parameters.set("/robot_description", _ON_WORLD)
+        bench.start(_NODE)
+    bench.eventually(lambda: static)
+    found = _by_child(static[0].transforms)["base"]
+    assert (found.header.frame_id, found.transform.translation.z) == ("world", 2.0)
+    assert bench.stop() == [0]
+
+
+def test_segments_hold_the_root_link_called_world() -> None:
+    names = segment_names(read_description(_ON_WORLD))
+    assert names == ("arm", "base", "cam", "slide", "twin", "world")

@@ -25,7 +25,14 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, private_number, start_node
-from gazelle.nodes.tree import DESCRIPTION, TreeJoint, joint_tree, robot_of, take_description_file
+from gazelle.nodes.tree import (
+    DESCRIPTION,
+    TreeJoint,
+    joint_tree,
+    robot_of,
+    segment_names,
+    take_description_file,
+)
 
 __all__ = ["StateToTf", "run"]
 
@@ -52,8 +59,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         ignore_timestamp=bool(private(node, arguments, "ignore_timestamp", False)),
     )
     if ros2:
-        for link in sorted(one.name for one in model.links):
-            node.log("info", f"got segment {link}")
+        for name in segment_names(model):
+            node.log("info", f"got segment {name}")
         _publish_description(node)
     is_static = bool(private(node, arguments, "use_tf_static", True))
     _connect(node, states, is_static, _begin_ns(node, arguments))

@@ -18,7 +18,7 @@ from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
-from gazelle.geometry import Pose
+from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
 
@@ -29,11 +29,13 @@ __all__ = [
     "published_robot_of",
     "read_description",
     "robot_of",
+    "segment_names",
     "take_description_file",
 ]
 
 DESCRIPTION = "robot_description"
 _LOOK_S = 0.1
+_WORLD = "world"
 
 _TURNING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS})
 
@@ -168,9 +170,18 @@ def _read_or_say(node: Node, text: str) -> Model | None:
         return None
 
 
+def segment_names(model: Model) -> tuple[str, ...]:
+    """Return the frames of a robot by name, a root link ``world`` among them."""
+    ends = (joint.parent for joint in model.joints)
+    return tuple(sorted({*ends, *(link.name for link in model.links)}))
+
+
 def joint_tree(model: Model) -> tuple[TreeJoint, ...]:
-    """Return all joints with their poses relative to the parent link."""
-    poses = {link.name: link.T_model_link for link in model.links}
+    """Return all joints with their poses relative to the parent link.
+
+    A root link ``world`` is no link of the model; to the publishers it is a frame like any other.
+    """
+    poses = {_WORLD: IDENTITY_POSE, **{link.name: link.T_model_link for link in model.links}}
     return tuple(
         TreeJoint(joint, poses[joint.parent].inverse() @ joint.T_model_joint)
         for joint in model.joints

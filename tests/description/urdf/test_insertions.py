@@ -125,3 +125,12 @@ def test_contact_sensors_watch_lumped_collisions_by_gazebos_names(
     assert link is not None
     (sensor,) = link.sensors
     assert sensor.spec == ContactSpec((watched,))
+
+
+def test_plugins_of_visuals_are_told_as_not_loaded() -> None:
+    _, diagnostics = _loaded(
+        "<gazebo reference='b'><visual><plugin name='p' filename='libp.so'/></visual></gazebo>"
+    )
+    (found,) = diagnostics.by_code("sdf.plugin-not-loaded")
+    assert "plug-in 'libp.so' in <visual> is not loaded" in found.message
+    assert not diagnostics.by_code("xml.unknown-tag")

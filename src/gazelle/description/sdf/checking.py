@@ -10,7 +10,7 @@ from gazelle.description.sdf.tables import ELEMENTS
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 
-__all__ = ["check_elements"]
+__all__ = ["check_elements", "report_plugin_of"]
 
 _ANY_ATTRIBUTE_PREFIXES = ("xmlns", "xsi:")
 # Where people write plug-ins that are not loaded, why not, and what to do.
@@ -37,6 +37,14 @@ def check_elements(root: Tag, context: ReadContext) -> None:
     if root.name in ELEMENTS:
         checker.visit(root, root.name)
     checker.report(context)
+
+
+def report_plugin_of(plugin: Tag, kind: str, context: ReadContext, again: str = "") -> None:
+    """Report a plug-in of a link or visual, which no Gazebo loads or nobody here would see."""
+    why, fix = _PLUGIN_PLACES[kind]
+    name = plugin.attributes.get("filename", "")
+    message = f"plug-in '{name}' in <{kind}> is not loaded: {why}{again}"
+    context.diagnostics.report("sdf.plugin-not-loaded", message, plugin.span, fix=fix)
 
 
 class _Key(NamedTuple):
@@ -106,9 +114,7 @@ def _report(key: _Key, more: int, place: Tag, context: ReadContext) -> None:
         message = f"'{name}' in <{parent}> belongs to a private extension; it has no effect{again}"
         context.diagnostics.report("sdf.extension", message, place.span)
     elif key.what == "plugin":
-        why, fix = _PLUGIN_PLACES[key.kind]
-        message = f"plug-in '{name}' in <{parent}> is not loaded: {why}{again}"
-        context.diagnostics.report("sdf.plugin-not-loaded", message, place.span, fix=fix)
+        report_plugin_of(place, key.kind, context, again)
     else:
         message = f"<{name}> in <{parent}> is legal and not simulated{again}"
         context.diagnostics.report("sdf.not-simulated", message, place.span)

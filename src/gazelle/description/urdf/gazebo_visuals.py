@@ -7,6 +7,7 @@ from dataclasses import replace
 from gazelle.description.context import ReadContext
 from gazelle.description.materials import GAZEBO_MATERIAL_NAMES, gazebo_material
 from gazelle.description.model import Link, Material, Visual
+from gazelle.description.sdf.checking import report_plugin_of
 from gazelle.description.sdf.looks import read_material
 from gazelle.description.urdf.gazebo_values import (
     bool_value,
@@ -75,6 +76,8 @@ def _apply_block(visual: Visual, block: Tag, context: ReadContext) -> Visual:
             visual = visual if value is None else replace(visual, laser_retro=value)
         elif tag.name == "material":
             visual = replace(visual, material=read_material(tag, context) or visual.material)
+        elif tag.name == "plugin":
+            report_plugin_of(tag, "visual", context)
         elif tag.name not in _VISUAL_CHILDREN:
             report_unknown(tag, "a visual", _VISUAL_CHILDREN, context)
     return visual
