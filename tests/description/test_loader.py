@@ -254,9 +254,10 @@ def test_equal_findings_of_a_file_are_said_once() -> None:
     assert "the same 5 more times: 'l1'" in finding.message
 
 
-def test_sdf_of_2012_says_how_to_go_on() -> None:
-    models, diagnostics = _load("<gazebo version='1.2'><model name='m'/></gazebo>")
-    assert models == ()
+def test_sdf_of_2012_is_brought_to_a_version_that_is_read() -> None:
+    models, diagnostics = _load(
+        "<gazebo version='1.2'><model name='m'><link name='l'/></model></gazebo>"
+    )
+    assert [model.name for model in models] == ["m"]
     (finding,) = diagnostics
-    assert finding.code == "load.unknown-format"
-    assert "SDF 1.2 or older" in finding.fix
+    assert finding.code == "sdf.version"

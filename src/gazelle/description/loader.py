@@ -24,10 +24,9 @@ from gazelle.workspace import Resolved, Workspace
 __all__ = ["TEXT_NAME", "load_models", "load_world"]
 
 _Read = TypeVar("_Read")
-_SDF_ROOTS = frozenset({"light", "model", "sdf", "world"})
+_SDF_ROOTS = frozenset({"gazebo", "light", "model", "sdf", "world"})
 _MODEL_CONFIG = "model.config"
 _OTHER_FORMATS = {
-    "gazebo": "this is SDF 1.2 or older; bring it to 1.3 or later with 'gz sdf -p FILE'",
     "mujoco": "this is MuJoCo's format; turn it into a URDF: gazelle convert FILE -o robot.urdf",
 }
 

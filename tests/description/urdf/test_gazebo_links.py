@@ -152,8 +152,8 @@ def test_unknown_words_are_reported_with_the_nearest(read_link) -> None:
     assert "<mu3> is not known in <gazebo> for link 'a'" in message
     inner = read_link(TOUCHES, after=_block("<collision><surfaces/></collision>"))
     assert "did you mean 'surface'" in inner.message("xml.unknown-tag")
-    visual = read_link(f"<visual>{SPHERE}</visual>", after=_block("<visual><plugin/></visual>"))
-    assert "<plugin> is not known in <gazebo> for a visual" in visual.message("xml.unknown-tag")
+    visual = read_link(f"<visual>{SPHERE}</visual>", after=_block("<visual><plug/></visual>"))
+    assert "<plug> is not known in <gazebo> for a visual" in visual.message("xml.unknown-tag")
 
 
 def test_bad_number_is_reported_and_not_used(read_link) -> None:

@@ -12,6 +12,7 @@ from gazelle.description.sdf.checking import check_elements
 from gazelle.description.sdf.lights import read_light
 from gazelle.description.sdf.model_config import model_file_in
 from gazelle.description.sdf.models import included_model, read_model
+from gazelle.description.sdf.old_documents import upgraded
 from gazelle.description.sdf.parts import ModelParts
 from gazelle.description.sdf.versions import version_of
 from gazelle.description.sdf.worlds import read_world, report_actor
@@ -58,6 +59,7 @@ def read_sdf(source: str | bytes | Tag, *, context: ReadContext) -> SdfDocument:
         if parsed is None:
             return SdfDocument()
         root = parsed
+    root = upgraded(root, context)
     content = _content(root, context)
     if content is None:
         return SdfDocument()

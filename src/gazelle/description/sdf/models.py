@@ -14,6 +14,7 @@ from gazelle.description.sdf.frames import MODEL_FRAME, FrameGraph, FramePoint
 from gazelle.description.sdf.includes import closes_circle, included_file, share_findings
 from gazelle.description.sdf.joint_ends import JointEnds
 from gazelle.description.sdf.links import read_link
+from gazelle.description.sdf.old_documents import upgraded
 from gazelle.description.sdf.parts import Flattened, ModelParts
 from gazelle.description.sdf.plugins import read_plugins
 from gazelle.description.sdf.poses import pose_of, relative_to_of
@@ -154,6 +155,7 @@ def _model_of_file(path: Path, tag: Tag, context: ReadContext) -> ModelParts | N
 
 
 def _first_model(root: Tag, context: ReadContext) -> ModelParts | None:
+    root = upgraded(root, context)
     versioned = context.for_version(version_of(root, context))
     check_elements(root, versioned)
     model = root if root.name == "model" else root.find("model")

@@ -39,6 +39,8 @@ def apply_visual_words(link: Link, tags: list[Tag], context: ReadContext) -> Lin
         report_passed_over(link.name, visuals, tags[0], context)
     for tag in tags:
         if tag.name == "visual":
+            for plugin in tag.find_all("plugin"):
+                report_plugin_of(plugin, "visual", context)
             visuals = tuple(_apply_block(visual, tag, context) for visual in visuals)
             continue
         material = _script_material(tag, context)
@@ -76,8 +78,6 @@ def _apply_block(visual: Visual, block: Tag, context: ReadContext) -> Visual:
             visual = visual if value is None else replace(visual, laser_retro=value)
         elif tag.name == "material":
             visual = replace(visual, material=read_material(tag, context) or visual.material)
-        elif tag.name == "plugin":
-            report_plugin_of(tag, "visual", context)
-        elif tag.name not in _VISUAL_CHILDREN:
+        elif tag.name not in (*_VISUAL_CHILDREN, "plugin"):
             report_unknown(tag, "a visual", _VISUAL_CHILDREN, context)
     return visual
