@@ -67,7 +67,7 @@ def read_urdf_file(word: str, mappings: dict[str, str]) -> UrdfFile:
         tag = None if expanded is None else expanded.tag(diagnostics)
     else:
         text = data.decode("utf-8", errors="replace")
-        tag = None if tag is None else placed(tag, exact=True)
+        tag = None if tag is None else placed(tag)
     if tag is not None:
         folder = path.resolve().parent
         read_urdf(tag, context=ReadContext(workspace, diagnostics, str(path), folder))

@@ -198,7 +198,7 @@ def _models_of_file(
     if root is None:
         return ()
     if not is_xacro:
-        root = placed(root, exact=True)
+        root = placed(root)
     folder = path.resolve().parent
     context = ReadContext(workspace, diagnostics, str(path), folder, inserts=inserts)
     return tuple(replace(model, file=path) for model in _models_of_root(root, context))

@@ -55,8 +55,7 @@ def read_text(text: str, diagnostics: Diagnostics) -> Tag | None:
     root = parse_xml(text, place, diagnostics)
     if root is None:
         return None
-    is_own_file = place != TEXT_NAME and not place.endswith(_COPY_SUFFIX)
-    return placed(root, exact=is_own_file)
+    return placed(root)
 
 
 def _text_of(path: Path) -> str | None:

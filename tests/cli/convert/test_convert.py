@@ -198,3 +198,29 @@ def test_mjcf_given_to_other_commands_is_explained() -> None:
     load_models(MJCF, workspace=None, diagnostics=found)
     [item] = found.by_code("load.unknown-format")
     assert "gazelle convert FILE -o robot.urdf" in item.fix
+
+
+_MASS = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+)
+_TWO = (
+    '<robot name="r"><link name="a">{root}</link><link name="b">{mass}</link>'
+    '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>{more}</joint></robot>'
+)
+
+
+def test_a_robot_that_would_lose_every_link_is_refused(folder, capsys) -> None:
+    (folder / "r.urdf").write_text(_TWO.format(root="", mass=_MASS, more=""), encoding="utf-8")
+    assert convert("r.urdf", "-o", "r.sdf") != 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert "leaves out every link of 'r.urdf'" in said
+    assert "convert.no-links" in said
+    assert not (folder / "r.sdf").exists()
+
+
+def test_a_mimic_that_the_sdf_cannot_say_is_named(folder, capsys) -> None:
+    mimic = '<mimic joint="k"/>'
+    (folder / "r.urdf").write_text(_TWO.format(root=_MASS, mass=_MASS, more=mimic), "utf-8")
+    assert convert("r.urdf", "-o", "r.sdf") == 0
+    assert "joint 'j' follows 'k' no more" in capsys.readouterr().err

@@ -13,8 +13,9 @@ from pathlib import Path
 from gazelle.description.conversion import Converted
 from gazelle.description.model import Model, World
 from gazelle.description.sdformat import Release
+from gazelle.description.sdformat.element import SdfElement
 from gazelle.description.xacro import expand_xacro
-from gazelle.description.xml import read_xml
+from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names
 from gazelle.errors import GazelleError, NotFoundError, UserFileError
 from gazelle.workspace import Workspace
@@ -116,7 +117,37 @@ def as_sdformat(
         message = f"sdformat {release.value} refuses '{path}'"
         diagnostics.report("load.nothing", message, span)
         raise UserFileError(tuple(diagnostics))
+    _report_losses(path, text, document.root, release, diagnostics)
     return Converted(to_text(document.root, release), {})
+
+
+def _report_losses(
+    path: Path, text: str | None, made: SdfElement, release: Release, diagnostics: Diagnostics
+) -> None:
+    """Say what sdformat drops of a robot without a word.
+
+    Raises:
+        UserFileError: no link is left.
+    """
+    unheard = Diagnostics()
+    robot = read_xml(path, unheard) if text is None else parse_xml(text, str(path), unheard)
+    if robot is None or robot.name != "robot":
+        return
+    elements = list(made.walk())
+    if robot.find("link") is not None and not any(item.name == "link" for item in elements):
+        message = f"sdformat {release.value} leaves out every link of '{path}': the first link that"
+        message += " has no <inertial> goes with all that hangs on it"
+        diagnostics.report("convert.no-links", message, robot.span)
+        raise UserFileError(tuple(diagnostics))
+    if any(item.name == "mimic" for item in elements):
+        return
+    for joint in robot.find_all("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            name, leader = joint.attributes.get("name", ""), mimic.attributes.get("joint", "")
+            message = f"joint '{name}' follows '{leader}' no more: "
+            message += f"SDF of sdformat {release.value} has no <mimic>"
+            diagnostics.report("convert.left-out", message, mimic.span)
 
 
 def _expanded(

@@ -57,7 +57,7 @@ def report_findings(word: str) -> None:
             Workspace.discover(), diagnostics, str(path), base.parent, include_chain=(base,)
         )
         if tag.name == "robot":
-            read_urdf(placed(tag, exact=True), context=context)
+            read_urdf(placed(tag), context=context)
         else:
             read_sdf(tag, context=context)
     sys.stdout.flush()

@@ -81,7 +81,7 @@ def read_checked_source(
         )
         root = None if expanded is None else expanded.tag(diagnostics)
     elif root is not None:
-        root = placed(root, exact=True)
+        root = placed(root)
     if root is None:
         return CheckedSource()
     return CheckedSource(_models(root, context), links_below(root), {str(path)})

@@ -5,24 +5,23 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.source_maps.record import SourceMap, digest_of, sketch_of
+from gazelle.description.source_maps.record import SourceMap, digest_of
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["load_map", "save_map", "sketches"]
+__all__ = ["load_map", "save_map"]
 
-_VERSION = 1
+_VERSION = 2
 _MOST_FILES = 64
 _MOST_BYTES = 32_000_000
 
 
 def save_map(source_map: SourceMap) -> None:
     """Keep a map; without a word when the folder cannot be written, since it is a help only."""
-    head = json.dumps({"version": _VERSION, "sketch": sketch_of(source_map.keys)})
+    head = json.dumps({"version": _VERSION})
     data = f"{head}\n{json.dumps(_packed(source_map), separators=(',', ':'))}\n"
     folder = _folder()
     with suppress(OSError):
@@ -41,21 +40,10 @@ def load_map(name: str) -> SourceMap | None:
     """
     try:
         lines = (_folder() / f"{name}.json").read_text(encoding="utf-8").split("\n")
-        return _unpacked(json.loads(lines[1]))
+        known = json.loads(lines[0])["version"] == _VERSION
+        return _unpacked(json.loads(lines[1])) if known else None
     except (OSError, ValueError, LookupError, TypeError):
         return None
-
-
-def sketches() -> Iterator[tuple[str, list[int]]]:
-    """Yield the digest and the sketch of every map kept."""
-    for path in sorted(_folder().glob("*.json")):
-        try:
-            with path.open(encoding="utf-8") as stream:
-                head = json.loads(stream.readline())
-            if head["version"] == _VERSION:
-                yield path.stem, head["sketch"]
-        except (OSError, ValueError, LookupError, TypeError):
-            continue
 
 
 def _folder() -> Path:

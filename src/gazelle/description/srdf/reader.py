@@ -108,7 +108,7 @@ def _read_file(
     if root is None:
         return None
     if file.suffix != ".xacro" and not any(tag.name.startswith("xacro:") for tag in root.walk()):
-        return placed(root, exact=True)
+        return placed(root)
     from gazelle.description.xacro import expand_xacro
 
     expanded = expand_xacro(file, mappings=mappings, workspace=workspace, diagnostics=diagnostics)

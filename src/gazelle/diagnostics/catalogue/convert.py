@@ -62,6 +62,16 @@ ENTRIES = (
         "correct the source when Gazebo shall read it as it is meant",
     ),
     Entry(
+        "convert.no-links",
+        "error",
+        "Nothing of a robot would be left in the SDF",
+        "Gazebo's library drops a link without <inertial>, and all links that hang on it, without "
+        "a word. Nothing is written. Gazelle itself loads the robot with estimated inertia.",
+        "give the link an <inertial> (gazelle inertia writes one), or join it to an empty root link"
+        " by a fixed joint",
+        "urdf2sdf: link has no <inertial> block defined, not modeled in sdf",
+    ),
+    Entry(
         "convert.mjcf-outside",
         "info",
         "Something that moves the robot is not part of the MJCF file",
