@@ -165,7 +165,10 @@ _ROWS: dict[str, tuple[str, list[dict[str, Any]], list[str]]] = {
     ),
     "log": ('<log message="a \\$(b)"/>', [{"log": {"message": "a \\$(b)"}}], ["a $(b)"]),
 }
-_TESTED_APART = {"executable", "include"}
+_TESTED_APART = {
+    *("executable", "include", "for", "for_each"),
+    *("log_debug", "log_error", "log_info", "log_warning"),
+}
 
 
 @pytest.mark.parametrize("name", _ROWS)

@@ -275,3 +275,36 @@ def test_markup(text: str, expected: str, context: LaunchContext) -> None:
 def test_wrong_markup(text: str, message: str) -> None:
     with pytest.raises((ValueError, RuntimeError, TypeError), match=message):
         parse_substitution(text)
+
+
+@_row
+def PathSubstitution(context: LaunchContext) -> None:
+    path = s.PathSubstitution(s.LaunchConfiguration("word")) / "a" / ["b", ".txt"]
+    assert path.perform(context) == os.path.join("w", "a", "b.txt")  # noqa: PTH118
+    assert s.PathSubstitution(["x", "y"]).perform(context) == os.path.join("x", "y")  # noqa: PTH118
+    joined = s.PathJoinSubstitution(["x"]) / s.LaunchConfiguration("word")
+    assert joined.perform(context) == os.path.join("x", "w")  # noqa: PTH118
+
+
+@_row
+def StringJoinSubstitution(context: LaunchContext) -> None:
+    texts = [["a", s.LaunchConfiguration("word")], "b"]
+    assert s.StringJoinSubstitution(texts).perform(context) == "awb"
+    assert s.StringJoinSubstitution(texts, "-").describe().startswith("StringJoin([")
+    assert _markup(context, "$(string-join . x$(var word) y)") == "xw.y"
+    with pytest.raises(TypeError, match="string-join substitution expects at least 2 arguments"):
+        s.StringJoinSubstitution.parse(["."])
+
+
+@_row
+def ForEachVar(context: LaunchContext) -> None:
+    context.extend_locals({s.ForEachVar.get_local_arg_name("n"): "5"})
+    assert _markup(context, "$(for-var n)$(for-var m 6)") == "56"
+    with pytest.raises(s.SubstitutionFailure, match="No value available for ForEachVar 'm'"):
+        s.ForEachVar("m").perform(context)
+
+
+@_row
+def ForLoopIndex(context: LaunchContext) -> None:
+    context.extend_locals({s.ForEachVar.get_local_arg_name("i"): "2"})
+    assert _markup(context, "$(index i)") == "2"

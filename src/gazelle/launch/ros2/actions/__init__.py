@@ -26,9 +26,11 @@ from gazelle.launch.ros2.actions.events import (
 )
 from gazelle.launch.ros2.actions.execute_local import ExecuteLocal
 from gazelle.launch.ros2.actions.execute_process import ExecuteProcess
-from gazelle.launch.ros2.actions.functions import LogInfo, OpaqueCoroutine, OpaqueFunction
+from gazelle.launch.ros2.actions.functions import OpaqueCoroutine, OpaqueFunction
 from gazelle.launch.ros2.actions.group import GroupAction
 from gazelle.launch.ros2.actions.include import IncludeLaunchDescription
+from gazelle.launch.ros2.actions.log import Log, LogDebug, LogError, LogInfo, LogWarning
+from gazelle.launch.ros2.actions.loops import ForEach, ForLoop
 from gazelle.launch.ros2.actions.timer import TimerAction
 
 __all__ = [
@@ -37,9 +39,15 @@ __all__ = [
     "EmitEvent",
     "ExecuteLocal",
     "ExecuteProcess",
+    "ForEach",
+    "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
+    "Log",
+    "LogDebug",
+    "LogError",
     "LogInfo",
+    "LogWarning",
     "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",

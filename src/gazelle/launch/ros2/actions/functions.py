@@ -1,4 +1,4 @@
-"""Functions of the user, and lines of the log."""
+"""Functions of the user."""
 
 from __future__ import annotations
 
@@ -7,48 +7,16 @@ import inspect
 from collections.abc import Awaitable, Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.event import Event
 from gazelle.launch.ros2.event_handlers import OnShutdown
-from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
-from gazelle.launch.ros2.substitution import SomeSubstitutionsType
-from gazelle.launch.ros2.utilities import (
-    ensure_argument_type,
-    normalize_to_list_of_substitutions,
-    perform_substitutions,
-)
+from gazelle.launch.ros2.utilities import ensure_argument_type
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
 
-__all__ = ["LogInfo", "OpaqueCoroutine", "OpaqueFunction"]
-
-
-@expose_action("log")
-class LogInfo(Action):
-    """Logs a line.
-
-    Attributes:
-        msg: the line.
-    """
-
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.msg = normalize_to_list_of_substitutions(msg)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return class and arguments of a ``<log>``."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
-        return cls, kwargs
-
-    def execute(self, context: LaunchContext) -> None:
-        """Log it."""
-        text = perform_substitutions(context, self.msg)
-        launch_logging.get_logger("launch.user").info(text)
+__all__ = ["OpaqueCoroutine", "OpaqueFunction"]
 
 
 class OpaqueFunction(Action):

@@ -22,8 +22,14 @@ from gazelle.launch.ros2.substitutions.files import (
     FindExecutable,
     LaunchLogDir,
     PathJoinSubstitution,
+    PathSubstitution,
     ThisLaunchFile,
     ThisLaunchFileDir,
+)
+from gazelle.launch.ros2.substitutions.joined import (
+    ForEachVar,
+    ForLoopIndex,
+    StringJoinSubstitution,
 )
 from gazelle.launch.ros2.substitutions.values import (
     AnonName,
@@ -42,6 +48,8 @@ __all__ = [
     "EqualsSubstitution",
     "FileContent",
     "FindExecutable",
+    "ForEachVar",
+    "ForLoopIndex",
     "IfElseSubstitution",
     "LaunchConfiguration",
     "LaunchLogDir",
@@ -50,7 +58,9 @@ __all__ = [
     "NotSubstitution",
     "OrSubstitution",
     "PathJoinSubstitution",
+    "PathSubstitution",
     "PythonExpression",
+    "StringJoinSubstitution",
     "SubstitutionFailure",
     "TextSubstitution",
     "ThisLaunchFile",

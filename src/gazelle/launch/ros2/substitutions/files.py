@@ -27,6 +27,7 @@ __all__ = [
     "FindExecutable",
     "LaunchLogDir",
     "PathJoinSubstitution",
+    "PathSubstitution",
     "ThisLaunchFile",
     "ThisLaunchFileDir",
 ]
@@ -52,6 +53,22 @@ class PathJoinSubstitution(Substitution):
         parts = [perform_substitutions(context, part) for part in self.substitutions]
         # Not Path: it would take a trailing slash away.
         return os.path.join(*parts)  # noqa: PTH118
+
+    def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
+        """Return the path with one more part."""
+        return PathJoinSubstitution([*self.substitutions, additional_path])
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """A path to which parts are added with ``/``, as to a `pathlib.Path`."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        """Begin a path.
+
+        Args:
+            path: its first part, or several parts.
+        """
+        super().__init__(normalize_to_list_of_substitutions(path))
 
 
 @expose_substitution("find-exec")

@@ -1,0 +1,1 @@
+"""Drop-in for controller_manager."""

@@ -1,0 +1,15 @@
+"""Drop-in for controller_manager.launch_utils."""
+
+from gazelle.launch.ros2.controllers import (
+    generate_controllers_spawner_launch_description,
+    generate_controllers_spawner_launch_description_from_dict,
+    generate_load_controller_launch_description,
+    generate_spawner_launch_description,
+)
+
+__all__ = [
+    "generate_controllers_spawner_launch_description",
+    "generate_controllers_spawner_launch_description_from_dict",
+    "generate_load_controller_launch_description",
+    "generate_spawner_launch_description",
+]
