@@ -49,3 +49,8 @@ def test_the_docs_page_has_every_code():
     for code, entry in all_entries().items():
         assert f"### `{code}` ({entry.severity})" in page
         assert entry.title in page
+
+
+def test_no_phrase_holds_a_word_that_stands_for_a_name() -> None:
+    """People search for what ROS prints, which has the case's own name there."""
+    assert [entry.code for entry in ENTRIES if re.search(r"\bNAME\b|<name>", entry.phrase)] == []

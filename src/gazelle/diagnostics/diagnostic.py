@@ -86,6 +86,7 @@ class Diagnostics:
         *,
         fix: str = "",
         severity: Severity | None = None,
+        phrase: str = "",
     ) -> None:
         """Add a finding by its catalogue code.
 
@@ -95,13 +96,14 @@ class Diagnostics:
             span: where.
             fix: what to do here; the catalogue's general remedy when empty.
             severity: overrides the catalogue's.
+            phrase: what ROS or Gazebo prints in this very case; the catalogue's when empty.
 
         Raises:
             KeyError: `code` is not in the catalogue.
         """
         entry = entry_for(code)
         chosen = Severity[entry.severity.upper()] if severity is None else severity
-        self.add(Diagnostic(code, chosen, message, span, fix or entry.fix, entry.phrase))
+        self.add(Diagnostic(code, chosen, message, span, fix or entry.fix, phrase or entry.phrase))
 
     def extend(self, other: Diagnostics) -> None:
         """Keep all findings of another collection."""

@@ -110,7 +110,7 @@ def test_arguments_of_a_launch_are_given_as_for_roslaunch(
     monkeypatch.chdir(tmp_path)
     assert main(["one.launch", "rate:=5"]) == 0
     assert main(["one.launch"]) == 2
-    assert "requires the 'NAME' arg to be set" in capsys.readouterr().out
+    assert f"RLException: [{file}] requires the 'rate' arg to be set" in capsys.readouterr().out
 
 
 def test_unknown_target_ends_with_2_and_names_the_nearest(

@@ -43,7 +43,7 @@ ENTRIES = (
         "error",
         "A file holds several models and the other format only one",
         "A URDF is one robot.",
-        "name the one that is meant with --model NAME",
+        "name the one that is meant with --model",
     ),
     Entry(
         "convert.file-address",

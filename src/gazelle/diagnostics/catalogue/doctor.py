@@ -47,7 +47,7 @@ ENTRIES = (
         "A launch file of a package needs arguments",
         "It has arguments without defaults, so nobody can start it without knowing them.",
         "examine it with its arguments",
-        "requires the 'NAME' arg to be set",
+        "RLException: requires the arg to be set",
     ),
     Entry(
         "doctor.bad-arguments",

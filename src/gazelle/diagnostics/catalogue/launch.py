@@ -13,7 +13,7 @@ ENTRIES = (
         "The root element is not <launch>",
         "roslaunch reads nothing else.",
         "wrap the content in <launch> … </launch>",
-        "Invalid roslaunch XML syntax: no root <launch> tag",
+        "RLException: Invalid roslaunch XML syntax: no root <launch> tag",
     ),
     Entry(
         "launch.bad-attribute",
@@ -28,7 +28,7 @@ ENTRIES = (
         "Both if and unless on one element",
         "They contradict each other, so the element is left out.",
         "keep one of the two",
-        "cannot set both 'if' and 'unless' on the same tag",
+        "RLException: cannot set both 'if' and 'unless' on the same tag",
     ),
     Entry(
         "launch.arg-missing",
@@ -36,7 +36,7 @@ ENTRIES = (
         "An argument has no value",
         "It is required by the file and was not given.",
         "give it on the command line as name:=value, or write a default in its <arg>",
-        "requires the 'NAME' arg to be set",
+        "RLException: requires the arg to be set",
     ),
     Entry(
         "launch.arg-undeclared",
@@ -52,7 +52,7 @@ ENTRIES = (
         "An argument is declared twice",
         "The first declaration counts.",
         "remove one of the two",
-        "arg has already been declared",
+        "RLException: arg has already been declared",
     ),
     Entry(
         "launch.arg-fixed",
@@ -60,7 +60,7 @@ ENTRIES = (
         "An argument with a fixed value is given another one",
         "<arg value=…> cannot be set from outside; <arg default=…> can.",
         "write default instead of value, or do not pass the argument",
-        "cannot override arg, which has already been set",
+        "RLException: cannot override arg, which has already been set",
     ),
     Entry(
         "launch.arg-unused",
@@ -68,7 +68,7 @@ ENTRIES = (
         "An include passes an argument that the file does not declare",
         "roslaunch refuses this, since it is nearly always a mistyped name.",
         "declare the argument in the included file or do not pass it",
-        "unused args for include of",
+        "RLException: unused args for include of",
     ),
     Entry(
         "launch.arg-unused-command-line",
@@ -82,7 +82,7 @@ ENTRIES = (
         "error",
         "An environment variable is not set",
         "$(env …) needs it.",
-        "export it before, or use $(optenv NAME default)",
+        "export it before, or use $(optenv …), which takes a default",
         "environment variable is not set",
     ),
     Entry(
@@ -163,7 +163,7 @@ ENTRIES = (
         "Two nodes have the same name",
         "The second would shut down the first.",
         'rename one, or use name="$(anon id)"',
-        "roslaunch file contains multiple nodes named",
+        "RLException: roslaunch file contains multiple nodes named",
     ),
     Entry(
         "launch.bad-node-name",

@@ -65,7 +65,7 @@ ENTRIES = (
         "error",
         "There is no robot to plan for",
         "A MoveIt config package names its URDF in .setup_assistant or has it in config.",
-        "write config/NAME.urdf.xacro, or run the Setup Assistant",
+        "write the robot into config, with the ending .urdf.xacro, or run the Setup Assistant",
         "Cannot infer URDF",
     ),
     Entry(
@@ -73,7 +73,7 @@ ENTRIES = (
         "warning",
         "A planning pipeline has no parameters",
         "Its name is in planning_pipelines and nothing stands below that name.",
-        "add NAME_planning.yaml, or take the name out",
+        "add its file, whose name ends in _planning.yaml, or take the name out",
         "Failed to initialize planning pipeline",
     ),
     Entry(
@@ -97,7 +97,7 @@ ENTRIES = (
         "error",
         "A robot has no planning groups",
         "Groups stand in an SRDF, and there is none.",
-        "write NAME.srdf, or run the MoveIt Setup Assistant",
+        "write config/….srdf, or run the MoveIt Setup Assistant",
         "Could not find parameter robot_description_semantic",
     ),
     Entry(

@@ -84,7 +84,9 @@ def _report_required(config: LaunchConfig, found: Diagnostics, examination: Exam
         text = f"'{Path(config.files[0]).name}' needs the environment and is not examined: "
         text += unset[0].message
         fix = "examine it with the variable exported"
-        examination.diagnostics.report("doctor.needs-arguments", text, unset[0].span, fix=fix)
+        examination.diagnostics.report(
+            "doctor.needs-arguments", text, unset[0].span, fix=fix, phrase=unset[0].phrase
+        )
         return True
     needed = [item for item in config.args if item.default is None and item.value is None]
     given = examination.options.arguments
@@ -96,7 +98,10 @@ def _report_required(config: LaunchConfig, found: Diagnostics, examination: Exam
     text = f"'{file.name}' needs arguments and is not examined: "
     text += ", ".join(f"{item.name} ({item.doc})" if item.doc else item.name for item in missing)
     fix = f"examine it with them: gazelle doctor {file} {words}"
-    examination.diagnostics.report("doctor.needs-arguments", text, missing[0].span, fix=fix)
+    phrase = f"RLException: [{file}] requires the '{missing[0].name}' arg to be set"
+    examination.diagnostics.report(
+        "doctor.needs-arguments", text, missing[0].span, fix=fix, phrase=phrase
+    )
     return True
 
 

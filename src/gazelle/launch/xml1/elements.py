@@ -17,6 +17,10 @@ from gazelle.launch.xml1.substitution import UNREADABLE
 __all__ = ["HANDLERS"]
 
 _LEGAL_NODE_NAME = re.compile(r"^[A-Za-z][\w]*$")
+# What rosgraph.names.is_legal_name takes.
+_LEGAL_NAME = re.compile(r"^[~/A-Za-z](?!.*//)[\w/]*$", re.ASCII)
+_MACHINE_OF_OLD = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname", "ros-host-name")
+_NOT_OF_TESTS = ("respawn", "respawn_delay", "output")
 _NODE_CHILDREN = ("param", "rosparam", "remap", "env")
 
 
@@ -26,7 +30,8 @@ def _arg(tag: Tag, scope: Scope, reading: Reading) -> None:
         message = f"Invalid <arg> tag: '{name}' has both default and value"
         raise TagError("launch.bad-attribute", message, fix="keep default to let callers change it")
     if name in scope.args:
-        raise TagError("launch.arg-redeclared", f"arg '{name}' has already been declared")
+        message = f"arg '{name}' has already been declared"
+        raise TagError("launch.arg-redeclared", message, phrase=f"RLException: {message}")
     # Until its text turns out to have a value.
     scope.args[name] = UNREADABLE
     default = reading.text(tag, "default", scope) if "default" in tag.attributes else None
@@ -38,24 +43,44 @@ def _arg(tag: Tag, scope: Scope, reading: Reading) -> None:
         scope.args[name] = value
         if name in scope.given and not scope.pass_all:
             message = f"cannot override arg '{name}', which has already been set to '{value}'"
-            raise TagError("launch.arg-fixed", message)
+            raise TagError("launch.arg-fixed", message, phrase=f"RLException: {message}")
     else:
         scope.args[name] = scope.given.get(name, default)
 
 
 def _env(tag: Tag, scope: Scope, reading: Reading) -> None:
+    if "value" not in tag.attributes:
+        message = "<env> tag is missing required name/value attributes: it has no 'value'"
+        raise TagError("xml.missing-attribute", message, tag.span)
     scope.env[reading.required(tag, "name", scope)] = reading.text(tag, "value", scope)
 
 
 def _machine(tag: Tag, scope: Scope, reading: Reading) -> None:
+    old = [word for word in _MACHINE_OF_OLD if word in tag.attributes]
+    old += ["<env>" for child in tag.children if child.name == "env"]
+    if old:
+        message = f"<machine>: {old[0]} is not supported since ROS Fuerte"
+        fix = "write a script that sets the environment and name it in env-loader"
+        raise TagError("launch.bad-attribute", message, tag.span, fix)
     name = reading.required(tag, "name", scope)
     address = reading.required(tag, "address", scope)
+    if "timeout" in tag.attributes:
+        reading.positive(tag, "timeout", scope, 0.0)
+    for child in tag.children:
+        what = f"<{child.name}> in <machine>"
+        reading.unknown("xml.unknown-tag", what, child.name, (), child, scope)
     default = reading.choice(tag, "default", scope, ("false", "true", "never"))
     reading.config.machines.append(Machine(name, address, default, tag.span))
 
 
 def _remap(tag: Tag, scope: Scope, reading: Reading) -> None:
-    scope.add_remap(reading.required(tag, "from", scope), reading.required(tag, "to", scope))
+    names = [reading.required(tag, word, scope) for word in ("from", "to")]
+    for word, name in zip(("from", "to"), names, strict=True):
+        if not _LEGAL_NAME.match(name):
+            message = f"Invalid <remap> tag: remap {word} [{name}] is not a valid ROS name"
+            fix = "write a letter, '/' or '~' first, then letters, digits, '_' and '/'"
+            raise TagError("launch.bad-attribute", message, tag.span, fix)
+    scope.add_remap(*names)
 
 
 def _node(tag: Tag, scope: Scope, reading: Reading) -> None:
@@ -65,18 +90,27 @@ def _node(tag: Tag, scope: Scope, reading: Reading) -> None:
 
 
 def _test(tag: Tag, scope: Scope, reading: Reading) -> None:
+    for word in _NOT_OF_TESTS:
+        if word in tag.attributes:
+            message = f"<test> tags cannot have '{word}' attribute"
+            raise TagError("launch.bad-attribute", message, tag.span, f"remove {word}=")
     test_name = reading.required(tag, "test-name", scope)
     name = reading.text(tag, "name", scope) or test_name
     spec = _node_spec(tag, scope, reading, name)
-    limit = reading.number(tag, "time-limit", scope, 60.0)
+    limit = reading.positive(tag, "time-limit", scope, 60.0)
     retry = int(reading.number(tag, "retry", scope, 0))
     reading.config.tests.append(TestSpec(spec, test_name, limit, retry))
     reading.config.node_files.setdefault(spec.full_name, scope.file)
 
 
 def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeSpec:
-    inner = scope.child(reading.text(tag, "ns", scope))
+    inner = scope.child(reading.namespace(tag, scope))
     _check_node_name(name)
+    respawn, required = (reading.flag(tag, word, scope) for word in ("respawn", "required"))
+    if respawn and required:
+        message = f"respawn and required cannot both be set to true, as for node '{name}'"
+        fix = "keep respawn to start it again, required to end everything with it"
+        raise TagError("launch.bad-attribute", message, tag.span, fix)
     reading.clear_params(tag, inner.child(name))
     _private_params(inner, name, reading)
     _node_children(tag, inner, name, reading)
@@ -88,9 +122,9 @@ def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeSpec:
         args=reading.text(tag, "args", scope),
         remaps=inner.remaps,
         env=tuple(inner.env.items()),
-        respawn=reading.flag(tag, "respawn", scope),
+        respawn=respawn,
         respawn_delay_s=reading.number(tag, "respawn_delay", scope, 0.0),
-        required=reading.flag(tag, "required", scope),
+        required=required,
         output=_output(tag, scope, reading),
         cwd=_cwd(tag, scope, reading),
         launch_prefix=reading.text(tag, "launch-prefix", scope),

@@ -85,7 +85,9 @@ def _load_children(parent: Tag, scope: Scope, reading: Reading) -> None:
         except TagError as error:
             if error.code != TOLD:
                 span = reading.located(error.span or tag.span, scope)
-                reading.diagnostics.report(error.code, str(error), span, fix=error.fix)
+                reading.diagnostics.report(
+                    error.code, str(error), span, fix=error.fix, phrase=error.phrase
+                )
 
 
 def _load_element(tag: Tag, scope: Scope, reading: Reading) -> None:
@@ -97,8 +99,8 @@ def _load_element(tag: Tag, scope: Scope, reading: Reading) -> None:
     if not reading.condition(tag, scope):
         return
     if tag.name == "group":
-        inner = scope.child(reading.text(tag, "ns", scope))
-        reading.clear_params(tag, inner)
+        inner = scope.child(reading.namespace(tag, scope))
+        reading.clear_params(tag, inner, needs_namespace=True)
         _load_children(tag, inner, reading)
     elif tag.name == "include":
         _include(tag, scope, reading)
@@ -110,11 +112,11 @@ def _include(tag: Tag, scope: Scope, reading: Reading) -> None:
     file = reading.text(tag, "file", scope)
     path = Path(file) if Path(file).is_absolute() else Path(scope.file).parent / file
     given = _include_args(tag, scope, reading)
-    inner = scope.included(str(path), reading.text(tag, "ns", scope), given, tag.span)
+    inner = scope.included(str(path), reading.namespace(tag, scope), given, tag.span)
     inner.pass_all = reading.flag(tag, "pass_all_args", scope)
     for child in tag.find_all("env"):
         HANDLERS["env"](child, inner, reading)
-    reading.clear_params(tag, inner)
+    reading.clear_params(tag, inner, needs_namespace=True)
     if os.path.realpath(path) in map(os.path.realpath, _open_files(scope)):
         chain = " → ".join([*_open_files(scope), str(path)])
         raise TagError("launch.include-cycle", f"include cycle: {chain}")
@@ -163,7 +165,8 @@ def _check_given(root: Tag, scope: Scope, reading: Reading, *, top: bool) -> Non
     what = f"[{scope.file}]" if top else f"include of [{scope.file}]"
     message = f"unused args [{names}] for {what}; it declares: {declared}"
     span = scope.stack[-1] if scope.stack else root.span
-    reading.diagnostics.report(code, message, span)
+    phrase = "" if top else f"RLException: unused args [{names}] for {what}"
+    reading.diagnostics.report(code, message, span, phrase=phrase)
 
 
 def _check_names(reading: Reading) -> None:
@@ -174,5 +177,6 @@ def _check_names(reading: Reading) -> None:
                 f"roslaunch file contains multiple nodes named [{node.full_name}]; "
                 f"the first is at {seen[node.full_name]}"
             )
-            reading.diagnostics.report("launch.duplicate-node", message, node.span)
+            phrase = f"RLException: {message.partition(';')[0]}"
+            reading.diagnostics.report("launch.duplicate-node", message, node.span, phrase=phrase)
         seen.setdefault(node.full_name, node.span)

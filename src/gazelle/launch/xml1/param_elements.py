@@ -43,6 +43,9 @@ def rosparam(tag: Tag, scope: Scope, reading: Reading) -> None:
     inner = scope.child(reading.text(tag, "ns", scope))
     name = reading.text(tag, "param", scope)
     target = _absolute(name, inner) if name else inner.namespace.rstrip("/")
+    if "file" in tag.attributes and command == "delete":
+        message = "error loading <rosparam> tag: 'file' attribute is invalid with 'delete' command"
+        raise TagError("launch.bad-attribute", message, tag.span, "remove file=")
     if command == "delete":
         reading.config.deleted_params.append(target or "/")
     elif command == "dump":
@@ -54,6 +57,9 @@ def rosparam(tag: Tag, scope: Scope, reading: Reading) -> None:
 
 def _load(tag: Tag, name: str, target: str, scope: Scope, reading: Reading) -> None:
     file = reading.text(tag, "file", scope)
+    if not file and "file" in tag.attributes:
+        message = "error loading <rosparam> tag: file does not exist []: 'file' is empty"
+        raise TagError("launch.bad-attribute", message, tag.span, "name a file, or remove file=")
     text = _read_text(Path(file), "file", tag) if file else tag.raw_text
     if reading.flag(tag, "subst_value", scope):
         text = _substitute_lines(text, tag, scope, reading)

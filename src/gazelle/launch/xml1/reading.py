@@ -26,9 +26,15 @@ class TagError(Exception):
     """An element cannot be used; carries what its diagnostic says."""
 
     def __init__(
-        self, code: str, message: str, span: SourceSpan | None = None, fix: str = ""
+        self,
+        code: str,
+        message: str,
+        span: SourceSpan | None = None,
+        fix: str = "",
+        phrase: str = "",
     ) -> None:
         self.code = code
+        self.phrase = phrase
         self.span = span
         self.fix = fix
         super().__init__(message)
@@ -76,7 +82,9 @@ class Reading:
         try:
             return self.substitution(scope).apply(text)
         except SubstitutionError as error:
-            raise TagError(error.code, str(error), tag.span, error.fix) from error
+            file = f"included file [{scope.file}]" if scope.stack else f"[{scope.file}]"
+            phrase = error.phrase.replace("requires", f"{file} requires", 1)
+            raise TagError(error.code, str(error), tag.span, error.fix, phrase) from error
 
     def text(self, tag: Tag, name: str, scope: Scope, default: str = "") -> str:
         """Return a substituted attribute, `default` when it is absent."""
@@ -125,6 +133,32 @@ class Reading:
             message = f"<{tag.name} {name}>: '{value}' is not a number"
             raise TagError("launch.bad-attribute", message, tag.span) from error
 
+    def positive(self, tag: Tag, name: str, scope: Scope, default: float) -> float:
+        """Return a number attribute that must be above zero where it is written.
+
+        Raises:
+            TagError: it is no number, or not above zero.
+        """
+        value = self.number(tag, name, scope, default)
+        if name in tag.attributes and not value > 0.0:
+            message = f"<{tag.name} {name}>: '{name}' must be a positive number, found {value:g}"
+            raise TagError(
+                "launch.bad-attribute", message, tag.span, f"remove {name}= for the default"
+            )
+        return value
+
+    def namespace(self, tag: Tag, scope: Scope) -> str:
+        """Return ``ns``, empty where it is not written.
+
+        Raises:
+            TagError: it is written and empty.
+        """
+        value = self.text(tag, "ns", scope)
+        if not value and "ns" in tag.attributes:
+            message = f"<{tag.name}> tag has an empty 'ns' attribute"
+            raise TagError("launch.bad-attribute", message, tag.span, "remove ns=, or write a name")
+        return value
+
     def choice(self, tag: Tag, name: str, scope: Scope, choices: tuple[str, ...]) -> str:
         """Return an attribute that has to be one of a few words; the first is the default.
 
@@ -167,9 +201,17 @@ class Reading:
         message = f"{what} is not known to roslaunch; it has no effect"
         self.diagnostics.report(code, message, self.located(tag.span, scope), fix=hint)
 
-    def clear_params(self, tag: Tag, scope: Scope) -> None:
-        """Note ``clear_params="true"`` for the namespace of `scope`."""
+    def clear_params(self, tag: Tag, scope: Scope, *, needs_namespace: bool = False) -> None:
+        """Note ``clear_params="true"`` for the namespace of `scope`.
+
+        Raises:
+            TagError: the element needs a namespace of its own for that, and has none.
+        """
         if self.flag(tag, "clear_params", scope):
+            if needs_namespace and "ns" not in tag.attributes:
+                message = f"<{tag.name}>: 'ns' attribute must be set in order to use 'clear_params'"
+                fix = 'add ns="…": without one every parameter would be cleared'
+                raise TagError("launch.bad-attribute", message, tag.span, fix)
             self.config.clear_params.append(scope.namespace)
 
     def located(self, span: SourceSpan, scope: Scope) -> SourceSpan:

@@ -35,10 +35,12 @@ class SubstitutionError(Exception):
     Attributes:
         code: the diagnostic's code.
         fix: what to do, or empty for the catalogue's advice.
+        phrase: what roslaunch prints, or empty for the catalogue's.
     """
 
-    def __init__(self, code: str, message: str, fix: str = "") -> None:
+    def __init__(self, code: str, message: str, fix: str = "", phrase: str = "") -> None:
         self.code = code
+        self.phrase = phrase
         self.fix = fix
         super().__init__(message)
 
@@ -117,7 +119,8 @@ class Substitution:
         name = _one(rest, "env")
         if name not in self.environ:
             message = f"environment variable '{name}' is not set"
-            raise SubstitutionError("launch.env-missing", message)
+            fix = f"export it before, or write a default: $(optenv {name} …)"
+            raise SubstitutionError("launch.env-missing", message, fix, message)
         return self.environ[name]
 
     def _optenv(self, rest: list[str]) -> str:
@@ -145,8 +148,9 @@ class Substitution:
         value = self.args[name]
         if value is None:
             message = f"required arg '{name}' has no value"
-            fix = f"give it on the command line: {name}:=VALUE"
-            raise SubstitutionError("launch.arg-missing", message, fix)
+            fix = f"give it on the command line: {name}:=…"
+            phrase = f"RLException: requires the '{name}' arg to be set"
+            raise SubstitutionError("launch.arg-missing", message, fix, phrase)
         if value == UNREADABLE:
             raise SubstitutionError(TOLD, f"arg '{name}' could not be read")
         return value

@@ -28,8 +28,7 @@ ELEMENTS: dict[str, Element] = {
     "include": Element(("file",), ("ns", "clear_params", "pass_all_args")),
     "machine": Element(
         ("name", "address"),
-        ("env-loader", "ssh-port", "user", "password", "default", "timeout", "ros-root",
-         "ros-package-path"),
+        ("env-loader", "ssh-port", "user", "password", "default", "timeout"),
     ),
     "node": Element(
         ("pkg", "type", "name"),
