@@ -128,3 +128,16 @@ def test_latest_points_at_the_newest_run(launch: Run, node: Run, tmp_path: Path)
     latest = tmp_path / "ros_home" / "log" / "latest"
     assert latest.readlink().name == "my_run"
     assert (latest / "rosout.log").is_file()
+
+
+@pytest.mark.parametrize("words", [("--wait",), ("--screen",)])
+def test_launch_of_parameters_alone_ends_where_somebody_else_carries_the_graph(
+    gazelle: Run, tmp_path: Path, free_port: int, words: tuple[str, ...]
+) -> None:
+    file = tmp_path / "noop.launch"
+    file.write_text('<launch><param name="noop" value="noop"/></launch>', encoding="utf-8")
+    with Graph.open(port=free_port, role="hub") as graph:
+        run = gazelle("roslaunch", *words, str(file))
+        assert run.wait() == 0
+        assert "No processes to monitor" in run.lines
+        assert graph.parameters.get("/noop") == "noop"

@@ -166,6 +166,11 @@ class _Run:
         self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, in_turn: bool
     ) -> int:
         """Start everything, spawners in turn when asked for, and stay until the launch is over."""
+        if not nodes and not self._graph.is_hub:
+            # Parameters are set, and who carries the graph keeps them.
+            self._console.plain("No processes to monitor")
+            self._console.plain("shutting down processing monitor...")
+            return 0
         # Another launch on this graph has it already.
         has_rosout = _ROSOUT.full_name in self._graph.node_names()
         rosout = (
