@@ -409,6 +409,8 @@ def test_spawning_uses_pose_frame_and_namespace(
 def test_ros_2_names_do_the_same(world: World) -> None:
     answer = world.call("/spawn_entity", "SpawnEntity", name="two", xml=BOX.format(name="x"))
     assert answer.status_message == "SpawnEntity: Successfully spawned entity [two]"
+    answer = world.call("/spawn_entity", "SpawnEntity", name="two", xml=BOX.format(name="x"))
+    assert answer.status_message == "Entity [two] already exists."
     assert world.call("/get_model_list", "GetModelList").model_names[-1] == "two"
     wanted = state("EntityState", name="two", pose=pose_message(Pose((0.0, 3.0, 0.1))))
     assert world.call("/set_entity_state", "SetEntityState", state=wanted).success

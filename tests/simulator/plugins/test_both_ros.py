@@ -132,6 +132,12 @@ def test_every_plug_in_of_both_is_in_the_table() -> None:
     assert both == {row.family for row in ROWS}
 
 
+@pytest.mark.parametrize("row", ROWS, ids=[f"{row.family}-{n}" for n, row in enumerate(ROWS)])
+def test_nothing_of_dynamic_reconfigure_is_in_ros2(row: Row) -> None:
+    found, _ = names(row, 2)
+    assert not [name for name in found if name.endswith(("_descriptions", "_updates"))]
+
+
 def test_without_a_start_the_ros_tag_decides() -> None:
     row = ROWS[0]
     assert "/image_raw" in names(row, 0)[0]

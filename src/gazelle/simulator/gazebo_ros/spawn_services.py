@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SpawnServices"]
 
+_ROS1 = "SpawnModel"
 Report = Callable[[Diagnostics], None]
 
 
@@ -53,7 +54,7 @@ class SpawnServices:
         self._spawn_model(request, response)
 
     def _spawn_model(self, request: Any, response: Any) -> None:
-        self._spawn("SpawnModel", request.model_name, request.model_xml, request, response)
+        self._spawn(_ROS1, request.model_name, request.model_xml, request, response)
 
     def _spawn_entity(self, request: Any, response: Any) -> None:
         name, text = request.name, request.xml
@@ -69,7 +70,9 @@ class SpawnServices:
             response.status_message += "forget to scope the link by model name?"
             return
         if self._server.engine.world.model(name) is not None:
-            response.status_message = f"{word}: Failure - entity already exists."
+            text = f"{word}: Failure - entity already exists."
+            # ROS 2's factory has words of its own.
+            response.status_message = text if word == _ROS1 else f"Entity [{name}] already exists."
             return
         pose = frame.T_world_entity @ pose_from_message(request.initial_pose)
         found = Diagnostics()

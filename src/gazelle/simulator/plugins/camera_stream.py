@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["CameraStream", "camera_place", "check_frame"]
 
-_ROS2 = 2
 Build = Callable[[int, "CameraRecord"], Any]
 
 
@@ -170,9 +169,6 @@ class CameraStream:
         response.status_message = ""
 
     def _offer_rate(self, namespace: str) -> None:
-        if self._host.ros_version == _ROS2:
-            # There is no dynamic_reconfigure in ROS 2.
-            return
         rate = DynamicParameter(
             "imager_rate", "double", 2.0, "Frame rate of the camera, Hz.", 1.0, 50.0, level=3
         )

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from gazelle.graph.reconfigure import DynamicParameter, ReconfigureServer, Value
+from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.plugins.context import Host, Resources
 
 __all__ = ["DynamicParameter", "DynamicParameters"]
+
+_ROS2 = 2
 
 
 class DynamicParameters(ReconfigureServer):
@@ -25,6 +28,9 @@ class DynamicParameters(ReconfigureServer):
     ) -> None:
         """Offer topics and service, and set the parameters in the store.
 
+        ROS 2 has no dynamic_reconfigure: there the values are kept for their owner and nobody
+        sees them.
+
         Args:
             resources: close them.
             host: has the node, and runs requests in the thread that owns the world.
@@ -34,7 +40,7 @@ class DynamicParameters(ReconfigureServer):
             reads_store: a value that is set in the store already is taken over.
         """
         super().__init__(
-            host.node,
+            LocalNode() if host.ros_version == _ROS2 else host.node,
             namespace,
             parameters,
             lambda values, level: changed(values),
