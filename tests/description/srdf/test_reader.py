@@ -132,6 +132,12 @@ def test_all_unknown_names_are_told_at_once_with_places(read: Reader) -> None:
             "the decimal sign is a dot",
         ),
         (
+            '<group name="a"><joint name="mount"/></group>'
+            '<group_state name="up" group="a"><joint name="mount" value="0"/></group_state>',
+            "srdf.fixed-state",
+            "joint 'mount' is fixed and has no position; its value has no effect",
+        ),
+        (
             '<virtual_joint name="v" type="fixd" parent_frame="world" child_link="base"/>',
             "srdf.virtual-joint",
             "did you mean 'fixed'?",

@@ -49,6 +49,10 @@ def _read_value(tag: Tag, names: Names, counts: dict[str, int]) -> tuple[str, tu
     check_vocabulary(tag, names.diagnostics, attributes=("name", "value"))
     joint = names.joint(tag, "name")
     text = names.required(tag, "value") if joint else ""
+    if text and counts.get(joint) == 0:
+        message = f"joint '{joint}' is fixed and has no position; its value has no effect"
+        names.diagnostics.report("srdf.fixed-state", message, tag.span)
+        return "", ()
     if not text:
         return "", ()
     value = floats_from(

@@ -71,6 +71,14 @@ ENTRIES = (
         "nothing: the shapes are more exact",
     ),
     Entry(
+        "srdf.fixed-state",
+        "warning",
+        "A named state gives a fixed joint a position",
+        "A fixed joint has none. MoveIt writes a line to its log and goes on.",
+        "remove the <joint> from the <group_state>",
+        "The model for joint '...' requires 0 variable values",
+    ),
+    Entry(
         "srdf.state-outside-limits",
         "warning",
         "A named state lies outside a joint's limits",
