@@ -38,7 +38,7 @@ def generate_controllers_spawner_launch_description(
     words.append(LaunchConfiguration("controller_manager_name"))
     for file in controller_params_files or ():
         words += ["--param-file", file] if file else []
-    unload = ['"--unload-on-kill" if "true" == "', LaunchConfiguration("unload_on_kill")]
+    unload: list[Any] = ['"--unload-on-kill" if "true" == "', LaunchConfiguration("unload_on_kill")]
     words.append(PythonExpression([*unload, '" else ""']))
     return LaunchDescription(
         [
