@@ -17,6 +17,7 @@ from types import CodeType, ModuleType
 from typing import Any
 
 from gazelle.compat.generation import message_generation
+from gazelle.compat.refused import RefusingFinder
 
 __all__ = ["install"]
 
@@ -32,7 +33,8 @@ def install() -> None:
 
         workspace = _WorkspaceFinder()
         configs = ConfigFinder(workspace.folder)
-        sys.meta_path += [workspace, _InterfaceFinder(workspace), configs]
+        last = RefusingFinder()
+        sys.meta_path += [workspace, _InterfaceFinder(workspace), configs, last]
 
 
 class _WorkspaceFinder(MetaPathFinder):
