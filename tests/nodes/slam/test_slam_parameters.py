@@ -16,7 +16,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.slam import SlamParameters, save_graph
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.slam.flavours import FLAVOURS
-from gazelle.nodes.slam.lua import read_lua
+from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.options import SlamOptions
 from gazelle.nodes.slam.page import page
 
@@ -291,11 +291,12 @@ def test_a_saved_graph_is_localised_in_from_the_pose_that_is_given(
 def test_cartographers_file_is_read_and_what_has_no_effect_is_told(tmp_path: Path) -> None:
     (tmp_path / "robot.lua").write_text(
         'options = {\n  tracking_frame = "imu_link", -- "base"\n  num_laser_scans = 1,\n'
-        "  publish_to_tf = false,\n}\nTRAJECTORY_BUILDER_2D.max_range = 3.5\n"
-        "POSE_GRAPH.constraint_builder.min_score = 0.65\n"
+        "  publish_to_tf = false,\n}\ninclude 'trajectory_builder.lua' include 'map_builder.lua'\n"
+        "TRAJECTORY_BUILDER_2D.max_range = 3.5\n"
+        "POSE_GRAPH.constraint_builder.min_score = 0.65\nreturn options"
     )
     words = ("-configuration_directory", str(tmp_path), "-configuration_basename", "robot.lua")
-    given = read_lua(words)
+    given = read_configuration(flags_of(words))
     found = Diagnostics()
     settings = Settings(FLAVOURS["cartographer"].table, nested(given), "/cartographer", found)
     settings.report_unknown()

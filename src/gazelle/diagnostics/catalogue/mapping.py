@@ -15,6 +15,15 @@ ENTRIES = (
         "delete the line, or write it as the format says",
     ),
     Entry(
+        "mapping.lua",
+        "error",
+        "A configuration of cartographer is not understood",
+        "Configurations are Lua: assignments, tables, arithmetic, functions and include; loops are "
+        "not. The file has to return its table of options.",
+        "write it as cartographer_ros' own configurations are",
+        "Check failed: status == 0",
+    ),
+    Entry(
         "mapping.no-scans",
         "error",
         "A log holds no scans with odometry",

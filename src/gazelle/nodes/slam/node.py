@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
@@ -14,16 +16,18 @@ from gazelle.interfaces import service_type
 from gazelle.mapping.poses import Poses
 from gazelle.mapping.slam.warming import warm_up
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node, ticks
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.flavours import FLAVOURS
-from gazelle.nodes.slam.lua import read_lua
+from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import Flavour, SlamOptions, options_of
 from gazelle.nodes.slam.toolbox import ToolboxServices
+from gazelle.workspace.ament_index import known_workspace
 
 __all__ = [
     "run_cartographer",
@@ -39,6 +43,11 @@ __all__ = [
 _NANO = 1_000_000_000
 _POLL_S = 0.02
 _MODES = ("mapping", "localization")
+_GRID_FLAGS: dict[str, Kind] = {
+    **dict.fromkeys(("resolution", "publish_period_sec"), "double"),
+    **dict.fromkeys(("include_frozen_submaps", "include_unfrozen_submaps", "logtostderr"), "bool"),
+    "occupancy_grid_topic": "string",
+}  # fmt: skip
 
 
 def run_gmapping(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -71,24 +80,39 @@ def run_localization(arguments: NodeArguments, graph: Graph, stop: threading.Eve
 
 def run_cartographer(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``cartographer_ros/cartographer_node``: frames and ranges of its Lua file."""
-    given = read_lua(arguments.rest)
-    arguments = replace(arguments, params={**given, **arguments.params})
-    return _run(FLAVOURS["cartographer"], arguments, graph, stop)
+    flags = flags_of(arguments.rest)
+    package = known_workspace().packages.get("cartographer")
+    folders = (package.path / "configuration_files",) if package else ()
+    given = read_configuration(flags, folders)
+    idle = sorted(set(flags) - {"configuration_directory", "configuration_basename"})
+    return _run(FLAVOURS["cartographer"], arguments, graph, stop, given, idle)
 
 
 def run_occupancy_grid(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``cartographer_occupancy_grid_node``: cartographer_node publishes the map itself here."""
     node = start_node(arguments, graph)
     node.log("info", "the map comes from cartographer_node itself, drawn with its own resolution")
+    flags = sorted(read_flags(arguments.rest, _GRID_FLAGS))
+    if flags:
+        node.log("info", f"options that have no effect here: -{', -'.join(flags)}")
     arguments.ready()
     stop.wait()
     node.shutdown()
     return 0
 
 
-def _run(flavour: Flavour, arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+def _run(
+    flavour: Flavour,
+    arguments: NodeArguments,
+    graph: Graph,
+    stop: threading.Event,
+    given: Mapping[str, Any] = MappingProxyType({}),
+    idle_flags: Sequence[str] = (),
+) -> int:
     node = start_node(arguments, graph)
-    options = _options(flavour, arguments, node)
+    if idle_flags:
+        node.log("warn", f"options that have no effect here: -{', -'.join(idle_flags)}")
+    options = _options(flavour, arguments, node, given)
     mapper = Mapper(node, options)
     _offer(node, mapper, flavour, options)
     warm_up(lambda text: node.log("info", text))
@@ -107,8 +131,11 @@ def _run(flavour: Flavour, arguments: NodeArguments, graph: Graph, stop: threadi
     return 0
 
 
-def _options(flavour: Flavour, arguments: NodeArguments, node: Node) -> SlamOptions:
-    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
+def _options(
+    flavour: Flavour, arguments: NodeArguments, node: Node, given: Mapping[str, Any]
+) -> SlamOptions:
+    tree = nested(given)
+    tree.update(nested(node.parameters.get(node.resolve_name("~"), {}) or {}))
     tree.update(nested(arguments.params))
     found = Diagnostics()
     settings = Settings(flavour.table, tree, node.resolve_name("~"), found)

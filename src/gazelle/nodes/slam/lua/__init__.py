@@ -1,0 +1,1 @@
+"""Cartographer's configuration files: the Lua that they are written in, and what they say."""
