@@ -9,7 +9,8 @@ import pytest
 from gazelle.graph import Level
 from gazelle.graph.console import LogRecord
 from gazelle.interfaces import ros1_message_type
-from gazelle.nodes.log_file import LogFile
+from gazelle.nodes.log_file import LogFile, keep_log
+from gazelle.nodes.ros2_console import print_ros2
 from gazelle.nodes.rosout import line_of
 
 
@@ -47,3 +48,16 @@ def test_rosout_lines_have_ros_1s_layout() -> None:
     assert line_of(message) == (
         "7.005000000 WARN /talker [talker.py:12(main)] [topics: /rosout, /chatter] careful"
     )
+
+
+def test_a_file_keeps_the_style_of_the_terminal(
+    bench, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench.node.console = print_ros2
+    keep_log(bench.node, str(tmp_path / "node.log"))
+    bench.node.log("info", "hello")
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("[INFO] [")
+    assert printed.err.endswith("] [test]: hello\n")
+    assert "hello" in (tmp_path / "node.log").read_text()

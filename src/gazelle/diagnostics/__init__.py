@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.diagnostics.brief import Brief, brief
 from gazelle.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity
 from gazelle.diagnostics.grouping import grouped
 from gazelle.diagnostics.nearest import did_you_mean, nearest_names
@@ -9,10 +10,12 @@ from gazelle.diagnostics.render import render, render_text
 from gazelle.diagnostics.span import SourceSpan
 
 __all__ = [
+    "Brief",
     "Diagnostic",
     "Diagnostics",
     "Severity",
     "SourceSpan",
+    "brief",
     "did_you_mean",
     "grouped",
     "nearest_names",

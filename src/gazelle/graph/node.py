@@ -45,6 +45,7 @@ class Node:
         parameters: the parameter store, by this node's names.
         log_level: what is less than this is not logged.
         console: writes what is logged, see `Graph.console`.
+        log_path: file that keeps all of it, empty for none.
     """
 
     def __init__(
@@ -62,6 +63,7 @@ class Node:
         self.namespace = namespace
         self.log_level = Level.INFO
         self.console: Callable[..., None] = graph.console
+        self.log_path = ""
         self.parameters = ParameterStore(graph.parameter_share, self.resolve_name, name)
         self._remappings = remap(remappings, namespace, node=name)
         self._created: list[_Closable] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,12 +22,20 @@ class LogFile:
     Args:
         path: the file; its folder is made.
         terminal: least level that is printed too.
+        show: prints a record.
     """
 
-    def __init__(self, path: Path, *, terminal: Level = Level.DEBUG) -> None:
+    def __init__(
+        self,
+        path: Path,
+        *,
+        terminal: Level = Level.DEBUG,
+        show: Callable[..., None] = print_record,
+    ) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         self._stream = path.open("a", encoding="utf-8", errors="replace", buffering=1)
         self._terminal = terminal
+        self._show = show
 
     def __call__(self, record: LogRecord, *, padded: bool = True) -> None:
         """Write one record."""
@@ -34,7 +43,7 @@ class LogFile:
         with contextlib.suppress(ValueError):
             self._stream.write(f"{format_record(record, padded=padded)}\n")
         if record.level >= self._terminal:
-            print_record(record, padded=padded)
+            self._show(record, padded=padded)
 
     def close(self) -> None:
         """Write nothing more to the file."""
@@ -45,6 +54,7 @@ def keep_log(node: Node, path: str, output: str = "screen") -> None:
     """Send a node's log to a file; with output ``log`` the terminal gets warnings and worse."""
     if not path:
         return
-    log = LogFile(Path(path), terminal=Level.WARN if output == "log" else Level.DEBUG)
-    node.console = log
+    least = Level.WARN if output == "log" else Level.DEBUG
+    log = LogFile(Path(path), terminal=least, show=node.console)
+    node.console, node.log_path = log, path
     node.on_shutdown(lambda _reason: log.close())

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle._version import __version__
-from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, did_you_mean, render
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_you_mean, render
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
+from gazelle.graph.aside import aside_path, write_aside
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
@@ -92,7 +93,7 @@ def serve(
         ros = (version, rate_hz)
         return _serve_world(options, world, workspace, node, diagnostics, stop, ros)
     except GazelleError as error:
-        _show(diagnostics)
+        _show(node, diagnostics)
         node.log("fatal", str(error))
         return 1
     finally:
@@ -122,11 +123,11 @@ def _serve_world(
         ros_version=ros_version,
     )
     check_server_plugins(options, diagnostics)
-    _show(diagnostics, verbose=options.verbose)
+    _show(node, diagnostics, verbose=options.verbose)
     offer_gazebo_ros(
         server,
         ros2=offers_ros2(options),
-        report=lambda found: _show(found, verbose=options.verbose),
+        report=lambda found: _show(node, found, verbose=options.verbose),
         clock_rate_hz=clock_rate_hz,
     )
     offer_views(server)
@@ -230,7 +231,9 @@ def check_server_plugins(options: ServerOptions, diagnostics: Diagnostics) -> No
             diagnostics.report("plugin.unknown", text, fix=did_you_mean(name, known))
 
 
-def _show(found: Iterable[Diagnostic], *, verbose: bool = True) -> None:
-    """Print findings on standard error; notices only when asked to be verbose."""
+def _show(node: Any, found: Iterable[Diagnostic], *, verbose: bool = True) -> None:
+    """Print findings on standard error; notices only when asked to be verbose, and summed."""
     least = Severity.INFO if verbose else Severity.WARNING
-    render([item for item in found if item.severity >= least])
+    items = [item for item in found if item.severity >= least]
+    shown, idle = brief(items, str(aside_path(node)))
+    render(shown if not idle or write_aside(node, map(str, idle)) else items)

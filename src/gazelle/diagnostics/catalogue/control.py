@@ -28,6 +28,7 @@ ENTRIES = (
         "A controller's parameter has no effect",
         "The key is known and changes nothing here; the message says why.",
         "remove it",
+        idle=True,
     ),
     Entry(
         "control.parameters-of-others",

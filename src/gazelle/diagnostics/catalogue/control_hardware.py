@@ -22,6 +22,7 @@ _TRANSMISSIONS = (
         "Gazebo's DefaultRobotHWSim drives the joints themselves, and so does Gazelle: efforts, "
         "positions and velocities are those of the joint, never of the motor.",
         "nothing; the reductions matter on the real robot",
+        idle=True,
     ),
     Entry(
         "control.transmission-joints",
@@ -161,6 +162,7 @@ _ROS2 = (
         "A parameter of ros2_control hardware has no effect",
         "The simulated hardware does not know it.",
         "nothing, when it is for the real robot",
+        idle=True,
     ),
     Entry(
         "control.hardware-plugin",

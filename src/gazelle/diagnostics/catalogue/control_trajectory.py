@@ -15,6 +15,7 @@ ENTRIES = (
         " How stiffly the joint follows is the hardware's business.",
         "command 'effort' or 'velocity' to use the gains, or remove them",
         "No p gain specified for pid",
+        idle=True,
     ),
     Entry(
         "control.no-deceleration",

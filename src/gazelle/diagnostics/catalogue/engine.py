@@ -84,6 +84,7 @@ ENTRIES = (
         "slip1 and slip2 of ODE act on wheels only: cylinders and spheres on a joint that turns,"
         " with fdir1 along its axis or both slips equal.",
         "give the wheel such a shape and fdir1, or lower mu to make the surface slippery",
+        idle=True,
     ),
     Entry(
         "engine.max-contacts",
@@ -91,6 +92,7 @@ ENTRIES = (
         "A limit on contact points has no effect",
         "The engine finds few contact points per pair and keeps them all.",
         "nothing needs to be done",
+        idle=True,
     ),
     Entry(
         "engine.idle-contact-word",
@@ -99,6 +101,7 @@ ENTRIES = (
         "minDepth is the overlap that ODE leaves alone, soft_cfm and soft_erp are its words for a"
         " spring; this engine's contact needs none of them (docs/contact.md).",
         "use kp and kd for a soft contact; else nothing needs to be done",
+        idle=True,
     ),
     Entry(
         "engine.idle-joint-word",
@@ -106,6 +109,7 @@ ENTRIES = (
         "A parameter of ODE's joint solver has no effect",
         "cfm and erp soften ODE's joints, which otherwise shake; this engine's joints are exact.",
         "use spring_stiffness and damping for a soft joint; else nothing needs to be done",
+        idle=True,
     ),
     Entry(
         "engine.velocity-decay",
@@ -113,6 +117,7 @@ ENTRIES = (
         "A velocity decay has no effect on a jointed link",
         "It slows links that move freely; a link on a joint is slowed by the joint's damping.",
         "set <damping> on the joint",
+        idle=True,
     ),
     Entry(
         "engine.mujoco-warning",

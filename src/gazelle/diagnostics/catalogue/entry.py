@@ -19,6 +19,8 @@ class Entry:
         why: why it matters and what Gazelle does about it.
         fix: the general remedy.
         phrase: the words ROS or Gazebo print in this case, empty when they are silent.
+        idle: it says of a setting that it is known and has no effect here; at a start such findings
+            are summed, see `gazelle.diagnostics.brief`.
     """
 
     code: str
@@ -27,3 +29,4 @@ class Entry:
     why: str
     fix: str
     phrase: str = ""
+    idle: bool = False

@@ -30,6 +30,7 @@ ENTRIES = (
         "It belongs to another planner, or to one of OMPL that another one stands in for.",
         "nothing has to be done",
         "ompl_planning.yaml",
+        idle=True,
     ),
     Entry(
         "motion.no-such-planner",

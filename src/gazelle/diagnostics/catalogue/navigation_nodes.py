@@ -21,6 +21,7 @@ ENTRIES = (
         "A parameter of navigation has no effect here",
         "The original reads it; what it changes there does not exist here. The message says what.",
         "nothing, if that is well",
+        idle=True,
     ),
     Entry(
         "navigation.bad-value",

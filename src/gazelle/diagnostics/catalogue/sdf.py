@@ -36,6 +36,7 @@ ENTRIES = (
         "An element is known and has no effect in Gazelle",
         "It is legal SDF; nothing that robots measure here depends on it.",
         "nothing to do",
+        idle=True,
     ),
     Entry(
         "sdf.plugin-not-loaded",

@@ -38,6 +38,7 @@ ENTRIES = (
         "Parameters of a plug-in that change nothing",
         "They are known and have no effect here, mostly because they have none in Gazebo either.",
         "nothing to do; the elements can be removed",
+        idle=True,
     ),
     Entry(
         "plugin.missing-joint",

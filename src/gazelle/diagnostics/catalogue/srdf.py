@@ -69,6 +69,7 @@ ENTRIES = (
         "Spheres of an SRDF have no effect",
         "Collisions are checked with the links' own shapes.",
         "nothing: the shapes are more exact",
+        idle=True,
     ),
     Entry(
         "srdf.fixed-state",

@@ -160,6 +160,7 @@ _GAZEBO = (
         "A Gazebo word that has no effect",
         "Gazebo Classic itself ignores it, or it belongs to ODE's solver.",
         "remove it when convenient",
+        idle=True,
     ),
     Entry(
         "urdf.gazebo-named-shape",

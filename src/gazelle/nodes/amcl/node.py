@@ -22,9 +22,9 @@ from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.spawned import SpawnHint
 from gazelle.nodes.amcl.tables import amcl_table
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.frames import (
     Frames,
     PlanePose,

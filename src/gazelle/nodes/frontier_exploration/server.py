@@ -14,10 +14,10 @@ from gazelle.graph.actions import ActionClient, ClientGoal, ServerGoal
 from gazelle.interfaces import message_type
 from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.frontier_exploration.area import Area, Corners
 from gazelle.nodes.frontier_exploration.services import Services
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
-from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.single_goal import SingleGoal

@@ -13,10 +13,11 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.mapping.grids import MapFile, OccupancyGrid, read_map, read_map_image
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.parameters import private, private_number, start_node
 
-__all__ = ["log_findings", "result_of", "run"]
+__all__ = ["result_of", "run"]
 
 _USAGE = "USAGE: map_server <map.yaml>\n  map.yaml: map description file"
 _NANO = 1_000_000_000
@@ -51,12 +52,6 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     stop.wait()
     node.shutdown()
     return 0
-
-
-def log_findings(node: Node, found: Diagnostics) -> None:
-    """Log what was found, each with its place and remedy."""
-    for item in found:
-        node.log({10: "info", 20: "warn"}.get(int(item.severity), "error"), str(item))
 
 
 def result_of(found: Diagnostics) -> int:

@@ -10,9 +10,10 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.mapping.grids import read_map
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.map_server.server import log_findings, result_of
+from gazelle.nodes.map_server.server import result_of
 from gazelle.nodes.parameters import private, start_node
 
 __all__ = ["run"]

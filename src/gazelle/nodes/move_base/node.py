@@ -15,6 +15,7 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.navigation.planners import NoPlan
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_base.driving import Driver
 from gazelle.nodes.move_base.executive import Executive, Outcome, PlanPose, State, Timing
 from gazelle.nodes.move_base.local import LocalPlanner
@@ -46,8 +47,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     tree = nested(node.parameters.get(node.name, {}) or {})
     tree.update(nested(arguments.params))
     base = MoveBase(node, tree, diagnostics)
-    for item in diagnostics:
-        node.log({10: "info", 20: "warn"}.get(int(item.severity), "error"), str(item))
+    log_findings(node, diagnostics)
     arguments.ready()
     try:
         base.run(stop)

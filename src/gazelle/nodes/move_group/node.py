@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.description.moveit import MoveItConfig, config_from_parameters, nested_parameters
-from gazelle.diagnostics import Diagnostics, Severity, render_text
+from gazelle.diagnostics import Diagnostics, render_text
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.motion.model import RobotModel
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_group.action_servers import offer_execute_action, offer_move_action
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.kinematics_services import offer_kinematics
@@ -25,7 +26,6 @@ __all__ = ["gathered_parameters", "run"]
 
 _DESCRIPTION = "robot_description"
 _PARTS = ("", "_semantic", "_kinematics", "_planning")
-_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warn", Severity.INFO: "info"}
 _TOPIC_S = 10.0
 
 
@@ -84,7 +84,7 @@ def _config(node: Node, parameters: Mapping[str, Any]) -> MoveItConfig | None:
     config = config_from_parameters(
         parameters, workspace=Workspace.discover(), diagnostics=diagnostics
     )
-    _log(node, diagnostics)
+    log_findings(node, diagnostics, render_text)
     if config is None:
         node.log("fatal", "Unable to construct robot model. Please make sure all needed "
                  "information is on the parameter server.")  # fmt: skip
@@ -105,7 +105,7 @@ def _context(
     offer_move_action(context)
     offer_execute_action(context)
     offer_sequences(context)
-    _log(node, diagnostics)
+    log_findings(node, diagnostics, render_text)
     return context
 
 
@@ -126,8 +126,3 @@ def _of_topic(node: Node, name: str, stop: threading.Event) -> str:
     subscription.unregister()
     node.drop(subscription)
     return texts[-1] if texts else ""
-
-
-def _log(node: Node, diagnostics: Diagnostics) -> None:
-    for finding in diagnostics:
-        node.log(_LEVELS[finding.severity], render_text(finding))

@@ -15,9 +15,10 @@ from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.outlines import outline_in_base
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.settings import Settings

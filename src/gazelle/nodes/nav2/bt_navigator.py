@@ -13,8 +13,9 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.graph_world import GraphWorld
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BT_NAVIGATOR
 from gazelle.nodes.nav2.trees.blackboard import Blackboard
 from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, read_trees

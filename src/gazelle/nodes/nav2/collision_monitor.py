@@ -10,13 +10,14 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.sources import Source, WorldFrames
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action, Points, Velocity, Verdict, Zone, guarded
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.outlines import outline_in_base
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.navigation.frames import Frames, set_stamp
 from gazelle.nodes.navigation.settings import Settings
 

@@ -23,6 +23,7 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.checking import (
     GoalChecker,
     ProgressChecker,
@@ -31,7 +32,7 @@ from gazelle.nodes.nav2.checking import (
 )
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.costmaps import Nav2Costmap
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import (
     CONTROLLER_SERVER,
     GOAL_CHECKERS,

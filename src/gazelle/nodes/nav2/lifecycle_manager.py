@@ -13,7 +13,8 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.errors import ServiceCallError
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, start
+from gazelle.nodes.findings import log_findings
+from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.nav2.tables import LIFECYCLE_MANAGER
 from gazelle.nodes.navigation.settings import Settings
 

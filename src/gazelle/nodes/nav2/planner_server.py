@@ -21,8 +21,9 @@ from gazelle.navigation.planners import (
     make_plan,
 )
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.costmaps import Nav2Costmap
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import PLANNER_SERVER, planner_table
 from gazelle.nodes.navigation.frames import PlanePose, path_message, plane_of, pose_of_message
 from gazelle.nodes.navigation.settings import Settings

@@ -14,7 +14,8 @@ from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.findings import log_findings
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import SMOOTHER, SMOOTHER_SERVER
 from gazelle.nodes.navigation.frames import path_message, plane_of, pose_of_message
 from gazelle.nodes.navigation.settings import Settings

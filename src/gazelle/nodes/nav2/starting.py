@@ -6,7 +6,6 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
@@ -15,10 +14,9 @@ from gazelle.nodes.navigation.settings import flat, nested
 from gazelle.nodes.parameters import start_node
 from gazelle.nodes.ros2_words import file_params
 
-__all__ = ["log_findings", "offer_parameters", "serve", "start", "tree_of_node"]
+__all__ = ["offer_parameters", "serve", "start", "tree_of_node"]
 
 _POLL_S = 0.2
-_LEVELS = {10: "info", 20: "warn", 30: "error"}
 
 
 def start(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[str, Any]]:
@@ -68,10 +66,3 @@ def serve(
     if not node.closed and lifecycle.active:
         lifecycle.change("deactivate")
     return lifecycle
-
-
-def log_findings(node: Node, diagnostics: Diagnostics) -> bool:
-    """Say what was found; tell whether there was no error."""
-    for item in diagnostics:
-        node.log(_LEVELS[int(item.severity)], str(item))
-    return not diagnostics.errors

@@ -9,8 +9,9 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.commands import VelocityOutput
-from gazelle.nodes.nav2.starting import log_findings, offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import VELOCITY_SMOOTHER
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.settings import Settings

@@ -11,8 +11,8 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.mapping.frontiers import Frontier, find_frontiers
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.frames import Frames, fill_pose, set_stamp
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.table import Row, Table, refused

@@ -16,9 +16,9 @@ from gazelle.interfaces import service_type
 from gazelle.mapping.poses import Poses
 from gazelle.mapping.slam.warming import warm_up
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.map_server.server import log_findings
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node, ticks
 from gazelle.nodes.slam.explore import run_explore

@@ -7,11 +7,12 @@ from collections.abc import Callable
 from gazelle.control.controller_manager.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
 from gazelle.control.ports import Ports
-from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.diagnostics import Diagnostic, Severity, brief
 
 __all__ = ["Actor"]
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warn", Severity.INFO: "info"}
+_LISTED = "`gazelle doctor` on the package or launch"
 
 
 class Actor:
@@ -31,10 +32,11 @@ class Actor:
         except ControllerError as error:
             return str(error)
         finally:
-            for item in list(diagnostics)[known:]:
-                # Failures of running controllers have been logged by themselves.
-                if item.code != "control.controller-failed":
-                    self._ports.log(_WORDS[item.severity], _line(item))
+            # Failures of running controllers have been logged by themselves.
+            new = [item for item in list(diagnostics)[known:]
+                   if item.code != "control.controller-failed"]  # fmt: skip
+            for item in brief(new, _LISTED).shown:
+                self._ports.log(_WORDS[item.severity], _line(item))
 
     def done(self, action: Callable[[], object]) -> bool:
         """Do something; a failure is logged and gives False."""
