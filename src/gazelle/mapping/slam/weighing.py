@@ -85,6 +85,9 @@ def weighed(
     )  # fmt: skip
     poses = [one.pose for one in rough] + guesses
     weights = [_weight(around, frame, expected, pose, reach) for pose in poses]
+    if not weights:
+        # In empty space no scan looks like anything that is known.
+        return None
     best = max(weights, key=lambda one: one.worth)
     if best.worth < _LEAST_WORTH:
         return None
