@@ -20,8 +20,11 @@ def found(name):
         except ModuleNotFoundError as missing:
             error = error or missing
             continue
-        for part in parts[count:]:
-            thing = getattr(thing, part)
+        try:
+            for part in parts[count:]:
+                thing = getattr(thing, part)
+        except AttributeError as missing:
+            raise error if error and "gazelle:" in str(error) else missing from None
         return thing
     raise error
 
