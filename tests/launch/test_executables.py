@@ -156,6 +156,26 @@ def test_compiled_node_is_called_so(package: Path) -> None:
     assert f"it is compiled code ('{source}') that is not built here" in error.message
 
 
+@pytest.mark.parametrize(
+    "lists",
+    [
+        "add_executable(robot_node src/main.cpp)",
+        'set(EXECUTABLE_NAME "robot_node")\nadd_executable(${EXECUTABLE_NAME} src/main.cpp)',
+        "project(robot)\nadd_executable(${PROJECT_NAME}_node src/main.cpp)",
+        'rclcpp_components_register_node(robot PLUGIN "robot::Node" EXECUTABLE robot_node)',
+        "add_executable(robot src/main.cpp)\n"
+        "set_target_properties(robot PROPERTIES OUTPUT_NAME robot_node PREFIX x)",
+    ],
+)
+def test_node_that_a_cmake_file_makes_is_called_compiled(package: Path, lists: str) -> None:
+    file = package / "CMakeLists.txt"
+    file.write_text(f"{lists}\n", encoding="utf-8")
+    _, diagnostics = _find("tests_pkg", "robot_node", package)
+    (error,) = diagnostics
+    assert error.code == "launch.compiled-node"
+    assert f"it is compiled code ('{file}') that is not built here" in error.message
+
+
 def test_script_without_execute_permission_runs_with_a_warning(package: Path) -> None:
     script = package / "scripts" / "drive.py"
     script.write_text("print('hi')\n", encoding="utf-8")

@@ -14,6 +14,7 @@ from gazelle.errors import NotFoundError
 from gazelle.launch.elsewhere import missing_package
 from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 from gazelle.workspace import Package, Workspace
+from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["Executable", "find_executable", "script_command"]
@@ -185,9 +186,8 @@ def _compiled_source(package: Package, type_name: str) -> Path | None:
     for path in sorted(package.path.rglob("*")):
         if path.suffix in _COMPILED and path.stem == type_name:
             return path
-    lists = package.path / "CMakeLists.txt"
-    text = lists.read_text(encoding="utf-8", errors="replace") if lists.is_file() else ""
-    return lists if f"add_executable({type_name}" in text.replace(" ", "") else None
+    lists = read_cmake_lists(package.path, package.name)
+    return lists.file if lists is not None and type_name in lists.executables() else None
 
 
 def _scripts(package: Package) -> list[str]:

@@ -159,13 +159,8 @@ def _is_hidden(source: SourcePackage) -> bool:
 
 
 def _built(source: SourcePackage) -> Iterator[str]:
-    lists = source.lists
-    if lists is None:
-        return
-    for step in lists.called("add_executable", "ament_auto_add_executable", "qt_add_executable"):
-        yield from step.words[:1]
-    for step in lists.called("rclcpp_components_register_node"):
-        yield from step.after("EXECUTABLE", ("PLUGIN", "EXECUTOR", "RESOURCE_INDEX"))
+    if source.lists is not None:
+        yield from source.lists.executables()
 
 
 def _programs(source: SourcePackage) -> Iterator[str]:

@@ -19,6 +19,13 @@ _VARIABLE = re.compile(r"\$\{([\w./+-]+)\}|\$(ENV|CACHE)\{[^}]*\}")
 _MOST_STEPS = 20_000
 _MOST_FILES = 5_000
 _DEEPEST = 8
+_MAKE_PROGRAMS = (
+    "add_executable",
+    "ament_auto_add_executable",
+    "cs_add_executable",
+    "cuda_add_executable",
+    "qt_add_executable",
+)
 _ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
 
 
@@ -71,6 +78,15 @@ class CMakeLists:
     def called(self, *names: str) -> tuple[Step, ...]:
         """Return the calls of these commands."""
         return tuple(step for step in self.steps if step.name in names)
+
+    def executables(self) -> tuple[str, ...]:
+        """Return the names of the programs that a compiler would make, variables replaced."""
+        found = [step.words[0] for step in self.called(*_MAKE_PROGRAMS) if step.words]
+        for step in self.called("rclcpp_components_register_node"):
+            found += step.after("EXECUTABLE", ("PLUGIN", "EXECUTOR", "RESOURCE_INDEX"))
+        for step in self.called("set_target_properties"):
+            found += step.after("OUTPUT_NAME", ("PREFIX", "SUFFIX"))[:1]
+        return tuple(found)
 
 
 def read_cmake_lists(
