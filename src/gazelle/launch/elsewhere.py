@@ -17,6 +17,7 @@ _MARKER = "a marker in RViz that drives; Studio's teleop and `teleop_twist_keybo
 _INDUSTRIAL = "the link to a real arm's controller; `move_group` and ros_control's are here"
 _DEPTH = "compiled filters of a depth camera's pictures; the simulated camera has clouds itself"
 _SCANS = "compiled code that joins or makes scans; a <sensor> with a wider angle gives one"
+_NODELETS = "compiled parts that share a process; what they do is done by nodes where it is here"
 _VELOCITIES = "compiled code that smooths or chooses velocities; `twist_mux` chooses by priority"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
@@ -44,6 +45,8 @@ _KNOWN = {
     **dict.fromkeys(("joy_teleop", "spacenav", "spacenav_node", "ps3joy", "wiimote"), _JOYSTICK),
     **dict.fromkeys(("rtabmap_ros", "rtabmap_slam", "rtabmap_launch", "octomap_server"), _MAPPING),
     "interactive_marker_twist_server": _MARKER,
+    "nodelet": _NODELETS,
+    "tf2_web_republisher": _BRIDGE,
     **dict.fromkeys(("rgbd_launch", "openni2_launch", "freenect_launch"), _DEPTH),
     **dict.fromkeys(("ira_laser_tools", "pointcloud_to_laserscan"), _SCANS),
     **dict.fromkeys(("industrial_robot_client", "industrial_robot_simulator"), _INDUSTRIAL),
