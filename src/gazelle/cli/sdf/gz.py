@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
 from gazelle.cli.gz import front
 from gazelle.cli.gz.new import front as new_front
+from gazelle.cli.sdf.ign import without_version
+from gazelle.cli.sdf.ign_sdf import run_sdf as run_new_sdf
+from gazelle.cli.sdf.ign_sdf import usage
 from gazelle.cli.sdf.other_commands import GZ_INSTEAD
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
+from gazelle.cli.sdf.which_sdformat import sdformat_release
 from gazelle.description.sdformat.document import to_text
 from gazelle.description.sdformat.document.console import error_line
 from gazelle.description.sdformat.document.describing import described_specification
@@ -73,9 +78,14 @@ def main(argv: list[str]) -> int:
     """
     name = argv[0] if argv else ""
     if name == "sdf":
-        return _run_sdf(argv[1:])
+        words, version = without_version(argv[1:])
+        is_new = bool(version) or sdformat_release(words, os.environ) is Release.V12
+        return run_new_sdf(words, "gz") if is_new else _run_sdf(words)
     if name == "help" and argv[1:] == ["sdf"]:
-        say([_SDF_HELP])
+        if sdformat_release([], os.environ) is Release.V12:
+            print(usage("gz"))
+        else:
+            say([_SDF_HELP])
         return 0
     if name == "help" and len(argv) == 2 and argv[1] in {"service", "sim"}:
         new_front.explain(argv[1])

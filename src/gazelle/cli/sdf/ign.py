@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from gazelle.cli.gz.new import front
-from gazelle.cli.sdf.ign_sdf import USAGE, run_sdf
+from gazelle.cli.sdf.ign_sdf import VERSION, run_sdf, usage
 from gazelle.cli.sdf.other_commands import IGN_INSTEAD
 from gazelle.cli.sdf.sdf_file import say
 
-__all__ = ["main"]
+__all__ = ["main", "without_version"]
 
-_VERSION = "12.3.0"
 _FAILED = 255
 _OF_WORLD = {"gazebo": "sim", "model": "model", "service": "service", "topic": "topic"}
 _HELP = """The 'ign' command provides a command line interface to the ignition tools.
@@ -35,13 +34,13 @@ Use 'ign help <command>' to print help for a command."""
 
 def main(argv: list[str]) -> int:
     """Run a command of ``ign``; the exit code is the original's, 255 for what it refuses."""
-    words, version = _without_version(argv)
-    if version is not None and not _VERSION.startswith(version):
+    words, version = without_version(argv)
+    if version is not None and not VERSION.startswith(version):
         print(f"Version error: I cannot find this command in version [{version}].")
         return _FAILED
     name = words[0] if words else ""
     if name == "help" and words[1:] == ["sdf"]:
-        print(USAGE)
+        print(usage("ign"))
         return 0
     if name == "help" and len(words) == 2 and words[1] in _OF_WORLD:
         front.explain(_OF_WORLD[words[1]])
@@ -53,7 +52,7 @@ def main(argv: list[str]) -> int:
         print("\n".join(sorted([*_OF_WORLD, "sdf"])))
         return 0
     if name == "--versions" or (name == "sdf" and "--versions" in words):
-        print(_VERSION)
+        print(VERSION)
         return 0
     if name == "sdf":
         return run_sdf(words[1:])
@@ -66,7 +65,7 @@ def main(argv: list[str]) -> int:
     return _FAILED
 
 
-def _without_version(argv: list[str]) -> tuple[list[str], str | None]:
+def without_version(argv: list[str]) -> tuple[list[str], str | None]:
     """Return the words without ``--force-version V``, and V."""
     if "--force-version" not in argv:
         return argv, None

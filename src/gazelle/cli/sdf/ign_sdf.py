@@ -1,4 +1,4 @@
-"""``ign sdf``: options and output of sdformat 12's program."""
+"""``ign sdf``, and ``gz sdf`` of the new Gazebo: options and output of sdformat 12's program."""
 
 from __future__ import annotations
 
@@ -23,12 +23,13 @@ from gazelle.description.sdformat.document.rewriting import (
 from gazelle.description.sdformat.document.specification import specification
 from gazelle.description.sdformat.release import Release
 
-__all__ = ["USAGE", "run_sdf"]
+__all__ = ["VERSION", "run_sdf", "usage"]
 
+VERSION = "12.3.0"
 _FAILED = 255
 _NEW = Release.V12
 _SNAP_LIMIT_DEG = 360
-USAGE = """Utilities for SDF files.
+_USAGE = """Utilities for SDF files.
 
   ign sdf [options]
 
@@ -59,16 +60,23 @@ _LONG = [
 _NAMES = {"-k": "check", "-d": "describe", "-p": "print", "-g": "graph", "-i": "preserve-includes"}
 
 
-def run_sdf(words: list[str]) -> int:
-    """Run ``ign sdf`` with the words behind ``sdf``; return its exit code."""
+def run_sdf(words: list[str], tool: str = "ign") -> int:
+    """Run ``ign sdf``, which gz calls ``gz sdf``, with the words behind ``sdf``.
+
+    Returns:
+        The exit code.
+    """
     words, is_quiet = take_quiet(words)
+    if "--versions" in words:
+        print(VERSION)
+        return 0
     try:
         pairs, rest = gnu_getopt(words, _SHORT, _LONG)
     except GetoptError:
-        return _usage()
+        return _usage(tool)
     options = {_NAMES.get(name, name.lstrip("-")): value for name, value in pairs}
     if "h" in options or "help" in options:
-        print(USAGE)
+        print(usage(tool))
         return 0
     if "check" in options:
         return _told(_check, options["check"], is_quiet=is_quiet)
@@ -81,11 +89,16 @@ def run_sdf(words: list[str]) -> int:
     if "graph" in options and rest:
         kind = options["graph"]
         return _told(lambda word: _print_graph(kind, word), rest[0], is_quiet=is_quiet)
-    return _usage()
+    return _usage(tool)
 
 
-def _usage() -> int:
-    print(USAGE)
+def usage(tool: str) -> str:
+    """Return the options as ``ign help sdf`` or ``gz help sdf`` shows them."""
+    return _USAGE.replace("ign sdf", f"{tool} sdf")
+
+
+def _usage(tool: str) -> int:
+    print(usage(tool))
     return _FAILED
 
 
