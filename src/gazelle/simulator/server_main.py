@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle._version import __version__
+from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_you_mean, render
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
 from gazelle.graph.aside import aside_path, write_aside
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
@@ -130,7 +132,7 @@ def _serve_world(
         report=lambda found: _show(node, found, verbose=options.verbose),
         clock_rate_hz=clock_rate_hz,
     )
-    offer_views(server)
+    offer_views(server, is_gz=options.is_gz or _names_gz_systems(world))
     if ros_version != 2:
         # Plug-ins of ROS 1 say this; ROS 2 and gz have neither.
         node.log("info", "Finished loading Gazebo ROS API Plugin.")
@@ -237,3 +239,8 @@ def _show(node: Any, found: Iterable[Diagnostic], *, verbose: bool = True) -> No
     items = [item for item in found if item.severity >= least]
     shown, idle = brief(items, str(aside_path(node)))
     render(shown if not idle or write_aside(node, map(str, idle)) else items)
+
+
+def _names_gz_systems(world: World) -> bool:
+    names = (plain_name(plugin.filename) for plugin in world.plugins)
+    return any(name in GZ_SYSTEMS.filenames for name in names)

@@ -37,7 +37,18 @@ _IDLE_VALUES = frozenset(
 _IDLE_FLAGS = frozenset({"-r", "--record", "--record_resources", "--minimal_comms", "-q"})
 _VALUES = frozenset({"-s", "--server-plugin", "-e", "--physics", "--seed", "--iters"})
 _FLAGS = frozenset(
-    {"-h", "--help", "-v", "--version", "--verbose", "-u", "--pause", "--fast", "--lockstep"}
+    {
+        "-h",
+        "--help",
+        "-v",
+        "--version",
+        "--verbose",
+        "-u",
+        "--pause",
+        "--fast",
+        "--lockstep",
+        "--gz",
+    }
 )
 
 
@@ -49,6 +60,7 @@ class ServerOptions:
         world: a file or a known name; empty for the empty world.
         iterations: stop after so many steps, 0 for never.
         plugins: server plug-ins named with ``-s``.
+        is_gz: ``gz sim`` was asked for (``--gz``), not Gazebo Classic.
     """
 
     world: str = ""
@@ -58,6 +70,7 @@ class ServerOptions:
     iterations: int = 0
     verbose: bool = False
     plugins: tuple[str, ...] = ()
+    is_gz: bool = False
     shows_help: bool = False
     shows_version: bool = False
 
@@ -119,6 +132,8 @@ def _with_flag(options: ServerOptions, word: str) -> ServerOptions:
             return replace(options, mode=Mode.FAST)
         case "--lockstep":
             return replace(options, mode=Mode.LOCKSTEP)
+        case "--gz":
+            return replace(options, is_gz=True)
         case "--verbose":
             return replace(options, verbose=True)
         case "-v" | "--version":

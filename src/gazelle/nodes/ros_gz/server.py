@@ -19,9 +19,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     file = str(arguments.params.get("world_sdf_file") or "")
     text = str(arguments.params.get("world_sdf_string") or "")
     if file or not text:
-        named = replace(arguments, rest=(file,) if file else ())
+        named = replace(arguments, rest=(file, "--gz") if file else ("--gz",))
         return run_server(named, graph, stop, falls_back=False)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "world.sdf"
         path.write_text(text, encoding="utf-8")
-        return run_server(replace(arguments, rest=(str(path),)), graph, stop)
+        return run_server(replace(arguments, rest=(str(path), "--gz")), graph, stop)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from gazelle.simulator.viewing.joint_rows import moving_joints
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources
+    from gazelle.simulator.ports import PublisherPort
     from gazelle.simulator.world_server import WorldServer
 
 __all__ = ["Broadcast"]
@@ -47,6 +48,7 @@ class Broadcast:
         self._poses = resources.publisher("/_gazelle/poses", frames, reliable=False)
         self._contacts = resources.publisher("/_gazelle/contacts", frames, reliable=False)
         self._joints = resources.publisher("/_gazelle/joints", frames, reliable=False)
+        self._gz_stats: PublisherPort | None = None
         self._ended = threading.Event()
         self._looking = threading.Event()
         self._version = 0
@@ -59,6 +61,12 @@ class Broadcast:
         """Publish the scene and begin to look."""
         self._server.commands.post(self._show_scene)
         threading.Thread(target=self._run, name="gazelle-views", daemon=True).start()
+
+    def offer_gz_statistics(self, resources: Resources) -> None:
+        """Publish ``/world/NAME/stats`` too, as a world of the new Gazebo does, at 5 Hz."""
+        name = f"/world/{self._server.engine.world.name}/stats"
+        kind = "gazelle_msgs/WorldStatistics"
+        self._gz_stats = resources.publisher(name, kind, reliable=False)
 
     def touch(self) -> None:
         """Have the scene sent again: something that it shows was changed."""
@@ -85,8 +93,8 @@ class Broadcast:
                 self._send(self._contacts, self._contact_rows())
             if self._count % _JOINTS_EVERY == 0 and self._joints.matched:
                 self._send(self._joints, self._joint_rows())
-            if self._count % _STATS_EVERY == 0 and self._stats.matched:
-                self._stats.publish(_text(self._statistics()))
+            if self._count % _STATS_EVERY == 0:
+                self._send_statistics()
         finally:
             self._looking.clear()
 
@@ -141,6 +149,16 @@ class Broadcast:
             )
         )
 
+    def _send_statistics(self) -> None:
+        for_gz = self._gz_stats if self._gz_stats is not None and self._gz_stats.matched else None
+        if for_gz is None and not self._stats.matched:
+            return
+        value = self._statistics()
+        if self._stats.matched:
+            self._stats.publish(_text(value))
+        if for_gz is not None:
+            for_gz.publish(_gz_statistics(value))
+
     def _statistics(self) -> dict[str, Any]:
         server = self._server
         real_s, factor = self._pace.look(server.time_ns)
@@ -154,6 +172,23 @@ class Broadcast:
             "iterations": server.engine.iteration,
             "version": self._version,
         }
+
+
+def _gz_statistics(value: Mapping[str, Any]) -> Any:
+    time_type = message_class("builtin_interfaces/msg/Time")
+
+    def time_of(seconds: float) -> Any:
+        nanoseconds = round(seconds * 1e9)
+        return time_type(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
+
+    return message_class("gazelle_msgs/WorldStatistics")(
+        sim_time=time_of(value["sim_s"]),
+        real_time=time_of(value["real_s"]),
+        paused=value["paused"],
+        iterations=value["iterations"],
+        real_time_factor=value["rtf"],
+        step_size=time_of(value["step_s"]),
+    )
 
 
 class _Pace:

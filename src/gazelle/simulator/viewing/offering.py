@@ -15,13 +15,17 @@ if TYPE_CHECKING:
 __all__ = ["offer_views"]
 
 
-def offer_views(server: WorldServer) -> None:
+def offer_views(server: WorldServer, *, is_gz: bool = False) -> None:
     """Publish ``/_gazelle/*`` while somebody looks, and answer ``/_gazelle/do``.
+
+    A world of the new Gazebo (`is_gz`) has its ``/world/NAME/stats``.
 
     Nothing is computed for a topic that nobody listens to.
     """
     resources = server.world_resources
     broadcast = Broadcast(server, resources)
+    if is_gz:
+        broadcast.offer_gz_statistics(resources)
     requests = Requests(server, broadcast.touch)
 
     def answer(request: Any, response: Any) -> None:

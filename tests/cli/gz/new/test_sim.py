@@ -132,3 +132,20 @@ def test_world_of_gazebo_that_is_not_here_says_where_it_is(gz: Run) -> None:
     assert found.code == 255
     assert "'quadcopter.sdf' ships with gz-sim (rotors)" in found.err
     assert "take the file from https://github.com/gazebosim/gz-sim, examples/worlds" in found.err
+
+
+def test_world_of_gz_tells_its_statistics_under_its_true_name(
+    gazelle: Run, world_file: str
+) -> None:
+    run = gazelle("gz", "sim", "-s", "-r", world_file)
+    run.wait_for_line("Finished loading Gazebo ROS API Plugin")
+    topics = gazelle("gz", "topic", "-l")
+    assert topics.wait() == 0
+    assert "/world/hall/stats" in topics.lines
+    services = gazelle("gz", "service", "-l")
+    assert services.wait() == 0
+    assert "/world/hall/control" in services.lines
+    echo = gazelle("gz", "topic", "-e", "-t", "/world/hall/stats", "-n", "1")
+    assert echo.wait() == 0
+    assert any("real_time_factor" in line for line in echo.lines)
+    assert any("nsec: 1000000" in line for line in echo.lines)

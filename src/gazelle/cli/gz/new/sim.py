@@ -116,7 +116,7 @@ def run(words: list[str]) -> int:
     start.world = _found_world(start.world)
     if "-r" not in start.flags:
         say(["gazelle: the world is paused, as gz sim has it without -r; gz world -p 0 lets it go"])
-    return gzserver.main(start.server_words)
+    return gzserver.main([*start.server_words, "--gz"])
 
 
 def read_sim(words: Iterable[str]) -> SimStart:
