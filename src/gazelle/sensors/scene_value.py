@@ -62,6 +62,7 @@ def world_value(world: World, *, version: int = 0) -> Value:
         "background": list(scene.background[:3]),
         "shadows": scene.shadows,
         "grid": scene.grid,
+        "view": None if scene.T_world_view is None else pose_value(scene.T_world_view),
         "gravity": list(world.gravity_m_s2),
     }
 
@@ -85,6 +86,7 @@ def robot_value(model: Model) -> Value:
         "background": [0.2, 0.2, 0.2],
         "shadows": True,
         "grid": True,
+        "view": None,
     }
 
 

@@ -86,7 +86,8 @@ export class DisplayList {
     const unknown: string[] = [];
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
     this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as ToolValue[];
-    if (textOf(value, 'background')) this.setBackground(textOf(value, 'background'));
+    // What a world file says of its scene stays.
+    if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld) this.setBackground(textOf(value, 'background'));
     const displays = Array.isArray(value['displays']) ? value['displays'] : [];
     for (const each of displays.filter(isObject)) {
       const given = each as unknown as DisplayValue;

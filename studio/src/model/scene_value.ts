@@ -103,4 +103,6 @@ export interface SceneValue {
   background: number[];
   shadows: boolean;
   grid: boolean;
+  /** Where the world file has the window's camera: it looks along +x, z up. */
+  view: Pose | null;
 }

@@ -216,6 +216,20 @@ function direction(yaw: number, pitch: number): THREE.Vector3 {
   return new THREE.Vector3(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch));
 }
 
+/** The view of a camera at a pose (x, y, z, quaternion) that looks along +x, z up. */
+export function stateAt(pose: readonly number[]): Partial<ViewState> {
+  const [x, y, z, qx, qy, qz, qw] = pose;
+  const turn = new THREE.Quaternion(qx, qy, qz, qw);
+  const ahead = new THREE.Vector3(1, 0, 0).applyQuaternion(turn);
+  const up = new THREE.Vector3(0, 0, 1).applyQuaternion(turn);
+  // Straight up or down, what is up in the picture says which way it is turned.
+  const heading = Math.abs(ahead.z) > 0.999 ? up.multiplyScalar(-Math.sign(ahead.z)) : ahead;
+  const distance = ahead.z < -0.05 && z > 0 ? Math.min(100, z / -ahead.z) : 5;
+  const pitch = Math.max(-MOST_PITCH, Math.min(MOST_PITCH, Math.asin(Math.max(-1, Math.min(1, -ahead.z)))));
+  const focal: [number, number, number] = [x + ahead.x * distance, y + ahead.y * distance, z + ahead.z * distance];
+  return { kind: 'Orbit', distance, yaw: Math.atan2(-heading.y, -heading.x), pitch, focal };
+}
+
 function mixed(from: ViewState, to: ViewState, part: number): ViewState {
   const mix = (a: number, b: number): number => a + (b - a) * part;
   const focal = from.focal.map((value, axis) => mix(value, to.focal[axis])) as [number, number, number];

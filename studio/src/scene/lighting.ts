@@ -43,6 +43,8 @@ export class Lighting {
   private readonly dome = skyDome();
   private suns: THREE.DirectionalLight[] = [];
   private allowed = true;
+  /** Whether a world file has said how its scene looks. */
+  ofWorld = false;
 
   constructor(private readonly scene: THREE.Scene) {
     this.root.name = 'lights';
@@ -54,6 +56,7 @@ export class Lighting {
 
   /** Take the lights of a world; without any, two lamps of a studio. */
   set(value: Surroundings): void {
+    this.ofWorld = value !== ROOM;
     this.root.clear();
     this.suns = [];
     const [r, g, b] = value.ambient;

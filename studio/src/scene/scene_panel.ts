@@ -14,7 +14,7 @@ import { acceptFiles, entityMenu, openRviz, worldKey } from '../world/actions';
 import { worldStore, type WorldStore } from '../world/store';
 import { dropScene, useScene } from './active';
 import { Film } from './capture';
-import type { ViewState } from './cameras';
+import { stateAt, type ViewState } from './cameras';
 import { Frames } from './frames';
 import { freeYaw } from './framing';
 import { gridLines } from './grid';
@@ -195,6 +195,11 @@ export class ScenePanel implements Panel, Bench {
     this.element.classList.toggle('scene-empty', scene === null);
     if (!scene) return;
     this.view.lighting.set(surroundings(scene));
+    if (!this.framed && scene.view) {
+      this.framed = true;
+      this.grid.visible = scene.grid;
+      if (!this.view.rig.touched) this.view.rig.set(stateAt(scene.view));
+    }
     if (!this.framed && scene.models.some((model) => !model.static)) {
       this.framed = true;
       // Meshes come later; the sizes of their boxes too.

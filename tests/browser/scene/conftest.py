@@ -59,13 +59,13 @@ def gazebo(free_port: int, look: Any) -> Iterator[GazeboPage]:
         seen = look(studio.url, "gzclient", size=(1440, 900))
         # The world ends before its page does.
         seen.expect_problem("ERR_CONNECTION_REFUSED|ERR_EMPTY_RESPONSE|ERR_CONNECTION_RESET")
-        yield GazeboPage(seen, server, _eventually)
+        yield GazeboPage(seen, server, eventually)
     server.close()
     running.join(_WAIT_S)
     graph.close()
 
 
-def _eventually(condition: Any) -> Any:
+def eventually(condition: Any) -> Any:
     pause = threading.Event()
     for _ in range(int(_WAIT_S / 0.05)):
         if found := condition():

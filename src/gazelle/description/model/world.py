@@ -97,13 +97,18 @@ class Physics:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """SDF ``<scene>``: `fog` as written is ignored with a notice."""
+    """SDF ``<scene>``: `fog` as written is ignored with a notice.
+
+    Attributes:
+        T_world_view: where ``<gui>`` has the window's camera, which looks along +x, z up.
+    """
 
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)
     sky: bool = False
     shadows: bool = True
     grid: bool = True
+    T_world_view: Pose | None = None
     span: SourceSpan | None = None
 
 
