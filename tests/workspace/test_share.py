@@ -221,8 +221,8 @@ def test_launch_file_of_a_package_that_was_never_built_runs(heron: Path, gazelle
 
 def test_mistake_in_such_a_launch_file_is_told_at_the_users_line(heron: Path, gazelle) -> None:
     file = heron / "bringup/launch/heron.launch.py"
-    file.write_text("import os\nraise RuntimeError('no')\n")
+    file.write_text("import os\nraise RuntimeError('no ' + __file__)\n")
     run = gazelle("ros2", "launch", "heron", "heron.launch.py", ROS_PACKAGE_PATH=str(heron.parent))
     assert run.wait() == 1
-    assert f"{file}:2: error: RuntimeError: no" in run.text
+    assert f"{file}:2: error: RuntimeError: no {file}" in run.text
     assert "gazelle/installed" not in run.text

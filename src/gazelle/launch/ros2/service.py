@@ -12,6 +12,7 @@ import traceback
 from collections.abc import Coroutine, Iterable, Iterator, Sequence
 from typing import Any
 
+from gazelle.diagnostics.share_links import as_written
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.context import LaunchContext
 from gazelle.launch.ros2.description import LaunchDescription
@@ -208,7 +209,7 @@ class LaunchService:
         visit_all_entities_and_collect_futures(entity, self.context, self.__pairs)
 
     def __tell(self, error: Exception) -> None:
-        message = f"Caught exception in launch (see debug for traceback): {error}"
+        message = f"Caught exception in launch (see debug for traceback): {as_written(str(error))}"
         self.__logger.debug("".join(traceback.format_exception(error)))
         self.__logger.error(message)
         for diagnostic in diagnose(error):
