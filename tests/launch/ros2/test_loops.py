@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from gazelle.launch.ros2.actions import (
     LogInfo,
     LogWarning,
 )
+from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
 
 _XML = """<launch>
@@ -74,3 +76,17 @@ def test_levels_that_do_not_exist_are_told(run: Callable[..., Any]) -> None:
     with pytest.raises(TypeError):
         Log(msg="x")  # type: ignore[call-arg]
     assert run(LaunchDescription([Log(msg="x", level="loud")])).code == 1
+
+
+@pytest.mark.parametrize(
+    ("tag", "kind"),
+    [
+        ('<log message="x"/>', LogInfo),
+        ('<log level="warning" message="x"/>', Log),
+        ('<log_error message="x"/>', LogError),
+    ],
+)
+def test_lines_of_xml_become_the_action_of_their_level(tag: str, kind: type[Log]) -> None:
+    root, parser = Parser.load(io.StringIO(f"<launch>{tag}</launch>"))
+    (made,) = parser.parse_description(root).entities
+    assert type(made) is kind

@@ -38,11 +38,18 @@ class Log(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return class and arguments of a ``<log>``, which has no level up to Jazzy."""
+        """Return class and arguments of a ``<log>``; without a level it is a `LogInfo`.
+
+        It has no level up to Jazzy, where `LogInfo` is what ``<log>`` makes.
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
+        if cls is not Log:
+            return cls, kwargs
         level = entity.get_attr("level", optional=True)
-        kwargs["level"] = parser.parse_substitution(level or "INFO")
+        if level is None:
+            return LogInfo, kwargs
+        kwargs["level"] = parser.parse_substitution(level)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
