@@ -18,7 +18,14 @@ import pytest
 from gazelle.compat.refused import REFUSED, refusal_of
 
 NAMES = Path(__file__).parent / "original_names"
-_FAMILIES = ("launch", "controller_manager", "nav2_common", "ros_gz_bridge", "ament_index_python")
+_FAMILIES = (
+    "launch",
+    "controller_manager",
+    "nav2_common",
+    "ros_gz_bridge",
+    "ament_index_python",
+    "rospy",
+)
 
 
 @pytest.mark.parametrize("package", _FAMILIES)

@@ -15,7 +15,7 @@ Run = Callable[..., Any]
 _NAMES = """
 import sys, rospy
 assert rospy.myargv(sys.argv)[1:] == ["--own", "word"]
-assert rospy.get_name() == "/unnamed"
+assert rospy.get_name() == "/robot/unnamed"
 rospy.init_node("original")
 assert rospy.get_name() == "/robot/given", rospy.get_name()
 assert rospy.get_namespace() == "/robot/"
@@ -23,7 +23,7 @@ assert rospy.get_param("~rate") == 5 and rospy.get_param("/robot/given/who") == 
 assert rospy.resolve_name("scan") == "/robot/laser"
 assert rospy.resolve_name("~own") == "/robot/given/own"
 assert rospy.resolve_name("/abs") == "/abs" and rospy.resolve_name("other") == "/robot/other"
-assert rospy.remap_name("scan") == "laser"
+assert rospy.remap_name("scan") == "/robot/laser"
 from std_msgs.msg import String
 assert rospy.Publisher("scan", String, queue_size=1).resolved_name == "/robot/laser"
 assert rospy.Publisher("~status", String, queue_size=1).resolved_name == "/robot/given/status"

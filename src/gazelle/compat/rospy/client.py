@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInterruptException
+from gazelle.compat.rospy.naming import (
+    get_caller_id,
+    get_name,
+    get_namespace,
+    remap_name,
+    resolve_name,
+)
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.rospy.topics import wait_for_message
 from gazelle.errors import GraphError
 from gazelle.graph.names import parse_command_line
 
 __all__ = [
+    "TIMEOUT_READY",
+    "MasterProxy",
     "delete_param",
     "get_caller_id",
     "get_master",
@@ -29,6 +39,7 @@ __all__ = [
     "is_initialized",
     "is_shutdown",
     "is_shutdown_requested",
+    "load_command_line_node_params",
     "myargv",
     "on_shutdown",
     "remap_name",
@@ -37,9 +48,12 @@ __all__ = [
     "set_param",
     "signal_shutdown",
     "spin",
+    "wait_for_message",
 ]
 
 DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
+# Seconds that rospy waits for a node's own address to be known.
+TIMEOUT_READY = 15.0
 _MISSING: Any = object()
 
 
@@ -92,15 +106,15 @@ def signal_shutdown(reason: str) -> None:
     STATE.shut_down(str(reason))
 
 
-def on_shutdown(hook: Callable[[], Any]) -> None:
+def on_shutdown(h: Callable[[], Any]) -> None:
     """Run a function without arguments when the node is shut down.
 
     Raises:
-        TypeError: `hook` is not callable.
+        TypeError: `h` is not callable.
     """
-    if not callable(hook):
-        raise TypeError(f"shutdown hook [{hook}] must be a function or callable object")
-    STATE.add_hook(hook)
+    if not callable(h):
+        raise TypeError(f"shutdown hook [{h}] must be a function or callable object")
+    STATE.add_hook(h)
 
 
 def spin() -> None:
@@ -122,22 +136,6 @@ def myargv(argv: Sequence[str] | None = None) -> list[str]:
     return parse_command_line(sys.argv if argv is None else argv).rest
 
 
-def get_name() -> str:
-    """Return the node's global name, ``/unnamed`` before `init_node`."""
-    return STATE.node.name if STATE.node is not None else "/unnamed"
-
-
-def get_caller_id() -> str:
-    """Return the node's global name."""
-    return get_name()
-
-
-def get_namespace() -> str:
-    """Return the node's namespace, ending with ``/``."""
-    namespace = STATE.node.namespace if STATE.node is not None else STATE.line.namespace or "/"
-    return namespace.rstrip("/") + "/"
-
-
 def get_node_uri() -> str | None:
     """Return a name for the node's process on this graph; None before `init_node`."""
     node = STATE.node
@@ -149,18 +147,10 @@ def get_ros_root(required: bool = False, env: Any = None) -> None:
     del required, env
 
 
-def resolve_name(name: str, caller_id: str | None = None) -> str:
-    """Return the global name after remaps; relative to another node if one is given."""
-    if caller_id:
-        from gazelle.graph.names import namespace_of, resolve
-
-        return resolve(name, namespace_of(caller_id), node=caller_id)
-    return STATE.resolved(name)
-
-
-def remap_name(name: str) -> str:
-    """Return what a name is remapped to, without resolving it."""
-    return STATE.line.remappings.get(name, name)
+def load_command_line_node_params(argv: Sequence[str]) -> None:
+    """Set the parameters of a command line: ``_rate:=5`` is ``~rate``."""
+    for key, value in parse_command_line(argv).params.items():
+        set_param(f"~{key}", value)
 
 
 def get_param(param_name: str, default: Any = _MISSING) -> Any:
@@ -233,10 +223,10 @@ def get_published_topics(namespace: str = "/") -> list[list[str]]:
     ]
 
 
-def get_master(env: Any = None) -> Master:
+def get_master(env: Any = None) -> MasterProxy:
     """Return what answers the questions that programs ask a ROS master."""
     del env
-    return Master()
+    return MasterProxy()
 
 
 class Master:
@@ -261,6 +251,40 @@ class Master:
         subscribers = [[one.name, list(one.subscriptions)] for one in topics if one.subscriptions]
         services = [[one.name, list(one.servers)] for one in graph.services()]
         return 1, "current system state", [publishers, subscribers, services]
+
+
+class MasterProxy(Master):
+    """The master's answers, and the parameters as a mapping (rospy.msproxy).
+
+    Args:
+        uri: taken and without effect: there is one graph.
+    """
+
+    def __init__(self, uri: str = "") -> None:
+        del uri
+
+    def __getitem__(self, key: str) -> Any:
+        return get_param(key)
+
+    def __setitem__(self, key: str, val: Any) -> None:
+        set_param(key, val)
+
+    def __delitem__(self, key: str) -> None:
+        delete_param(key)
+
+    def __contains__(self, key: str) -> bool:
+        return has_param(key)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(get_param_names())
+
+    def search_param(self, key: str) -> str | None:
+        """Return the name of the nearest parameter of this name, going up from the node."""
+        return search_param(key)
+
+    def get_param_cached(self, key: str) -> Any:
+        """Return a parameter as last seen."""
+        return get_param_cached(key)
 
 
 def _get(name: str, default: Any, *, cached: bool) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 __all__ = [
+    "ParameterInvalid",
     "ROSException",
     "ROSInitException",
     "ROSInternalException",
@@ -67,3 +68,7 @@ class TransportTerminated(TransportException):
 
 class TransportInitError(TransportException):
     """A connection could not be opened."""
+
+
+class ParameterInvalid(Exception):  # noqa: N818 - rospy's name
+    """A name or an address is not what it has to be (rospy.impl.validators)."""

@@ -14,7 +14,7 @@ __all__ = [
     f"log{word}{form}"
     for word in ("debug", "err", "fatal", "info", "warn")
     for form in ("", "_once", "_throttle", "_throttle_identical")
-] + ["logerror"]
+] + ["logerror", "logout"]
 
 _last: dict[tuple[str, int], tuple[float, str]] = {}
 _said: set[tuple[str, int]] = set()
@@ -58,6 +58,9 @@ def logdebug(msg: Any, *args: Any, **kwargs: Any) -> None:
 def loginfo(msg: Any, *args: Any, **kwargs: Any) -> None:
     """Say something at info level."""
     _log(Level.INFO, msg, args, kwargs)
+
+
+logout = loginfo
 
 
 def logwarn(msg: Any, *args: Any, **kwargs: Any) -> None:

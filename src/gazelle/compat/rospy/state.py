@@ -38,6 +38,7 @@ class NodeState:
         self.graph: Graph | None = None
         self.node: Node | None = None
         self.line: CommandLine = parse_command_line(sys.argv[1:])
+        self.argv: Sequence[str] | None = None
         self.requested = threading.Event()
         self.stopping = threading.Event()
         self._finished = threading.Event()
@@ -93,6 +94,7 @@ class NodeState:
                 self._check_again(name)
                 return
             self.line = parse_command_line(sys.argv[1:] if argv is None else argv)
+            self.argv = argv
             if not disable_signals:
                 self._take_signals()
             graph = self.open_graph()

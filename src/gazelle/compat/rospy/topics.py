@@ -18,7 +18,6 @@ from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
-from gazelle.graph import Subscription as _Subscription
 from gazelle.graph.delivery import Mailbox
 from gazelle.interfaces import (
     AnyMsg,
@@ -52,9 +51,10 @@ class Topic:
         data_class: message class.
         type: type name, such as ``std_msgs/String``.
         md5sum: MD5 sum of the type.
+        reg_type: ``pub`` or ``sub``.
     """
 
-    def __init__(self, name: str, data_class: type[Ros1Message]) -> None:
+    def __init__(self, name: str, data_class: type[Ros1Message], reg_type: str) -> None:
         if not isinstance(name, str) or not name:
             raise ValueError("topic name is not a non-empty string")
         if data_class is None:
@@ -66,7 +66,23 @@ class Topic:
         self.data_class = data_class
         self.type = data_class._type
         self.md5sum = data_class._md5sum
-        self.reg_type = "pub"
+        self.reg_type = reg_type
+        self.impl: Any = None
+        self._is_unregistered = False
+
+    def get_num_connections(self) -> int:
+        """Return how many subscribers a publisher has, or publishers a subscriber."""
+        if self.impl is None:
+            return 0
+        is_publisher = isinstance(self.impl, _Publisher)
+        return int(self.impl.subscription_count if is_publisher else self.impl.publisher_count)
+
+    def unregister(self) -> None:
+        """Stop offering or receiving the topic."""
+        self._is_unregistered = True
+        if self.impl is not None:
+            self.impl.unregister()
+            self.impl = None
 
 
 def warn_of_headers(headers: Mapping[str, str] | None) -> None:
@@ -98,7 +114,7 @@ class Publisher(Topic):
         headers: dict[str, str] | None = None,
         queue_size: int | None = None,
     ) -> None:
-        super().__init__(name, data_class)
+        super().__init__(name, data_class, "pub")
         del tcp_nodelay
         warn_of_headers(headers)
         if queue_size is None:
@@ -110,8 +126,6 @@ class Publisher(Topic):
             )
         self._listener = subscriber_listener
         self._count = 0
-        self._is_unregistered = False
-        self._impl: _Publisher | None = None
         STATE.when_ready(lambda node: self._open(node, name, latch, queue_size or 10))
 
     def publish(self, *args: Any, **kwds: Any) -> None:
@@ -125,7 +139,7 @@ class Publisher(Topic):
         """
         if self._is_unregistered:
             raise ROSException("publish() to an unregistered() handle")
-        if self._impl is None:
+        if self.impl is None:
             raise ROSException(
                 "ROS node has not been initialized yet. Please call init_node() first"
             )
@@ -133,28 +147,17 @@ class Publisher(Topic):
             raise ROSException("publish() to a closed topic")
         message = message_of(self.data_class, args, kwds)
         try:
-            self._impl.publish(message)
+            self.impl.publish(message)
         except GazelleError as error:
             raise ROSSerializationException(str(error)) from error
-
-    def get_num_connections(self) -> int:
-        """Return how many subscribers there are."""
-        return 0 if self._impl is None else self._impl.subscription_count
-
-    def unregister(self) -> None:
-        """Stop offering the topic."""
-        self._is_unregistered = True
-        if self._impl is not None:
-            self._impl.unregister()
-            self._impl = None
 
     def _open(self, node: Node, name: str, latch: bool, queue_size: int) -> None:
         if self._is_unregistered:
             return
-        self._impl = node.create_publisher(
+        self.impl = node.create_publisher(
             name, self.data_class, latch=latch, queue_size=queue_size, copy_local=True
         )
-        self.name = self.resolved_name = self._impl.topic
+        self.name = self.resolved_name = self.impl.topic
         if self._listener is not None:
             # A listener may ask the graph, whose answers come through the thread that tells here.
             news = Mailbox(self._tell_listener, size=0, name=f"listener {self.name}")
@@ -168,9 +171,9 @@ class Publisher(Topic):
             sys.stderr.write(traceback.format_exc())
 
     def _tell_of_peers(self) -> None:
-        if self._listener is None or self._impl is None:
+        if self._listener is None or self.impl is None:
             return
-        count = self._impl.subscription_count
+        count = self.impl.subscription_count
         while self._count < count:
             self._count += 1
             self._listener.peer_subscribe(self.name, self.publish, self.publish)
@@ -180,7 +183,7 @@ class Publisher(Topic):
 
 
 def message_of(
-    message_class: type[Ros1Message], args: tuple[Any, ...], kwds: dict[str, Any]
+    data_class: type[Ros1Message], args: tuple[Any, ...], kwds: dict[str, Any]
 ) -> Ros1Message:
     """Return the message that `publish` and service calls make of their arguments.
 
@@ -192,11 +195,11 @@ def message_of(
         raise TypeError("publish() can be called with arguments or keywords, but not both.")
     if len(args) == 1 and isinstance(args[0], Ros1Message):
         given = args[0]
-        if isinstance(given, message_class) or given._md5sum == message_class._md5sum:
+        if isinstance(given, data_class) or given._md5sum == data_class._md5sum:
             return given
-        if message_class._slot_types[:1] != [given._type] or len(message_class.__slots__) != 1:
-            raise TypeError(f"expected [{message_class._type}] but got [{given._type}]")
-    return message_class(*args, **kwds)
+        if data_class._slot_types[:1] != [given._type] or len(data_class.__slots__) != 1:
+            raise TypeError(f"expected [{data_class._type}] but got [{given._type}]")
+    return data_class(*args, **kwds)
 
 
 class Subscriber(Topic):
@@ -219,26 +222,12 @@ class Subscriber(Topic):
         buff_size: int = 65536,
         tcp_nodelay: bool = False,
     ) -> None:
-        super().__init__(name, data_class)
+        super().__init__(name, data_class, "sub")
         del buff_size, tcp_nodelay
-        self.reg_type = "sub"
         self.callback = callback
         self.callback_args = callback_args
-        self._is_unregistered = False
         self._headers: dict[bytes, dict[str, str]] = {}
-        self.impl: _Subscription | None = None
         STATE.when_ready(lambda node: self._open(node, name, queue_size or 0))
-
-    def get_num_connections(self) -> int:
-        """Return how many publishers there are."""
-        return 0 if self.impl is None else self.impl.publisher_count
-
-    def unregister(self) -> None:
-        """Stop receiving."""
-        self._is_unregistered = True
-        if self.impl is not None:
-            self.impl.unregister()
-            self.impl = None
 
     def _open(self, node: Node, name: str, queue_size: int) -> None:
         if self._is_unregistered:

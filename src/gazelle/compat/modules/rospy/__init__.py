@@ -2,6 +2,8 @@
 
 import sys as _sys
 
+from std_msgs.msg import Header
+
 from gazelle.compat.rospy import *  # noqa: F403
 from gazelle.compat.rospy import (
     DEBUG,
@@ -12,13 +14,14 @@ from gazelle.compat.rospy import (
     AnyMsg,
     Message,
     client,
+    core,
     errors,
     log,
     rostime,
-    services,
-    topics,
 )
+from gazelle.compat.rospy import naming as names
 from gazelle.compat.rospy.client import *  # noqa: F403
+from gazelle.compat.rospy.core import parse_rosrpc_uri
 from gazelle.compat.rospy.errors import *  # noqa: F403
 from gazelle.compat.rospy.log import *  # noqa: F403
 from gazelle.compat.rospy.rostime import *  # noqa: F403
@@ -26,17 +29,15 @@ from gazelle.compat.rospy.services import *  # noqa: F403
 from gazelle.compat.rospy.topics import *  # noqa: F403
 
 # Programs also reach for rospy's inner modules by name.
-exceptions, core, names, msg, timer = errors, client, client, topics, rostime
+exceptions, timer = errors, rostime
 for _name, _module in {
     "client": client,
-    "core": client,
+    "core": core,
     "exceptions": errors,
-    "msg": topics,
-    "names": client,
+    "names": names,
     "rostime": rostime,
-    "service": services,
     "timer": rostime,
-    "topics": topics,
 }.items():
     _sys.modules[f"{__name__}.{_name}"] = _module
-topics.AnyMsg = AnyMsg
+
+from rospy import msg, msproxy, service, topics  # noqa: E402 - they need the ones above
