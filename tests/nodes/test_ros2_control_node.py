@@ -81,8 +81,36 @@ def test_hardware_of_a_world_is_refused(bench: Any, capsys: pytest.CaptureFixtur
     assert not bench.call("/controller_manager/list_hardware_components", kind).component
     assert bench.stop() == [0]
     text = capsys.readouterr().err
-    assert "hardware 'arm' has class 'gazebo_ros2_control/GazeboSystem', which ros2_contr" in text
+    assert (
+        "hardware 'arm' has class 'GazeboSystem' of package 'gazebo_ros2_control', which runs in "
+        "a world only; lost with it, for every controller: joint 'j'" in text
+    )
     assert "mock_components/GenericSystem" in text
+
+
+def test_missing_hardware_is_one_error_that_controllers_refer_to(
+    bench: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "controllers.yaml"
+    file.write_text(_PARAMETERS)
+    _publish(bench, "shop_driver/ArmHardware")
+    bench.start(_NODE, "--ros-args", "--params-file", str(file))
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    refusals = {}
+    for name in ("states", "arm"):
+        for step in ("load", "configure"):
+            kind = f"controller_manager_msgs/srv/{step.capitalize()}Controller"
+            address = f"/controller_manager/{step}_controller"
+            refusals[name, step] = bench.call(address, kind, name=name).ok
+    assert [step for (_, step), is_done in refusals.items() if not is_done] == ["configure"] * 2
+    assert bench.stop() == [0]
+    captured = capsys.readouterr()
+    text = captured.out + captured.err
+    assert text.count(" error: ") == 1
+    assert "class 'ArmHardware' of package 'shop_driver', which is compiled code" in text
+    assert "controller 'arm' cannot run without 'j': hardware 'arm', which has it, was not" in text
+    assert "No state interfaces found to publish. Hardware 'arm' was not loaded" in text
+    assert "<ros2_control> block" not in text
 
 
 def test_robot_that_is_none_ends_the_node(bench: Any) -> None:

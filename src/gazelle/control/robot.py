@@ -114,6 +114,8 @@ class Robot:
         joints: by name, over all components.
         sensors: state interfaces of sensors by the sensor's name, in order.
         sensor_frames: ``frame_id`` of each sensor.
+        absent: hardware by the name of a joint, sensor or gpio that it would give if its class
+            were here; that was reported, so nobody else is to blame.
     """
 
     generation: int
@@ -123,6 +125,7 @@ class Robot:
     joints: Mapping[str, JointResource]
     sensors: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     sensor_frames: Mapping[str, str] = field(default_factory=dict)
+    absent: Mapping[str, str] = field(default_factory=dict)
 
     def read(self, time_ns: int, period_ns: int) -> None:
         """Measure."""

@@ -9,7 +9,7 @@ from pathlib import PurePath
 from gazelle.description.model import Model, PluginTag, World
 from gazelle.diagnostics import Diagnostic, SourceSpan
 from gazelle.doctor.report import Section
-from gazelle.simulator.plugins.registry import all_tables, plain_name
+from gazelle.simulator.plugins.registry import all_tables, looked_up, plain_name
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["plugins_section", "tags_section"]
@@ -97,8 +97,8 @@ def _sensor_plugins(model: Model) -> Iterator[tuple[str, PluginTag]]:
 def _done(plugin: PluginTag, wrong: dict[SourceSpan | None, str]) -> str:
     if plugin.span in wrong:
         return wrong[plugin.span]
-    for name in (plugin.filename, plugin.name):
-        table = _tables_by_name().get(plain_name(name))
+    for name in looked_up(plugin):
+        table = _tables_by_name().get(name)
         if table is not None:
             return table.family
     return "your Python"

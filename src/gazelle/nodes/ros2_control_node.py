@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import threading
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.hardware.gazebo_system import SystemOptions
 from gazelle.control.hardware.ros2_robot import build_ros2_robot
-from gazelle.control.hardware.ros2_tags import read_hardware_tags
 from gazelle.control.sources.files import FileSource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity, render
@@ -37,7 +36,6 @@ __all__ = ["run"]
 
 _RATE_HZ = 100.0
 _LOOK_S = 0.1
-_MOCK = ("mock_components/GenericSystem", "fake_components/GenericSystem")
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -117,7 +115,7 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
         overrides={name: given},
     )
     options = SystemOptions(False, True, 0.0, rate_hz, has_world=False)
-    robot = build_ros2_robot(host, _with_mocks_only(model, host.diagnostics), options)
+    robot = build_ros2_robot(host, model, options)
     manager = ControllerManager(
         robot,
         namespace=node.namespace,
@@ -137,20 +135,6 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
     _loop(manager, host, 1.0 / rate_hz, stop)
     resources.close()
     return 0
-
-
-def _with_mocks_only(model: Model, diagnostics: Diagnostics) -> Model:
-    """Return the model without hardware that needs a world; each is reported."""
-    unwanted: set[str] = set()
-    for tag in read_hardware_tags(model, Diagnostics()):
-        if tag.plugin.replace("::", "/") not in _MOCK:
-            unwanted.add(tag.name)
-            text = f"hardware '{tag.name}' has class '{tag.plugin}', which ros2_control_node has"
-            text += " not: Gazebo's run in a world, drivers of real robots are compiled code"
-            fix = f"<plugin>{_MOCK[0]}</plugin>"
-            diagnostics.report("control.hardware-plugin", text, tag.span, fix=fix)
-    kept = tuple(one for one in model.ros2_controls if one.name not in unwanted)
-    return replace(model, ros2_controls=kept)
 
 
 def _loop(manager: ControllerManager, host: Any, period_s: float, stop: threading.Event) -> None:

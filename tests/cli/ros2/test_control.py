@@ -22,7 +22,8 @@ Run = Callable[..., tuple[int, str]]
 @pytest.fixture
 def graph(free_port: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Graph]:
     monkeypatch.setenv("GAZELLE_PORT", str(free_port))
-    monkeypatch.delenv("ROS_NAMESPACE", raising=False)
+    for name in ("ROS_NAMESPACE", "ROS_DOMAIN_ID", "ROS_MASTER_URI"):
+        monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "0")
     with Graph.open(port=free_port, role="hub", environ={}) as graph:
         # The manager's log belongs to the simulator's terminal.

@@ -81,6 +81,15 @@ def test_one_table_of_what_disagrees_with_nearest_names() -> None:
     ]
 
 
+def test_joints_of_hardware_that_was_not_loaded_are_not_blamed_again() -> None:
+    source = _source({"c": {"type": "a/B", "joints": ["joint_1", "joint_2", "jiont_2"]}})
+    controllers = configured_controllers(source)
+    rows = disagreements(URDF, {}, controllers, absent=("joint_1", "joint_2", "jiont_2"))
+    assert [(row.name, row.remark.partition(";")[0]) for row in rows] == [
+        ("jiont_2", "the robot has no such joint")
+    ]
+
+
 def test_word_joint_of_an_unknown_controller_need_not_mean_one() -> None:
     """Typing errors are told all the same: it may be a controller of the user's own."""
     source = _source({"twist": {"type": "a/Twist", "joints": ["tool", "joint_3", "left"]}})

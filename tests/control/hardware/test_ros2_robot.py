@@ -45,6 +45,12 @@ def test_a_driver_of_a_real_robot_is_reported_and_nothing_takes_its_place() -> N
     text = message(rig, "control.hardware-plugin")
     assert "ur_robot_driver/URPositionHardwareInterface does not exist" in text
     assert "write <plugin>gazebo_ros2_control/GazeboSystem</plugin>" in text
+    assert (
+        "class 'URPositionHardwareInterface' of package 'ur_robot_driver', which is compiled code "
+        "that is not here; lost with it, for every controller: joint 'j' (" in text
+    )
+    assert rig.robot.absent == {"j": "hw"}
+    assert [item.code for item in rig.diagnostics] == ["control.hardware-plugin"]
 
 
 def test_a_misspelt_class_gets_the_nearest_name() -> None:

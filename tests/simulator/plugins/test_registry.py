@@ -212,3 +212,14 @@ def test_a_library_that_does_nothing_is_a_remark(
     sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
     (found,) = sim.diagnostics.by_code("plugin.without-effect")
     assert found.severity is Severity.INFO
+
+
+@pytest.mark.parametrize("name", ["contactPlugin", "gazebo_ros_imu", "elevatorPlugin"])
+def test_what_a_user_calls_a_library_does_not_say_what_it_is(
+    load: Callable[..., Simulation], name: str
+) -> None:
+    plugin = f"<gazebo><plugin name='{name}' filename='libshopFoot{name}.so'/></gazebo>"
+    sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
+    (found,) = (item for item in sim.diagnostics if item.code.startswith("plugin."))
+    assert found.code == "plugin.unknown"
+    assert "did you mean" not in found.fix

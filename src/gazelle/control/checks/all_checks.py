@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from gazelle.control.checks.configured import ConfiguredController, Gains, configured_controllers
 from gazelle.control.checks.gains import largest_stable_factor
@@ -26,6 +26,7 @@ def check_control(
     diagnostics: Diagnostics,
     *,
     moveit: Sequence[MoveItController] = (),
+    absent: Collection[str] = (),
     inertias: Mapping[str, float] | None = None,
     step_s: float = 1e-3,
     period_steps: int = 1,
@@ -39,15 +40,15 @@ def check_control(
         source: parameters of the controllers.
         diagnostics: receives the findings.
         moveit: what MoveIt sends trajectories to.
+        absent: joints of hardware that was not loaded, which is reported by itself.
         inertias: by joint name, see `joint_inertias`; gains are not checked without.
         step_s: of the physics.
         period_steps: physics steps between two updates of the controllers.
         span: the plug-in's place, for findings that have no better one.
     """
     controllers = configured_controllers(source)
-    rows = disagreements(
-        {name: joint.type.value for name, joint in joints.items()}, hardware, controllers, moveit
-    )
+    types = {name: joint.type.value for name, joint in joints.items()}
+    rows = disagreements(types, hardware, controllers, moveit, absent)
     if rows:
         named = {name for row in rows for name in row.controllers}
         places = [item.place for item in controllers if item.name in named and item.place]

@@ -44,6 +44,7 @@ def disagreements(
     hardware: Mapping[str, JointResource],
     controllers: Sequence[ConfiguredController],
     moveit: Sequence[MoveItController] = (),
+    absent: Collection[str] = (),
 ) -> tuple[Disagreement, ...]:
     """Compare the four places that name joints.
 
@@ -52,6 +53,7 @@ def disagreements(
         hardware: joints that transmissions or ``<ros2_control>`` give to controllers.
         controllers: what the parameters describe.
         moveit: what MoveIt sends trajectories to.
+        absent: joints of hardware that was not loaded, which is reported by itself.
 
     Returns:
         every name that is missing somewhere it is needed, in the order of the places. A joint
@@ -61,6 +63,8 @@ def disagreements(
     planned = _by_joint((item.name, item.joints) for item in moveit)
     rows = []
     for name in dict.fromkeys([*hardware, *named, *planned]):
+        if name in absent and name in urdf and name not in hardware:
+            continue
         remark = _remark(name, urdf, hardware, named, planned if moveit else None)
         if remark:
             interfaces = ", ".join(hardware[name].command_interfaces) if name in hardware else ""

@@ -91,6 +91,9 @@ class ControllerContext:
             raise ControllerError(text)
 
     def _no_joint(self, name: str) -> str:
+        if name in self.robot.absent:
+            text = f"controller '{self.name}' cannot run without '{name}': hardware "
+            return f"{text}'{self.robot.absent[name]}', which has it, was not loaded (see above)"
         names = [*self.robot.joints, *self.robot.sensors]
         hint = did_you_mean(name, names) or f"there are: {', '.join(names) or 'none'}"
         if name in {joint.name for joint in self.robot.model.joints}:

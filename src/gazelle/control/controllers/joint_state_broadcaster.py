@@ -70,7 +70,11 @@ class JointStateBroadcaster(Controller):
         parameters = context.parameters
         self.states = self._wanted()
         if not self.states:
-            raise ControllerError(f"{context.name}: No state interfaces found to publish.")
+            text = f"{context.name}: No state interfaces found to publish."
+            if self.robot.absent:
+                names = "', '".join(dict.fromkeys(self.robot.absent.values()))
+                text += f" Hardware '{names}' was not loaded (see above)"
+            raise ControllerError(text)
         places = context.state_places(self.states)
         mapping = self._mapping()
         self._values: dict[str, dict[str, int]] = {}

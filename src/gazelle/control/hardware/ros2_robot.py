@@ -67,11 +67,13 @@ class _Builder:
         self._components: list[GazeboSystem | GenericSystem] = []
         self._interfaces: dict[str, tuple[str, ...]] = {}
         self._frames: dict[str, str] = {}
+        self._absent: dict[str, str] = {}
 
     def add(self, tag: HardwareTag) -> None:
         """Make the hardware of a block; a block whose class is unknown is reported only."""
         plugin = tag.plugin.replace("::", "/")
-        if plugin not in _KNOWN:
+        if plugin not in self._known():
+            self._absent.update({part.name: tag.name for part in tag.parts})
             self._report_unknown(tag)
         elif plugin in _MOCK:
             if self._options.has_world:
@@ -88,14 +90,17 @@ class _Builder:
         self._bank.freeze()
         for component in self._components:
             component.start()
+        joints = {joint.name: joint for item in self._components for joint in item.joints}
+        held = {*joints, *self._interfaces}
         return Robot(
             2,
             self._model,
             self._bank,
             tuple(self._components),
-            {joint.name: joint for item in self._components for joint in item.joints},
+            joints,
             self._interfaces,
             self._frames,
+            {name: tag for name, tag in self._absent.items() if name not in held},
         )
 
     def _add_simulated(self, tag: HardwareTag, options: SystemOptions) -> None:
@@ -122,17 +127,33 @@ class _Builder:
             self._interfaces[part.name] = tuple(f"{part.name}/{item.name}" for item in part.states)
             self._frames[part.name] = part.parameters.get("frame_id", part.name)
 
+    def _known(self) -> tuple[str, ...]:
+        """Return the classes there are here: those of Gazebo need a world."""
+        return _KNOWN if self._options.has_world else _MOCK
+
     def _report_unknown(self, tag: HardwareTag) -> None:
-        named = f"class '{tag.plugin}'" if tag.plugin else "no <plugin>"
-        text = f"hardware '{tag.name}' has {named}, which is not simulated hardware: its joints"
-        text += " and sensors cannot be controlled"
+        """Say which package's class is not here, and what is lost with it."""
+        plugin = tag.plugin.replace("::", "/")
+        package, _, name = plugin.rpartition("/")
+        if not tag.plugin:
+            what = "has no <plugin>"
+        elif plugin in _KNOWN:
+            what = f"has class '{name}' of package '{package}', which runs in a world only"
+        elif package:
+            what = f"has class '{name}' of package '{package}', which is compiled code that is"
+            what += " not here"
+        else:
+            what = f"has class '{name}', which is not here"
+        lost = ", ".join(f"{part.kind} '{part.name}'" for part in tag.parts) or "nothing else"
+        text = f"hardware '{tag.name}' {what}; lost with it, for every controller: {lost}"
         if tag.plugin:
             text += " (The plugin failed to load for some reason. According to the loaded plugin"
             text += f" descriptions the class {tag.plugin} does not exist.)"
-        hint = did_you_mean(tag.plugin, _KNOWN)
-        if not hint:
-            best = _GZ[0] if self._options.is_gz else _CLASSIC[0]
-            hint = f"for the simulation, write <plugin>{best}</plugin>"
+        best = _GZ[0] if self._options.is_gz else _CLASSIC[0]
+        if not self._options.has_world:
+            best = _MOCK[0]
+        hint = did_you_mean(plugin, self._known())
+        hint = hint or f"where the real robot is not, write <plugin>{best}</plugin>"
         self._host.diagnostics.report("control.hardware-plugin", text, tag.span, fix=hint)
 
     def _report_elsewhere(self, tag: HardwareTag, what: str) -> None:

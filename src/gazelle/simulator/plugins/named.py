@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.registry import plain_name
+from gazelle.simulator.plugins.registry import looked_up, plain_name
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["NOTHING_TABLE", "TABLE", "load", "load_nothing"]
@@ -81,6 +81,6 @@ def load_nothing(context: PluginContext) -> None:
 
 def _report(context: PluginContext, code: str, meanings: dict[str, str]) -> None:
     plugin = context.plugin
-    wanted = {plain_name(plugin.filename), plain_name(plugin.name)}
+    wanted = looked_up(plugin)
     meaning = next(text for name, text in meanings.items() if plain_name(name) in wanted)
     context.report(code, f"plug-in '{plugin.name}' ({plugin.filename}): {meaning}")

@@ -8,11 +8,12 @@ from difflib import SequenceMatcher
 from functools import cache
 from importlib import import_module
 
+from gazelle.description.model import PluginTag
 from gazelle.diagnostics import did_you_mean
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.table import PluginTable
 
-__all__ = ["all_tables", "known_names", "load_plugin", "plain_name"]
+__all__ = ["all_tables", "known_names", "load_plugin", "looked_up", "plain_name"]
 
 Load = Callable[[PluginContext], None]
 
@@ -102,6 +103,16 @@ def plain_name(filename: str) -> str:
     return _RELEASE.sub(r"\1", name.removeprefix("lib").lower())
 
 
+def looked_up(plugin: PluginTag) -> tuple[str, ...]:
+    """Return the plain names that say what a plug-in is: its library, then its class.
+
+    In Gazebo Classic ``name`` is a word of the user's own, whatever it looks like; gz-sim's
+    is the system's class.
+    """
+    library = plain_name(plugin.filename)
+    return (library, plain_name(plugin.name)) if "::" in plugin.name else (library,)
+
+
 def all_tables() -> tuple[PluginTable, ...]:
     """Return every table, in the order of the documentation."""
     tables: dict[str, PluginTable] = {}
@@ -118,14 +129,14 @@ def known_names() -> tuple[str, ...]:
 def load_plugin(context: PluginContext) -> bool:
     """Start a plug-in; an unknown one is reported by name and place, and False is returned.
 
-    A gz-sim plug-in is looked up by its ``filename``, then by its ``name``, the system's class.
+    A plug-in is looked up by its ``filename``, a gz-sim one then by its ``name``, the class.
     Then a plug-in of the user's own in Python is looked for.
     """
     plugin = context.plugin
     if plugin.filename == _NO_PLUGIN:
         return True
-    for name in (plugin.filename, plugin.name):
-        found = _by_name().get(plain_name(name))
+    for name in looked_up(plugin):
+        found = _by_name().get(name)
         if found is not None:
             found[1](context)
             return True
@@ -147,7 +158,7 @@ def _alike(name: str) -> list[str]:
     return [
         known
         for known in known_names()
-        if known in name or _likeness(name, known) >= _LEAST_LIKENESS
+        if f"_{known}_" in f"_{name}_" or _likeness(name, known) >= _LEAST_LIKENESS
     ]
 
 

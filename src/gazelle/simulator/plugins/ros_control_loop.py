@@ -63,6 +63,7 @@ def check_controllers(context: PluginContext, manager: ControllerManager, steps:
         manager.source,
         context.host.diagnostics,
         moveit=moveit_controllers(tree if isinstance(tree, dict) else {}),
+        absent=robot.absent,
         inertias={full[name]: value for name, value in inertias.items()},
         step_s=engine.step_ns * 1e-9,
         period_steps=int(steps),
