@@ -72,7 +72,9 @@ class ReadContext:
         elif found.is_stand_in:
             self.diagnostics.report("load.stand-in", f"'{uri}': {found.note}", span)
         else:
-            self.diagnostics.report(code, f"'{uri}': {found.note}", span)
+            known = found.right or "the names as the folders have them"
+            fix = f"write {known}"
+            self.diagnostics.report(code, f"'{uri}': {found.note}", span, fix=fix)
 
     def first_time(self, *key: Hashable) -> bool:
         """Tell whether this is asked for the first time, to report equal things once."""

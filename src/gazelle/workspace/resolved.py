@@ -39,6 +39,7 @@ class Resolved:
         is_off_path: it was found near the file that names it, in a folder that no search path
             names; Gazebo would need one.
         is_stand_in: another model of this name is used in place of the one that was meant.
+        right: the URI as it should be written where the spelling differs; else empty.
     """
 
     path: Path | None
@@ -47,6 +48,7 @@ class Resolved:
     note: str = ""
     is_off_path: bool = False
     is_stand_in: bool = False
+    right: str = ""
 
     def explain(self, uri: str) -> str:
         """Return a message for a URI that leads nowhere: reason, nearest names, places."""

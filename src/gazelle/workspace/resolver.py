@@ -190,7 +190,9 @@ def _case_differs(
             if item.casefold() != name.casefold():
                 what = "the spelling differs"
             text = f"{what}: the model is '{item}', written was '{name}'"
-            return Resolved(path, tuple(tried), note=f"{text}; {note}" if note else text)
+            right = f"model://{item}/{inside}".rstrip("/") if not note else ""
+            text = f"{text}; {note}" if note else text
+            return Resolved(path, tuple(tried), note=text, right=right)
     return None
 
 

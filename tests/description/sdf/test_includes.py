@@ -88,6 +88,14 @@ def test_ground_and_sun_of_fuel_are_no_news(world, diagnostics):
     assert not list(diagnostics)
 
 
+def test_spelling_of_fuel_behind_model_is_told_with_the_name_that_exists(world, diagnostics):
+    found = world("<include><uri>model://Ground Plane</uri></include>")
+    assert [item.name for item in found.models] == ["ground_plane"]
+    (warning,) = diagnostics.by_code("sdf.bad-value")
+    assert "the spelling differs: the model is 'ground_plane'" in warning.message
+    assert warning.fix == "write model://ground_plane"
+
+
 def test_include_without_address_is_reported(world, diagnostics):
     world("<include><name>x</name></include>")
     assert "<include> has no <uri>" in diagnostics.by_code("xml.missing-tag")[0].message

@@ -24,6 +24,7 @@ def test_the_window_looks_from_where_the_world_file_says(gui: str) -> None:
     tag = parse_xml(text, "<text>", diagnostics)
     assert tag is not None
     (world,) = read_sdf(tag, context=ReadContext(None, diagnostics, "<text>")).worlds
+    assert not list(diagnostics)
     view = world.scene.T_world_view
     assert view is not None
     assert view.position_m == (1.0, 2.0, 3.0)
@@ -36,3 +37,14 @@ def test_a_world_without_gui_has_no_view() -> None:
     assert tag is not None
     (world,) = read_sdf(tag, context=ReadContext(None, diagnostics, "<text>")).worlds
     assert world.scene.T_world_view is None
+
+
+def test_what_the_page_does_not_take_from_the_camera_is_told() -> None:
+    diagnostics = Diagnostics()
+    gui = "<camera><pose>1 2 3 0 0 0</pose><view_controller>fps</view_controller></camera>"
+    text = f"<sdf version='1.6'><world name='w'><gui>{gui}</gui></world></sdf>"
+    tag = parse_xml(text, "<text>", diagnostics)
+    assert tag is not None
+    read_sdf(tag, context=ReadContext(None, diagnostics, "<text>"))
+    (found,) = diagnostics
+    assert found.message == "<view_controller> in <camera> is legal and not simulated"

@@ -79,7 +79,7 @@ class _Checker:
         element = ELEMENTS[kind]
         if child.name in element.children:
             self.visit(child, element.children[child.name])
-        elif child.name == "plugin" and child.attributes.get("filename") == _NO_PLUGIN:
+        elif child.name == "plugin" and _says_nothing(child, kind):
             return
         elif child.name == "plugin" and kind in _PLUGIN_PLACES:
             self._note(_Key("plugin", kind, tag.name, child.attributes.get("filename", "")), child)
@@ -97,6 +97,13 @@ class _Checker:
         """Report each finding at its first place, with the number of the others."""
         for key, place in self._first.items():
             _report(key, self._count[key] - 1, place, context)
+
+
+def _says_nothing(plugin: Tag, kind: str) -> bool:
+    """Tell whether a plug-in is not to be loaded, or only has the camera that is read."""
+    if plugin.attributes.get("filename") == _NO_PLUGIN:
+        return True
+    return kind == "gui" and plugin.find("camera_pose") is not None
 
 
 def _report(key: _Key, more: int, place: Tag, context: ReadContext) -> None:

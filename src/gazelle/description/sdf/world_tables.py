@@ -48,8 +48,9 @@ WORLD_ROWS: dict[str, tuple[str, str]] = {
         "pose model include model_count distribution box cylinder framework!",
     ),
     "distribution": ("", "type rows cols step"),
-    # Windows and cameras of Gazebo's own program.
-    "gui": ("fullscreen", "camera! plugin!"),
+    # The window's camera is read, and so is that of a gz window's 3D view.
+    "gui": ("fullscreen", "camera=gui/camera plugin!"),
+    "gui/camera": ("name", "pose view_controller! projection_type! track_visual! plugin!"),
     # Read for poses; what else a saved state holds is told of where it is applied.
     "state": ("*", ""),
 }
