@@ -56,8 +56,15 @@ def test_models_that_are_not_here_are_one_finding(written: Write, examined: Exam
     assert "GAZEBO_MODEL_PATH" in found[0].fix
 
 
+def test_models_of_gazebos_database_are_in_the_one_finding() -> None:
+    advice = "'{0}' is a model of Gazebo's model database; Gazelle has none of its own"
+    texts = [f"'model://{name}/a' not found: {advice.format(name)}" for name in ("suv", "drc")]
+    (found,) = condensed(_found("sdf.missing-file", *texts))
+    assert "2 models are not here, and nothing is downloaded: drc, suv; " in found.message
+
+
 def test_model_that_is_wanted_once_keeps_its_own_message() -> None:
-    text = "'model://suv/a.dae' not found: there is no model 'suv'"
+    text = "'model://suv/a.dae' not found: there is no model 'suv'; name the folder"
     (found,) = condensed(_found("sdf.missing-file", text))
     assert found.message == text
 

@@ -15,7 +15,10 @@ __all__ = ["condensed"]
 
 _PACKAGE = re.compile(r"package '([^'\n]+)' not found")
 _ELSEWHERE = re.compile(r"packages that are not in this workspace: ([^;\n]+);")
-_MODEL = re.compile(r"'model://[^'\n]*' not found: there is no model '([^'\n]+)'")
+_MODEL = re.compile(
+    r"'model://([^/'\n]+)[^'\n]*' not found: "
+    r"(?:there is no model '|'[^'\n]*' is a model of Gazebo's|plain shapes stand in for Gazebo's)"
+)
 _MATERIAL = re.compile(r"material '([^'/\n]+)/[^'\n]*' is not known")
 _NODE = re.compile(r"node of type \[([^]]+)\] in package \[([^]]+)\]")
 _CLASS = re.compile(r"Could not load class '([^'\n]+)'")

@@ -55,6 +55,13 @@ class Original(NamedTuple):
             f"take the file from {_WORLDS_AT[self.owner]}, and give its path"
         )
 
+    def advice_for(self, inside: str) -> str:
+        """Why a file of this model is not here though shapes stand in for it, and what to do."""
+        return (
+            f"plain shapes stand in for Gazebo's model '{self.name}', without its '{inside}': "
+            f"git clone {_MODELS_AT} and name that folder in GAZEBO_MODEL_PATH"
+        )
+
 
 def original_worlds() -> Mapping[str, Original]:
     """Return the worlds by file name."""

@@ -205,6 +205,8 @@ def _no_model(
         or getattr(workspace.packages.get(name), "path", None)
         or _folder_off_the_path(workspace, name, base_dir)
     )
+    if home is not None and _is_stand_in(home):
+        return Resolved(None, tuple(places), note=original_models()[home.name].advice_for(inside))
     if home is not None:
         near = tuple(f"model://{name}/{item}" for item in nearest_below(home, inside))
         return Resolved(None, tuple(places), near, f"model '{name}' has no '{inside}'")
