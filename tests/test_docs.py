@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from gazelle.compat.refused_page import refused_markdown
 from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.docs import catalogue_markdown
 
@@ -15,6 +16,12 @@ def test_diagnostics_page_is_generated_from_the_catalogue() -> None:
     page = (ROOT / "docs" / "diagnostics.md").read_text(encoding="utf-8")
     command = "python -m gazelle.diagnostics.docs > docs/diagnostics.md"
     assert page == catalogue_markdown(), f"run: {command}"
+
+
+def test_page_of_refused_names_is_generated_from_their_tables() -> None:
+    page = (ROOT / "docs" / "python_names.md").read_text(encoding="utf-8")
+    command = "python -m gazelle.compat.refused_page > docs/python_names.md"
+    assert page == refused_markdown(), f"run: {command}"
 
 
 def test_every_code_is_used_in_the_source_and_named_in_a_test() -> None:

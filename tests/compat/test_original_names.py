@@ -18,21 +18,22 @@ import pytest
 from gazelle.compat.refused import REFUSED, refusal_of
 
 NAMES = Path(__file__).parent / "original_names"
-_FAMILIES = (
-    "launch",
-    "controller_manager",
-    "nav2_common",
-    "ros_gz_bridge",
-    "ament_index_python",
-    "rospy",
+_ROS1 = ("rospy",)
+_ROS2 = (
+    *("ament_index_python", "controller_manager", "controller_manager_msgs", "launch"),
+    *("launch_param_builder", "launch_pytest", "launch_ros", "launch_testing"),
+    *("launch_testing_ros", "launch_xml", "launch_yaml", "message_filters"),
+    *("moveit_configs_utils", "nav2_common", "nav2_simple_commander", "rclpy"),
+    *("ros_gz_bridge", "ros_gz_sim", "rosbag2_py", "rosidl_runtime_py", "sensor_msgs_py"),
+    *("tf2_py", "tf2_ros"),
 )
 
 
-@pytest.mark.parametrize("package", _FAMILIES)
-def test_names_of_the_original_are_here_or_known_to_be_missing(package: str) -> None:
+@pytest.mark.parametrize("packages", [_ROS1, _ROS2], ids=["ROS 1", "ROS 2"])
+def test_names_of_the_original_are_here_or_known_to_be_missing(packages: tuple[str, ...]) -> None:
     command = [sys.executable, "-m", "gazelle.compat.runner", str(NAMES / "compare.py")]
     done = subprocess.run(
-        [*command, str(NAMES / f"{package}.txt")],
+        [*command, *(str(NAMES / f"{package}.txt") for package in packages)],
         capture_output=True,
         text=True,
         check=True,
@@ -42,7 +43,7 @@ def test_names_of_the_original_are_here_or_known_to_be_missing(package: str) -> 
     known = {
         line
         for line in (NAMES / "missing").read_text(encoding="utf-8").splitlines()
-        if line.split(".")[0] == package
+        if line.partition(".")[0] in packages
     }
     assert missing == known
 
@@ -62,14 +63,62 @@ def test_refused_modules_say_what_they_are() -> None:
     assert {row.module for row in REFUSED} <= listed
 
 
-def test_imports_of_refused_modules_end_with_their_sentence() -> None:
-    program = "from rclpy.waitable import Waitable"
-    file = "import gazelle.compat.finder as f; f.install(); " + program
+@pytest.mark.parametrize(
+    ("program", "error"),
+    [
+        (
+            "from rclpy.waitable import Waitable",
+            "ModuleNotFoundError: No module named 'rclpy.waitable': gazelle: it is rclpy's inside",
+        ),
+        (
+            "from rclpy.impl.rcutils_logger import RcutilsLogger",
+            "No module named 'rclpy.impl.rcutils_logger': gazelle: it is rclpy's inside",
+        ),
+        (
+            "from launch.frontend.parse_substitution import get_grammar_path",
+            "ImportError: cannot import name 'get_grammar_path' from",
+        ),
+        (
+            "import rclpy.clock; rclpy.clock.ClockHandle",
+            "has no attribute 'ClockHandle': gazelle: it belongs to rclpy's C library",
+        ),
+        (
+            "from rclpy.node import Node; Node.__new__(Node).handle",
+            "AttributeError: 'Node' object has no attribute 'handle': gazelle: it belongs to",
+        ),
+        (
+            "from rclpy.client import Client; Client(client_impl=1)",
+            "TypeError: Client() got an unexpected keyword argument 'client_impl': gazelle: it is"
+            " filled in by rclpy itself",
+        ),
+    ],
+)
+def test_uses_of_refused_names_end_with_their_sentence(program: str, error: str) -> None:
+    done = _python(program)
+    assert error in done.stderr
+    assert "gazelle: it " in done.stderr
+
+
+def test_refused_names_are_not_there_and_a_users_own_are() -> None:
+    program = """
+import rclpy.clock, rclpy.node
+class Mine(rclpy.node.Node):
+    handle = 3
+    def __init__(self):
+        self.waitables = 4
+print(hasattr(rclpy.clock, "ClockHandle"), hasattr(rclpy.node.Node, "handle"), Mine().handle)
+print(Mine().waitables)
+"""
+    done = _python(program)
+    assert done.stdout == "False False 3\n4\n", done.stderr
+
+
+def _python(program: str) -> subprocess.CompletedProcess[str]:
+    file = "import gazelle.compat.finder as f; f.install()\n" + program
     modules = Path(__file__).parents[2] / "src" / "gazelle" / "compat" / "modules"
-    done = subprocess.run(
+    return subprocess.run(
         [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(modules)!r}); {file}"],
         capture_output=True,
         text=True,
         check=False,
     )
-    assert "gazelle: it is rclpy's inside, made around rcl" in done.stderr

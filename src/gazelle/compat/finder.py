@@ -1,7 +1,8 @@
 """Imports that only exist here: message packages, and packages of the workspace.
 
 Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.generation`.
-Both finders stand last in ``sys.meta_path``, so whatever is installed wins.
+They stand last in ``sys.meta_path``, so whatever is installed wins; before them only Gazelle's own
+drop-in modules are looked at, for the sentences of what they do not have.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import Any
 
 from gazelle.compat.generation import message_generation
 from gazelle.compat.refused import RefusingFinder
+from gazelle.compat.refusing import AttachingFinder
 
 __all__ = ["install"]
 
@@ -35,6 +37,7 @@ def install() -> None:
         configs = ConfigFinder(workspace.folder)
         last = RefusingFinder()
         sys.meta_path += [workspace, _InterfaceFinder(workspace), configs, last]
+        sys.meta_path.insert(0, AttachingFinder())
 
 
 class _WorkspaceFinder(MetaPathFinder):

@@ -37,7 +37,8 @@ def missing_words(thing, words):
         return []
     if any(one.kind is one.VAR_KEYWORD for one in parameters):
         return []
-    own = {one.name for one in parameters}
+    maker = thing.__init__ if inspect.isclass(thing) else thing
+    own = {one.name for one in parameters} | set(getattr(maker, "__refused_words__", ()))
     return [word for word in words if word and word not in own]
 
 
