@@ -89,3 +89,49 @@ def test_words_and_codes_are_those_of_the_newer_one(
     assert "Error Code 1: Msg: Unable to read file" in capsys.readouterr().err
     assert main(["gz", "help", "sdf"]) == 0
     assert "\n  gz sdf [options]\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("name", "new", "classic"),
+    [
+        ("topic", "--msgtype", "--world-name"),
+        ("model", "--joint", "--spawn-file"),
+        ("service", "--reqtype", ""),
+        ("sim", "-s", ""),
+    ],
+)
+def test_help_of_a_command_is_that_of_the_gazebo_in_use(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, name: str, new: str, classic: str
+) -> None:
+    ways = (["gz", name, "--help"], ["gz", name, "-h"], ["gz", "help", name])
+    for way in ways:
+        assert main(way) == 0
+        seen = capsys.readouterr()
+        assert (classic or new) in seen.out + seen.err
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    for way in ways:
+        assert main(way) == 0
+        seen = capsys.readouterr()
+        assert new in seen.out + seen.err
+        assert not classic or classic not in seen.out + seen.err
+
+
+def test_front_of_gz_is_that_of_the_gazebo_in_use(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    assert main(["gz", "help"]) == 0
+    assert "Modify world properties" in capsys.readouterr().err
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    for words, code in ((["help"], 0), (["--help"], 0), ([], 255), (["nothing"], 255)):
+        assert main(["gz", *words]) == code
+        assert "Run and manage the Gazebo Simulator" in capsys.readouterr().out
+    assert main(["gz", "--commands"]) == 0
+    assert {"model", "sdf", "sim"} <= set(capsys.readouterr().out.split())
+
+
+def test_commands_without_words_explain_themselves_as_the_new_ones_do(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    assert main(["gz", "topic"]) == 0
+    assert "--msgtype" in "".join(capsys.readouterr())

@@ -61,12 +61,35 @@ Options:
                         tool.
   --no-findings         Gazelle: leave out its own findings behind the output.
 """  # noqa: W291
+_HELP_WORDS = ("help", "--help", "-h")
 _SHORT = "hdc:ok:v:p:"
 _LONG = ["verbose", "help", "describe", "convert=", "doc", "check=", "version=", "print="]
 _NAMES = {
     "-h": "help", "-d": "describe", "-c": "convert", "-o": "doc", "-k": "check", "-v": "version",
     "-p": "print",
 }  # fmt: skip
+
+
+_NEW_HELP = """The 'gz' command provides a command line interface to the Gazebo Tools.
+
+  gz <command> [options]
+
+List of available commands:
+
+  help:          Print this help text.
+  model:         Print information about models.
+  sdf:           Utilities for SDF files.
+  service:       Print information about services.
+  sim:           Run and manage the Gazebo Simulator.
+  topic:         Print information about topics.
+
+Options:
+
+  --force-version <VERSION>  Use a specific library version.
+  --versions                 Show the available versions.
+  --commands                 Show the available commands.
+
+Use 'gz help <command>' to print help for a command."""
 
 
 def main(argv: list[str]) -> int:
@@ -77,20 +100,23 @@ def main(argv: list[str]) -> int:
         others.
     """
     name = argv[0] if argv else ""
+    if name == "--commands":
+        print("\n".join(sorted({*front.WORLD_COMMANDS, *new_front.NEW_COMMANDS, "sdf"})))
+        return 0
     if name == "sdf":
         words, version = without_version(argv[1:])
         is_new = bool(version) or sdformat_release(words, os.environ) is Release.V12
         return run_new_sdf(words, "gz") if is_new else _run_sdf(words)
     if name == "help" and argv[1:] == ["sdf"]:
-        if sdformat_release([], os.environ) is Release.V12:
+        if _is_new_in_use():
             print(usage("gz"))
         else:
             say([_SDF_HELP])
         return 0
-    if name == "help" and len(argv) == 2 and argv[1] in {"service", "sim"}:
+    if name == "help" and len(argv) == 2 and new_front.is_new(argv[1], (), in_use=_is_new_in_use):
         new_front.explain(argv[1])
         return 0
-    if new_front.is_new(name, argv[1:]):
+    if new_front.is_new(name, argv[1:], in_use=_is_new_in_use):
         return new_front.run(name, argv[1:])
     if name == "help" and len(argv) == 2 and argv[1] in front.WORLD_COMMANDS:
         front.explain(argv[1])
@@ -100,8 +126,15 @@ def main(argv: list[str]) -> int:
     if name in GZ_INSTEAD:
         say([f"gazelle: gz {name} is not here; use {GZ_INSTEAD[name]}"])
         return _UNKNOWN
+    if _is_new_in_use():
+        print(_NEW_HELP)
+        return 0 if name in _HELP_WORDS else _UNKNOWN
     say([_HELP])
     return 0 if name == "help" else _UNKNOWN
+
+
+def _is_new_in_use() -> bool:
+    return sdformat_release((), os.environ) is Release.V12
 
 
 def _run_sdf(words: list[str]) -> int:

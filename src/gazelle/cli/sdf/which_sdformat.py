@@ -37,7 +37,7 @@ def sdformat_release(words: Iterable[str], environ: Mapping[str, str]) -> Releas
     """Return the sdformat that a command line means; Gazebo 11's where nothing speaks of gz.
 
     Args:
-        words: those behind ``gz sdf``.
+        words: those behind ``gz sdf``; none ask for the surroundings alone.
         environ: environment variables.
     """
     words = list(words)

@@ -62,7 +62,22 @@ class Inbox:
 )
 def test_generation_is_told_from_the_words(words: str, new: bool) -> None:
     name, *rest = words.split()
-    assert is_new(name, rest) is new
+    assert is_new(name, rest, in_use=lambda: False) is new
+
+
+@pytest.mark.parametrize(
+    ("words", "new"),
+    [
+        ("topic --help", True),
+        ("model", True),
+        ("model -m arm -p", True),
+        ("model -m arm -x 1", False),
+        ("topic -e /clock", False),
+    ],
+)
+def test_words_of_both_generations_are_those_of_the_one_in_use(words: str, new: bool) -> None:
+    name, *rest = words.split()
+    assert is_new(name, rest, in_use=lambda: True) is new
 
 
 def test_message_is_published_in_the_type_in_use(graph: Graph, gz: Run) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from gazelle.cli.gz.new import model, service, sim, topic
 from gazelle.cli.gz.options import GzCommand, help_text, read_options
@@ -19,15 +19,22 @@ _ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
 )
 _COMMANDS = {command.name: (command, action) for command, action in _ROWS}
 NEW_COMMANDS = ("model", "service", "sim", "topic")
-# What Gazebo 11 has not under the same name.
+# What Gazebo 11 has not under the same name; its own words have none of these.
 _SIGNS = {
     "model": ({"--list", "--model", "--link", "--joint", "--sensor"}, "lj"),
     "topic": ({"--topic", "--pub", "--msgtype", "--num", "--json-output", "--frequency"}, "tnf"),
 }
 
 
-def is_new(name: str, words: Iterable[str]) -> bool:
-    """Tell whether words behind ``gz NAME`` are the new Gazebo's and not Gazebo 11's."""
+def is_new(name: str, words: Iterable[str], *, in_use: Callable[[], bool]) -> bool:
+    """Tell whether words behind ``gz NAME`` are the new Gazebo's and not Gazebo 11's.
+
+    Args:
+        name: the command.
+        words: those behind it.
+        in_use: tells whether the surroundings speak of the new Gazebo; asked where words are
+            good for both.
+    """
     if name not in _SIGNS:
         return name in NEW_COMMANDS
     words = list(words)
@@ -35,10 +42,20 @@ def is_new(name: str, words: Iterable[str]) -> bool:
         # Gazebo 11 has nothing to do then.
         return True
     long, letters = _SIGNS[name]
-    return any(
+    if any(
         word.partition("=")[0] in long or (word[:1] == "-" and word[1:2] and word[1] in letters)
         for word in words
-    )
+    ):
+        return True
+    return _is_of_both(name, words) and in_use()
+
+
+def _is_of_both(name: str, words: Sequence[str]) -> bool:
+    """Tell whether both Gazebos have these words: none, ``--help``, or a model and ``--pose``."""
+    options = [word.partition("=")[0] for word in words if word.startswith("-")]
+    if not words or any(word in {"-h", "--help"} for word in options):
+        return True
+    return name == "model" and set(options) <= {"-m", "--pose", "-p"}
 
 
 def run(name: str, words: list[str]) -> int:
@@ -51,6 +68,9 @@ def run(name: str, words: list[str]) -> int:
         if name == "sim":
             return sim.run(words)
         command, action = _COMMANDS[name]
+        if not words:
+            explain(name)
+            return 0
         options = read_options(command, _with_values(command, words))
         if options is None:
             explain(name)
