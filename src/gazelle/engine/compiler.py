@@ -14,7 +14,9 @@ from gazelle.engine.bodies import SpecBuilder, VelocityDecay
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.idle_words import report_idle_words
 from gazelle.engine.joints import implicit_damping
+from gazelle.engine.library import compiled as compiled_spec
 from gazelle.engine.library import mujoco
+from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.locks import add_lock
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
@@ -147,7 +149,9 @@ def compile_assembly(assembly: Assembly) -> Compiled:
         EngineError: MuJoCo refuses the model; its words are part of the message.
     """
     builder = assembly.builder
-    compiled = _finish(builder, _compile(builder.spec), assembly.pairs, assembly.motors)
+    model = _compile(builder.spec)
+    report_library_warnings(builder.world, builder.diagnostics)
+    compiled = _finish(builder, model, assembly.pairs, assembly.motors)
     compiled.retime(builder.step_s)
     return compiled
 
@@ -197,7 +201,7 @@ def _add_world_joints(builder: SpecBuilder) -> None:
 
 def _compile(spec: Any) -> Any:
     try:
-        return spec.compile()
+        return compiled_spec(spec)
     except ValueError as error:
         raise EngineError(f"MuJoCo cannot build the world: {error}") from error
 

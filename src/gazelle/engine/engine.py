@@ -15,6 +15,7 @@ from gazelle.engine.compiler import Compiled
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
 from gazelle.engine.library import drained_warnings, mujoco
+from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.locks import LockBank
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.names import scoped
@@ -94,7 +95,7 @@ class Engine(EngineCore):
         self.state_changed()
         if not (qvel.dot(qvel) < _ABSURD_SPEED**2 and math.isfinite(qpos.dot(qpos))):
             self._raise_diverged(find_culprit(model, data, before, self.iteration - first), first)
-        self._report_warnings()
+        report_library_warnings(self._world, self.diagnostics, model)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
         """Go back to the start: time to 0, poses and joints as they were loaded or spawned.
@@ -290,12 +291,6 @@ class Engine(EngineCore):
         self._must_compile = False
         self.revision += 1
         self.state_changed()
-
-    def _report_warnings(self) -> None:
-        for warning in drained_warnings():
-            self.diagnostics.report(
-                "engine.mujoco-warning", f"MuJoCo warns: {' '.join(warning.split())}"
-            )
 
     def _raise_diverged(self, culprit: Culprit, first: int) -> None:
         drained_warnings()

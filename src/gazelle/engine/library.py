@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from gazelle.errors import EngineError
 
-__all__ = ["check_version", "drained_warnings", "mujoco"]
+__all__ = ["check_version", "compiled", "drained_warnings", "keep_warnings", "mujoco"]
 
 _OLDEST = (4, 0, 1)
 _warnings: list[str] = []
@@ -40,6 +43,30 @@ def drained_warnings() -> tuple[str, ...]:
     found = tuple(dict.fromkeys(_warnings))
     _warnings.clear()
     return found
+
+
+@contextmanager
+def keep_warnings() -> Iterator[None]:
+    """Keep what MuJoCo warns of inside for `drained_warnings`.
+
+    Reading and compiling warn by Python's ``warnings`` and not by the function for warnings.
+    """
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        try:
+            yield
+        finally:
+            _warnings.extend(str(item.message) for item in found)
+
+
+def compiled(spec: Any) -> Any:
+    """Return a spec's model; what MuJoCo warns of is kept for `drained_warnings`.
+
+    Raises:
+        ValueError: MuJoCo refuses the spec.
+    """
+    with keep_warnings():
+        return spec.compile()
 
 
 def _numbers(version: str) -> tuple[int, ...]:

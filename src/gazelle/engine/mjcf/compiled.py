@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.conversion.plain_names import free_name
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import drained_warnings, mujoco
+from gazelle.engine.library import compiled, drained_warnings, keep_warnings, mujoco
 from gazelle.engine.mjcf.sources import MjcfSource, read_source
 from gazelle.geometry import Pose
 
@@ -79,11 +79,12 @@ def compiled_mjcf(path: Path, diagnostics: Diagnostics) -> CompiledMjcf | None:
     if source is None:
         return None
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        with keep_warnings():
+            spec = mujoco.MjSpec.from_file(str(path))
         # Both take things out of the model that a converted file shall have.
         spec.compiler.fusestatic = False
         spec.compiler.discardvisual = False
-        model = spec.compile()
+        model = compiled(spec)
     except (ValueError, mujoco.FatalError, mujoco.UnexpectedError) as error:
         words = " ".join(str(error).split())
         message = f"MuJoCo refuses the file: {words}"

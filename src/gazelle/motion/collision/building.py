@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
+from gazelle.engine.library import compiled, drained_warnings, mujoco
 from gazelle.engine.shapes import add_geom
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
@@ -124,9 +124,12 @@ class _Builder:
 
     def compiled(self) -> CollisionModel:
         try:
-            model = self._spec.compile()
+            model = compiled(self._spec)
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot build the planning scene: {error}") from error
+        for warning in drained_warnings():
+            text = f"MuJoCo warns of the planning scene: {' '.join(warning.split())}"
+            self._diagnostics.report("engine.mujoco-warning", text)
         objects = self._scene.objects
         mocaps = {name: int(model.body(f"object {name}").mocapid[0]) for name in objects}
         addresses = _addresses(model, self._scene.robot.joints)
