@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 import socket
+import sys
+from collections.abc import Mapping, Sequence
 from typing import Any
+from urllib.parse import urlsplit
 
 from gazelle.compat.rospy import client
 from gazelle.compat.rospy.errors import ROSException
@@ -13,24 +16,41 @@ from gazelle.errors import GraphError
 from gazelle.graph import Graph
 
 __all__ = [
+    "DEFAULT_MASTER_PORT",
+    "DEFAULT_MASTER_URI",
     "ROS_HOSTNAME",
     "ROS_IP",
+    "ROS_IPV6",
     "ROS_MASTER_URI",
     "ROS_NAMESPACE",
+    "Error",
+    "Failure",
     "Master",
     "MasterError",
     "MasterException",
     "MasterFailure",
+    "ROSMasterException",
+    "create_local_xmlrpc_uri",
+    "get_address_override",
+    "get_bind_address",
     "get_host_name",
     "get_local_address",
+    "get_local_addresses",
     "get_master_uri",
+    "is_local_address",
     "is_master_online",
+    "is_online",
+    "parse_http_host_and_port",
+    "use_ipv6",
 ]
 
 ROS_HOSTNAME = "ROS_HOSTNAME"
 ROS_IP = "ROS_IP"
+ROS_IPV6 = "ROS_IPV6"
 ROS_MASTER_URI = "ROS_MASTER_URI"
 ROS_NAMESPACE = "ROS_NAMESPACE"
+DEFAULT_MASTER_PORT = 11311
+DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}"
 
 
 class MasterException(Exception):  # noqa: N818 - rosgraph's name
@@ -45,9 +65,80 @@ class MasterError(MasterException):
     """A question has no answer."""
 
 
-def get_master_uri() -> str:
-    """Return ``ROS_MASTER_URI``."""
-    return os.environ.get(ROS_MASTER_URI, "http://localhost:11311")
+Failure, Error, ROSMasterException = MasterFailure, MasterError, MasterException
+
+
+def get_master_uri(env: Mapping[str, str] | None = None, argv: Sequence[str] | None = None) -> str:
+    """Return ``__master:=`` of a command line, or ``ROS_MASTER_URI``."""
+    words = sys.argv if argv is None else argv
+    given = [word.partition(":=")[2] for word in words if word.startswith("__master:=")]
+    if given:
+        return given[0]
+    return (os.environ if env is None else env).get(ROS_MASTER_URI, DEFAULT_MASTER_URI)
+
+
+def parse_http_host_and_port(url: str) -> tuple[str, int]:
+    """Return host and port of an address, port 80 when it has none.
+
+    Raises:
+        ValueError: it is no address.
+    """
+    parts = urlsplit(url or "")
+    if not parts.scheme or not parts.hostname:
+        raise ValueError("not a valid URL")
+    return parts.hostname, parts.port or 80
+
+
+def get_address_override() -> str | None:
+    """Return ``__hostname:=`` or ``__ip:=``, ``ROS_HOSTNAME`` or ``ROS_IP``; None without them."""
+    for word in sys.argv:
+        if word.startswith(("__hostname:=", "__ip:=")):
+            return word.partition(":=")[2]
+    return os.environ.get(ROS_HOSTNAME, os.environ.get(ROS_IP))
+
+
+def use_ipv6() -> bool:
+    """Tell whether ``ROS_IPV6`` is on."""
+    return os.environ.get(ROS_IPV6) == "on"
+
+
+def get_bind_address(address: str | None = None) -> str:
+    """Return the address that a server of a program listens at."""
+    given = get_address_override() if address is None else address
+    if given and (given in {"localhost", "::1"} or given.startswith("127.")):
+        return "::1" if use_ipv6() else given if given.startswith("127.") else "127.0.0.1"
+    return "::" if use_ipv6() else "0.0.0.0"  # noqa: S104 - rosgraph's answer
+
+
+def get_local_addresses() -> list[str]:
+    """Return this machine's addresses, as far as its name tells them."""
+    family = socket.AF_UNSPEC if use_ipv6() else socket.AF_INET
+    found = {"::1": None} if use_ipv6() else {}
+    for host in (socket.gethostname(), "localhost"):
+        found |= dict.fromkeys(_addresses(host, family))
+    return list(found)
+
+
+def is_local_address(hostname: str) -> bool:
+    """Tell whether a name or an address is this machine's."""
+    family = socket.AF_UNSPEC if use_ipv6() else socket.AF_INET
+    own = get_local_addresses()
+    return any(
+        one.startswith("127.") or one == "::1" or one in own for one in _addresses(hostname, family)
+    )
+
+
+def create_local_xmlrpc_uri(port: int) -> str:
+    """Return the address of a server of this machine."""
+    return f"http://{get_host_name()}:{port}/"
+
+
+def _addresses(host: str, family: int) -> list[str]:
+    try:
+        rows = socket.getaddrinfo(host, 0, family, 0, socket.SOL_TCP)
+    except OSError:
+        return []
+    return [str(row[4][0]) for row in rows]
 
 
 def get_host_name() -> str:
@@ -68,6 +159,9 @@ def is_master_online(master_uri: str | None = None) -> bool:
     except GraphError:
         return False
     return True
+
+
+is_online = is_master_online
 
 
 class Master:

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Mapping, Sequence
 
 from gazelle.graph import names
-from gazelle.graph.names import anonymous_name, is_legal, is_legal_base
+from gazelle.graph.names import is_legal, is_legal_base
 
 __all__ = [
     "ANYTYPE",
+    "BASE_NAME_LEGAL_CHARS_P",
     "GLOBALNS",
+    "MSG_EXT",
+    "NAME_LEGAL_CHARS_P",
     "PRIV_NAME",
     "REMAP",
+    "REMAP_PATTERN",
     "SEP",
+    "SRV_EXT",
     "anonymous_name",
     "canonicalize_name",
     "get_ros_namespace",
     "is_global",
     "is_legal_base_name",
     "is_legal_name",
+    "is_legal_remap",
     "is_private",
+    "isstring",
     "load_mappings",
     "make_caller_id",
     "make_global_ns",
@@ -35,8 +43,28 @@ ANYTYPE = "*"
 GLOBALNS = SEP = "/"
 PRIV_NAME = "~"
 REMAP = ":="
+MSG_EXT = ".msg"
+SRV_EXT = ".srv"
+NAME_LEGAL_CHARS_P = re.compile(r"^[~/A-Za-z][\w/]*$")
+BASE_NAME_LEGAL_CHARS_P = re.compile(r"^[A-Za-z]\w*$")
+REMAP_PATTERN = re.compile(r"^([~/A-Za-z]|_|__)[\w/]*:=.*")
 is_legal_name = is_legal
 is_legal_base_name = is_legal_base
+
+
+def anonymous_name(id: str) -> str:
+    """Return the name made unique with host, process and time."""
+    return names.anonymous_name(id)
+
+
+def isstring(s: object) -> bool:
+    """Tell whether something is text."""
+    return isinstance(s, str)
+
+
+def is_legal_remap(arg: str | None) -> bool:
+    """Tell whether a word of a command line is ``a:=b``, ``_a:=b`` or ``__a:=b``."""
+    return arg is not None and REMAP_PATTERN.fullmatch(arg) is not None
 
 
 def is_global(name: str) -> bool:

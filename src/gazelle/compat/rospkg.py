@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar, NamedTuple, Self, cast
 
@@ -13,17 +14,22 @@ from gazelle.workspace import Workspace
 from gazelle.workspace.manifest import read_manifest
 
 __all__ = [
+    "MANIFEST_FILE",
+    "PACKAGE_FILE",
+    "STACK_FILE",
     "InvalidManifest",
     "Manifest",
     "ResourceNotFound",
     "RosPack",
     "RosStack",
+    "get_etc_ros_dir",
     "get_log_dir",
     "get_package_name",
     "get_ros_home",
     "get_ros_package_path",
     "get_ros_paths",
     "get_ros_root",
+    "get_test_results_dir",
     "on_ros_path",
 ]
 
@@ -32,9 +38,15 @@ class ResourceNotFound(Exception):  # noqa: N818 - rospkg's name
     """A package does not exist; the text says where it was looked for."""
 
 
-def get_ros_package_path() -> str:
+Environ = Mapping[str, str] | None
+MANIFEST_FILE = "manifest.xml"
+PACKAGE_FILE = "package.xml"
+STACK_FILE = "stack.xml"
+
+
+def get_ros_package_path(env: Environ = None) -> str:
     """Return ``ROS_PACKAGE_PATH``."""
-    return os.environ.get("ROS_PACKAGE_PATH", "")
+    return (os.environ if env is None else env).get("ROS_PACKAGE_PATH", "")
 
 
 class InvalidManifest(Exception):  # noqa: N818 - rospkg's name
@@ -51,30 +63,42 @@ class Manifest(NamedTuple):
     type: str = "package"
 
 
-def get_ros_root() -> str | None:
+def get_ros_root(env: Environ = None) -> str | None:
     """Return ``ROS_ROOT``."""
-    return os.environ.get("ROS_ROOT")
+    return (os.environ if env is None else env).get("ROS_ROOT")
 
 
-def get_ros_paths() -> list[str]:
+def get_ros_paths(env: Environ = None) -> list[str]:
     """Return the folders of ``ROS_PACKAGE_PATH``."""
-    return [path for path in get_ros_package_path().split(os.pathsep) if path]
+    return [path for path in get_ros_package_path(env).split(os.pathsep) if path]
 
 
-def get_ros_home() -> str:
+def get_ros_home(env: Environ = None) -> str:
     """Return ``ROS_HOME``, ``~/.ros`` when it is not set."""
-    return str(ros_home(os.environ))
+    return str(ros_home(os.environ if env is None else env))
 
 
-def get_log_dir() -> str:
+def get_etc_ros_dir(env: Environ = None) -> str:
+    """Return ``ROS_ETC_DIR``, ``/etc/ros`` when it is not set."""
+    return (os.environ if env is None else env).get("ROS_ETC_DIR") or "/etc/ros"
+
+
+def get_test_results_dir(env: Environ = None) -> str:
+    """Return ``ROS_TEST_RESULTS_DIR``, the folder ``test_results`` of ROS_HOME without it."""
+    environ = os.environ if env is None else env
+    return environ.get("ROS_TEST_RESULTS_DIR") or str(ros_home(environ) / "test_results")
+
+
+def get_log_dir(env: Environ = None) -> str:
     """Return ``ROS_LOG_DIR``, the folder ``log`` of ROS_HOME when it is not set."""
-    return os.environ.get("ROS_LOG_DIR") or str(ros_home(os.environ) / "log")
+    environ = os.environ if env is None else env
+    return environ.get("ROS_LOG_DIR") or str(ros_home(environ) / "log")
 
 
-def on_ros_path(p: str) -> bool:
+def on_ros_path(p: str, env: Environ = None) -> bool:
     """Tell whether a path is in one of the folders of ``ROS_PACKAGE_PATH``."""
     here = Path(os.path.realpath(p))
-    return any(here.is_relative_to(os.path.realpath(one)) for one in get_ros_paths())
+    return any(here.is_relative_to(os.path.realpath(one)) for one in get_ros_paths(env))
 
 
 def get_package_name(path: str) -> str | None:

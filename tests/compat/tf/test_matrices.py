@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gazelle.compat.tf import matrices
-from gazelle.compat.tf.transformations import euler_matrix
+from gazelle.compat.tf.transformations import euler_matrix, unit_vector, vector_norm
 
 POINT, NORMAL = [1, 2, 3], [1, 1, 0]
 
@@ -122,3 +122,30 @@ def test_what_makes_no_sense_is_refused() -> None:
     with pytest.raises(ValueError, match="near <= 0"):
         matrices.clip_matrix(-1, 2, -3, 4, 0, 5, perspective=True)
     assert matrices.random_vector(5).shape == (5,)
+
+
+def test_reflection_scale_and_shear_are_read_back_from_their_matrices() -> None:
+    point, normal = [1.0, 2.0, 3.0], [0.0, 0.6, 0.8]
+    mirror = matrices.reflection_matrix(point, normal)
+    assert np.allclose(mirror, matrices.reflection_matrix(*matrices.reflection_from_matrix(mirror)))
+    for direction in (None, normal):
+        scaled = matrices.scale_matrix(-2.5, point, direction)
+        assert np.allclose(scaled, matrices.scale_matrix(*matrices.scale_from_matrix(scaled)))
+    sheared = matrices.shear_matrix(0.4, [1.0, 0.0, 0.0], point, normal)
+    assert np.allclose(sheared, matrices.shear_matrix(*matrices.shear_from_matrix(sheared)))
+    for read in (
+        matrices.reflection_from_matrix,
+        matrices.scale_from_matrix,
+        matrices.shear_from_matrix,
+    ):
+        with pytest.raises(ValueError, match="eigenvector"):
+            read(np.identity(4))
+
+
+def test_lengths_and_unit_vectors_go_into_an_array() -> None:
+    out = np.zeros(3)
+    assert unit_vector([0.0, 3.0, 4.0], out=out) is None
+    assert np.allclose(out, [0.0, 0.6, 0.8])
+    lengths = np.zeros(2)
+    assert vector_norm([[3.0, 4.0], [6.0, 8.0]], axis=1, out=lengths) is None
+    assert np.allclose(lengths, [5.0, 10.0])

@@ -15,6 +15,8 @@ from gazelle.graph.names import join, resolve
 from gazelle.launch.xml1.values import load_yaml
 
 __all__ = [
+    "NAME",
+    "NS",
     "RosParamException",
     "RosParamIOException",
     "delete_param",
@@ -29,6 +31,9 @@ __all__ = [
 ]
 
 _NAMESPACE_KEY = "_ns"
+NAME = "rosparam"
+NS = _NAMESPACE_KEY
+Text = str
 
 
 class RosParamException(Exception):  # noqa: N818 - rosparam's name
@@ -59,11 +64,11 @@ def load_file(
 
 
 def load_str(
-    text: str,
-    filename: str,
-    default_namespace: str | None = None,
+    str: Text,
+    filename: Text,
+    default_namespace: Text | None = None,
     verbose: bool = False,
-) -> list[tuple[Any, str]]:
+) -> list[tuple[Any, Text]]:
     """Return parameters and namespace of each document of a YAML text.
 
     Raises:
@@ -72,7 +77,7 @@ def load_str(
     del verbose
     start = resolve(default_namespace or "/", client.get_namespace())
     found = []
-    for part in _documents(text):
+    for part in _documents(str):
         try:
             values = load_yaml(part)
         except (yaml.YAMLError, GazelleError) as error:
@@ -81,7 +86,7 @@ def load_str(
             continue
         space = start
         if isinstance(values, dict) and _NAMESPACE_KEY in values:
-            space = resolve(str(values.pop(_NAMESPACE_KEY)), start)
+            space = resolve(f"{values.pop(_NAMESPACE_KEY)}", start)
         found.append((values, space))
     return found
 

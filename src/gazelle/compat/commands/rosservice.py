@@ -12,6 +12,7 @@ from gazelle.graph import ServiceInfo
 from gazelle.interfaces import fill, ros1_service_type, ros1_type_of
 
 __all__ = [
+    "NAME",
     "ROSServiceException",
     "ROSServiceIOException",
     "call_service",
@@ -22,6 +23,9 @@ __all__ = [
     "get_service_type",
     "rosservice_find",
 ]
+
+
+NAME = "rosservice"
 
 
 class ROSServiceException(Exception):  # noqa: N818 - rosservice's name

@@ -146,6 +146,24 @@ class BufferInterface:
         """Return a transform between two times; every buffer has its own way."""
         raise NotImplementedException("this buffer has no lookup_transform_full")
 
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = 0
+    ) -> Any:
+        """Return whether a transform is known; every buffer has its own way."""
+        raise NotImplementedException("this buffer has no can_transform")
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = 0,
+    ) -> Any:
+        """Return whether a transform between two times is known; every buffer has its own way."""
+        raise NotImplementedException("this buffer has no can_transform_full")
+
 
 def _registered(table: dict[type, Callable[[Any], Any]], key: type) -> Callable[[Any], Any]:
     if key not in table:

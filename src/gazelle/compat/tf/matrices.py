@@ -30,13 +30,17 @@ __all__ = [
     "projection_matrix",
     "random_rotation_matrix",
     "random_vector",
+    "reflection_from_matrix",
     "reflection_matrix",
+    "scale_from_matrix",
     "scale_matrix",
+    "shear_from_matrix",
     "shear_matrix",
     "superimposition_matrix",
 ]
 
 _SMALL = 1e-12
+_NEAR = 1e-6
 
 
 def compose_matrix(
@@ -98,6 +102,37 @@ def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Matrix:
     matrix[:3, :3] -= 2.0 * np.outer(axis, axis)
     matrix[:3, 3] = 2.0 * np.dot(np.asarray(point, float)[:3], axis) * axis
     return matrix
+
+
+def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
+    """Return a point of the mirror (with its 1) and the mirror's normal.
+
+    Raises:
+        ValueError: it is no reflection.
+    """
+    given = np.asarray(matrix, float)
+    values, vectors = np.linalg.eigh((np.identity(3) - given[:3, :3]) / 2)
+    if abs(values[-1] - 1.0) > _NEAR or abs(values[:2]).max() > _NEAR:
+        raise ValueError("no unit eigenvector corresponding to eigenvalue -1: it is no reflection")
+    return np.append(given[:3, 3] / 2, 1.0), np.asarray(vectors[:, -1])
+
+
+def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
+    """Return factor, origin (with its 1) and direction; no direction when all are scaled.
+
+    Raises:
+        ValueError: it scales by one, so that its origin may be anywhere.
+    """
+    given = np.asarray(matrix, float)
+    turn = given[:3, :3]
+    factor, direction = float(np.trace(turn)) / 3, None
+    if abs(turn - factor * np.identity(3)).max() > _NEAR:
+        factor = float(np.trace(turn)) - 2
+        vectors, _, _ = np.linalg.svd(np.identity(3) - turn)
+        direction = np.asarray(vectors[:, 0])
+    if abs(factor - 1.0) < _SMALL:
+        raise ValueError("no eigenvector corresponding to eigenvalue 1: it scales by one")
+    return factor, np.append(given[:3, 3] / (1.0 - factor), 1.0), direction
 
 
 def scale_matrix(
@@ -199,6 +234,21 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
     matrix[:3, :3] += slope * np.outer(along, axis)
     matrix[:3, 3] = -slope * np.dot(np.asarray(point, float)[:3], axis) * along
     return matrix
+
+
+def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]:
+    """Return angle (rad), direction, a point of the plane (with its 1) and the plane's normal.
+
+    Raises:
+        ValueError: it is no shear.
+    """
+    given = np.asarray(matrix, float)
+    left, sizes, right = np.linalg.svd(given[:3, :3] - np.identity(3))
+    direction, normal = left[:, 0], right[0]
+    if sizes[0] < _SMALL or sizes[1] > _NEAR or abs(direction @ normal) > _NEAR:
+        raise ValueError("no two linear independent eigenvectors found: it is no shear")
+    point = -(given[:3, 3] @ direction) / sizes[0] * normal
+    return math.atan(sizes[0]), direction, np.append(point, 1.0), normal
 
 
 def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:

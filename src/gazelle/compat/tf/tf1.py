@@ -18,6 +18,7 @@ from gazelle.compat.tf.geometry_messages import (
 )
 from gazelle.geometry import Pose
 from gazelle.graph import tf as graph_tf
+from gazelle.interfaces import ros1_message_type
 
 __all__ = [
     "ConnectivityException",
@@ -28,6 +29,9 @@ __all__ = [
     "TransformListener",
     "Transformer",
     "TransformerROS",
+    "strip_leading_slash",
+    "xyz_to_mat44",
+    "xyzw_to_mat44",
 ]
 
 Exception = tf2_ros.TransformException
@@ -103,13 +107,50 @@ class Transformer:
         del polling_sleep_duration
         self._buffer.lookup_transform(_bare(target_frame), _bare(source_frame), time, timeout)
 
-    def getLatestCommonTime(self, source_frame: str, target_frame: str) -> Time:
+    def canTransformFull(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+    ) -> bool:
+        """Return whether the transform between two times is known."""
+        target, source, fixed = map(_bare, (target_frame, source_frame, fixed_frame))
+        times = target_time, source_time
+        return bool(self._buffer.can_transform_full(target, times[0], source, times[1], fixed))
+
+    def waitForTransformFull(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any,
+        polling_sleep_duration: Any = None,
+    ) -> None:
+        """Wait until the transform between two times is known.
+
+        Raises:
+            Exception: it was not in time; the text says why.
+        """
+        del polling_sleep_duration
+        target, source, fixed = map(_bare, (target_frame, source_frame, fixed_frame))
+        times = target_time, source_time
+        self._buffer.lookup_transform_full(target, times[0], source, times[1], fixed, timeout)
+
+    def setUsingDedicatedThread(self, value: bool) -> None:
+        """Take either: frames always come in a thread of their own."""
+        del value
+
+    def getLatestCommonTime(self, source_frame: str, dest_frame: str) -> Time:
         """Return the latest time that all frames in between know.
 
         Raises:
             Exception: there is no way from one to the other.
         """
-        frames = _bare(target_frame), _bare(source_frame)
+        frames = _bare(dest_frame), _bare(source_frame)
         latest: Time = self._buffer.get_latest_common_time(*frames)
         return latest
 
@@ -144,8 +185,9 @@ class Transformer:
         """Return all frames as sentences."""
         return self._buffer.all_frames_as_string()
 
-    def allFramesAsDot(self) -> str:
-        """Return all frames as a Graphviz graph."""
+    def allFramesAsDot(self, current_time: Any = None) -> str:
+        """Return all frames as a Graphviz graph; their ages do not depend on a time given."""
+        del current_time
         return graph_tf.frames_as_dot(self._buffer.core)
 
     def clear(self) -> None:
@@ -199,6 +241,19 @@ class TransformerROS(Transformer):
         onto.x, onto.y, onto.z, onto.w = pose.quat_xyzw
         return result
 
+    def transformPointCloud(self, target_frame: str, point_cloud: Any) -> Any:
+        """Return a ``PointCloud`` in another frame; its channels go with it."""
+        found = self._found(target_frame, point_cloud)
+        pose = tf2_ros.pose_of(found.transform)
+        result = type(point_cloud)(channels=point_cloud.channels)
+        result.header.stamp = point_cloud.header.stamp
+        result.header.frame_id = target_frame
+        point = ros1_message_type("geometry_msgs/Point32")
+        given = [(one.x, one.y, one.z) for one in point_cloud.points]
+        for x, y, z in pose.transform(np.array(given, float).reshape(-1, 3)):
+            result.points.append(point(float(x), float(y), float(z)))
+        return result
+
     def _found(self, target_frame: str, message: Any) -> Any:
         header = message.header
         return self._buffer.lookup_transform(
@@ -234,8 +289,22 @@ class TransformBroadcaster:
         self._core.send(transform)
 
 
-def _bare(frame: str) -> str:
-    return frame.removeprefix("/")
+def strip_leading_slash(s: str) -> str:
+    """Return a frame's name without the slash that tf's names began with."""
+    return s.removeprefix("/")
+
+
+def xyz_to_mat44(pos: Any) -> NDArray[np.float64]:
+    """Return the 4×4 matrix of a ``Point`` or ``Vector3``."""
+    return _pose((pos.x, pos.y, pos.z), (0.0, 0.0, 0.0, 1.0)).matrix()
+
+
+def xyzw_to_mat44(ori: Any) -> NDArray[np.float64]:
+    """Return the 4×4 matrix of a ``Quaternion``."""
+    return _pose((0.0, 0.0, 0.0), (ori.x, ori.y, ori.z, ori.w)).matrix()
+
+
+_bare = strip_leading_slash
 
 
 def _pose(translation: Sequence[float], rotation: Sequence[float]) -> Pose:

@@ -177,13 +177,13 @@ def quaternion_slerp(
     """Return the quaternion a fraction of the way from one to another."""
     first, second = unit_vector(quat0), unit_vector(quat1)
     if fraction in (0, 1):
-        return second if fraction else first
+        return np.asarray(second if fraction else first)
     dot = float(np.dot(first, second))
     if shortestpath and dot < 0:
         dot, second = -dot, -second
     angle = math.acos(max(-1.0, min(1.0, dot))) + spin * math.pi
     if abs(angle) < _SMALL:
-        return first
+        return np.asarray(first)
     ratio = math.sin(angle)
     return np.asarray(
         (math.sin((1 - fraction) * angle) * first + math.sin(fraction * angle) * second) / ratio
@@ -223,16 +223,24 @@ def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
 
 
-def vector_norm(data: ArrayLike, axis: int | None = None) -> Any:
-    """Return the length of a vector, or the lengths along an axis."""
-    return np.linalg.norm(np.asarray(data, float), axis=axis)
+def vector_norm(data: ArrayLike, axis: int | None = None, out: Matrix | None = None) -> Any:
+    """Return the length of a vector, or the lengths along an axis; into `out` if it is given."""
+    found = np.linalg.norm(np.asarray(data, float), axis=axis)
+    if out is None:
+        return found
+    out[...] = found
+    return None
 
 
-def unit_vector(data: ArrayLike, axis: int | None = None) -> Matrix:
-    """Return a vector, or the vectors along an axis, at length one."""
+def unit_vector(data: ArrayLike, axis: int | None = None, out: Matrix | None = None) -> Any:
+    """Return a vector, or the vectors along an axis, at length one; in `out` if it is given."""
     values = np.asarray(data, float)
     length = np.linalg.norm(values, axis=axis, keepdims=axis is not None)
-    return np.asarray(values / np.where(length == 0, 1.0, length))
+    found = np.asarray(values / np.where(length == 0, 1.0, length))
+    if out is None:
+        return found
+    out[...] = found
+    return None
 
 
 def _axes(axes: str) -> tuple[str, tuple[int, int, int]]:
