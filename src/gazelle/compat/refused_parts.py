@@ -111,8 +111,8 @@ REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
                 "rclpy.timer.Timer: (callback_group) (context) (timer_period_ns)",
             ),
             *_of(
-                "is an annotation of rclpy's own code or a value of its C library; a user's code"
-                " has no use for it",
+                "is an annotation or a value of the original's own code; a user's code has no use"
+                " for it",
                 "rclpy.action.client: ClientGoalHandleDict",
                 "rclpy.action.server: RCLError ServerGoalHandleDict",
                 "rclpy.clock: TimeJumpDictionary",
@@ -122,8 +122,27 @@ REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
                 "rclpy.qos: DeadlineBestAvailable LivelinessLeaseDurationeBestAvailable"
                 " QoSPolicyEnum*",
                 "rclpy.qos_overriding_options: QoSProfileAttributes QosCallbackType",
+                "rclpy.node.Node: PARAM_REL_TOL",
                 "rclpy.timer: TimerInfo*",
+                "ament_index_python.resources: Set",
+                "launch.launch_description_sources.frontend_launch_file_utilities:"
+                " InvalidFrontendLaunchFileError",
+                "launch_ros.utilities.namespace_utils: OptionalText",
+                "tf2_ros: DEFAULT_CAN_TRANSFORM_POLLING_SCALE",
+                "tf2_ros.buffer: DEFAULT_CAN_TRANSFORM_POLLING_SCALE",
+                "sensor_msgs_py.point_cloud2: DUMMY_FIELD_PREFIX",
                 "rclpy.utilities: g_context_lock g_default_context",
+            ),
+            *_of(
+                "is rclpy.init's own; call rclpy.init, with the same arguments",
+                "rclpy.InitContextManager: (args) (domain_id) (signal_handler_options)",
+            ),
+            *_of(
+                "has no use here: rclpy.init handles SIGINT and SIGTERM, and does not with"
+                " signal_handler_options=SignalHandlerOptions.NO",
+                "rclpy: install_signal_handlers uninstall_signal_handlers",
+                "rclpy.signals: install_signal_handlers uninstall_signal_handlers"
+                " get_current_signal_handlers_options",
             ),
             *_of(
                 _WAIT,

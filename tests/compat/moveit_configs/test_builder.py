@@ -295,6 +295,23 @@ def test_mappings_may_be_substitutions(config: Path) -> None:
     assert '<link name="gripper"/>' in str(evaluated[0]["robot_description"])
 
 
+def test_mappings_of_a_xacro_parameter_may_be_substitutions(config: Path) -> None:
+    builder = ParameterBuilder("arm_moveit_config")
+    mappings = {"tip": LaunchConfiguration("tip")}
+    builder.xacro_parameter("robot", "config/arm.urdf.xacro", mappings=mappings)
+    context = LaunchContext()
+    context.launch_configurations["tip"] = "gripper"
+    assert '<link name="gripper"/>' in builder.to_dict()["robot"].evaluate(context)
+
+
+def test_path_that_is_a_substitution_is_told_with_the_way_round(config: Path) -> None:
+    file: Any = LaunchConfiguration("file")
+    with pytest.raises(TypeError, match=r"robot_description: the file's path is a Launch.*Opaque"):
+        MoveItConfigsBuilder("arm").robot_description(file)
+    with pytest.raises(TypeError, match="yaml: the file's path is a LaunchConfiguration"):
+        ParameterBuilder("arm_moveit_config").yaml(file)
+
+
 def test_urdf_that_is_not_there_comes_by_topic(
     config: Path, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -11,11 +11,9 @@ from typing import Any
 from gazelle.compat.moveit_configs.configs import MoveItConfigs
 from gazelle.compat.moveit_configs.files import (
     ParameterBuilderFileNotFoundError,
-    load_xacro,
     load_yaml,
-    raise_if_file_not_found,
 )
-from gazelle.compat.moveit_configs.parameters import ParameterBuilder
+from gazelle.compat.moveit_configs.parameters import ParameterBuilder, expanded_parameter
 from gazelle.description.moveit import DEFAULT_CONFIGS
 from gazelle.workspace.ament_index import get_package_share_directory
 
@@ -39,19 +37,6 @@ def get_pattern_matches(folder: Path, pattern: re.Pattern[str]) -> list[Any]:
     files = sorted(one for one in folder.iterdir() if one.is_file())
     found = [(file, pattern.search(file.name)) for file in files]
     return [match[1] if match.re.groups else file for file, match in found if match]
-
-
-def _expanded(file: Path, mappings: Mapping[Any, Any] | None) -> Any:
-    """Return a file's expanded text, or a parameter that will be it when the launch runs."""
-    plain = (str, int, float, Path)
-    if all(isinstance(one, plain) for pair in (mappings or {}).items() for one in pair):
-        return load_xacro(file, mappings)
-    # Programs without a launch build their parameters here too, and have no use for it.
-    from gazelle.compat.moveit_configs.xacro_substitution import Xacro
-    from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterValue
-
-    raise_if_file_not_found(file)
-    return ParameterValue(Xacro(str(file), mappings=mappings), value_type=str)
 
 
 class MoveItConfigsBuilder(ParameterBuilder):
@@ -94,9 +79,9 @@ class MoveItConfigsBuilder(ParameterBuilder):
         With substitutions the file is expanded when the launch knows their values. Without the
         file it is said that the URDF has to come by topic, as the original does.
         """
-        file = self._urdf if file_path is None else self._package_path / file_path
+        file = self._urdf if file_path is None else self._file(file_path, "robot_description")
         try:
-            text = _expanded(file, mappings or self._xacro_args)
+            text = expanded_parameter(file, mappings or self._xacro_args)
         except ParameterBuilderFileNotFoundError as error:
             _LOGGER.warning("%s", error)
             _LOGGER.warning("The robot description will be loaded from /robot_description topic")
@@ -108,7 +93,9 @@ class MoveItConfigsBuilder(ParameterBuilder):
         self, file_path: str | Path | None = None, mappings: Mapping[str, Any] | None = None
     ) -> MoveItConfigsBuilder:
         """Load the SRDF; `mappings` are arguments of xacro, texts or substitutions."""
-        text = _expanded(self._package_path / (file_path or self._srdf), mappings)
+        text = expanded_parameter(
+            self._file(file_path or self._srdf, "robot_description_semantic"), mappings
+        )
         self._configs.robot_description_semantic = {f"{self._name}_semantic": text}
         return self
 
@@ -116,19 +103,21 @@ class MoveItConfigsBuilder(ParameterBuilder):
         self, file_path: str | Path | None = None
     ) -> MoveItConfigsBuilder:
         """Load settings of inverse kinematics, ``config/kinematics.yaml``."""
-        values = load_yaml(self._package_path / (file_path or _CONFIG / "kinematics.yaml"))
+        values = load_yaml(
+            self._file(file_path or _CONFIG / "kinematics.yaml", "robot_description_kinematics")
+        )
         self._configs.robot_description_kinematics = {f"{self._name}_kinematics": values}
         return self
 
     def joint_limits(self, file_path: str | Path | None = None) -> MoveItConfigsBuilder:
         """Load limits of joints, ``config/joint_limits.yaml``."""
-        values = load_yaml(self._package_path / (file_path or _CONFIG / "joint_limits.yaml"))
+        values = load_yaml(self._file(file_path or _CONFIG / "joint_limits.yaml", "joint_limits"))
         self._configs.joint_limits = {f"{self._name}_planning": values}
         return self
 
     def moveit_cpp(self, file_path: str | Path | None = None) -> MoveItConfigsBuilder:
         """Load parameters of MoveItCpp, ``config/moveit_cpp.yaml``."""
-        values = load_yaml(self._package_path / (file_path or _CONFIG / "moveit_cpp.yaml"))
+        values = load_yaml(self._file(file_path or _CONFIG / "moveit_cpp.yaml", "moveit_cpp"))
         self._configs.moveit_cpp = values
         return self
 
@@ -143,7 +132,11 @@ class MoveItConfigsBuilder(ParameterBuilder):
         self._configs.trajectory_execution = {
             "moveit_manage_controllers": moveit_manage_controllers
         }
-        file = self._controllers() if file_path is None else self._package_path / file_path
+        file = (
+            self._controllers()
+            if file_path is None
+            else self._file(file_path, "trajectory_execution")
+        )
         if file is not None:
             self._configs.trajectory_execution.update(load_yaml(file))
         return self
@@ -170,7 +163,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
 
     def sensors_3d(self, file_path: str | Path | None = None) -> MoveItConfigsBuilder:
         """Load sensors of the octomap, ``config/sensors_3d.yaml``, if there are any."""
-        file = self._package_path / (file_path or _CONFIG / "sensors_3d.yaml")
+        file = self._file(file_path or _CONFIG / "sensors_3d.yaml", "sensors_3d")
         values = load_yaml(file) if file.exists() else None
         if values and values.get("sensors") and values["sensors"][0]:
             self._configs.sensors_3d = values
@@ -221,7 +214,9 @@ class MoveItConfigsBuilder(ParameterBuilder):
             _LOGGER.warning(
                 "cartesian_limits.yaml is deprecated, please rename to pilz_cartesian_limits.yaml"
             )
-        file = self._package_path / (file_path or _CONFIG / "pilz_cartesian_limits.yaml")
+        file = self._file(
+            file_path or _CONFIG / "pilz_cartesian_limits.yaml", "pilz_cartesian_limits"
+        )
         self._configs.pilz_cartesian_limits = {f"{self._name}_planning": load_yaml(file)}
         return self
 

@@ -7,6 +7,8 @@ Behaviour as in https://github.com/ros2/rclpy.
 from __future__ import annotations
 
 from gazelle.compat.rclpy.client_library import (
+    InitContextManager,
+    SignalHandlerOptions,
     create_node,
     get_global_executor,
     init,
@@ -24,7 +26,9 @@ from gazelle.compat.rclpy.task import Future
 __all__ = [
     "Context",
     "Future",
+    "InitContextManager",
     "Parameter",
+    "SignalHandlerOptions",
     "create_node",
     "get_default_context",
     "get_global_executor",

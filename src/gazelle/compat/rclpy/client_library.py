@@ -12,6 +12,7 @@ from gazelle.compat.rclpy.node import Node
 from gazelle.compat.rclpy.task import Future
 
 __all__ = [
+    "InitContextManager",
     "SignalHandlerOptions",
     "create_node",
     "get_global_executor",
@@ -34,13 +35,13 @@ class SignalHandlerOptions(enum.IntEnum):
     ALL = 3
 
 
-class _Initialised:
+class InitContextManager:
     """What `init` returns: ``with rclpy.init(): …`` shuts down at the end."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
 
-    def __enter__(self) -> _Initialised:
+    def __enter__(self) -> InitContextManager:
         return self
 
     def __exit__(self, *exc_info: object) -> None:
@@ -56,7 +57,7 @@ def init(
     context: Context | None = None,
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
-) -> _Initialised:
+) -> InitContextManager:
     """Join the graph; SIGINT and SIGTERM then end spinning.
 
     Raises:
@@ -67,7 +68,7 @@ def init(
     used.init(args, domain_id=domain_id)
     if signal_handler_options is not SignalHandlerOptions.NO and context is None:
         handle_signals()
-    return _Initialised(used)
+    return InitContextManager(used)
 
 
 def ok(*, context: Context | None = None) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from enum import IntEnum
 from typing import Any, NamedTuple
 
 from gazelle.compat.rclpy.context import Context, get_default_context
@@ -13,7 +14,7 @@ from gazelle.compat.rclpy.time import ClockType, Time
 from gazelle.graph import Clock as GraphClock
 from gazelle.graph import TimeJumpError
 
-__all__ = ["Clock", "JumpThreshold", "ROSClock", "TimeJump"]
+__all__ = ["Clock", "ClockChange", "JumpThreshold", "ROSClock", "TimeJump"]
 
 _SLICE_NS = 100_000_000
 
@@ -26,9 +27,19 @@ class JumpThreshold(NamedTuple):
     on_clock_change: bool = False
 
 
+class ClockChange(IntEnum):
+    """Which source of time a clock had before a jump and has after it."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
 class TimeJump(NamedTuple):
     """A jump of simulated time."""
 
+    clock_change: ClockChange
     delta: Duration
 
 
@@ -137,7 +148,8 @@ class ROSClock(Clock):
             if pre_callback is not None:
                 pre_callback()
             if post_callback is not None:
-                post_callback(TimeJump(Duration(nanoseconds=delta_ns)))
+                change = ClockChange.ROS_TIME_NO_CHANGE
+                post_callback(TimeJump(change, Duration(nanoseconds=delta_ns)))
 
         if self._source is not None:
             self._source.on_jump(on_jump)

@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.interfaces import message_type
 
-__all__ = ["Duration", "Infinite"]
+__all__ = ["Duration", "DurationType", "Infinite"]
 
 S_TO_NS = 1_000_000_000
 _MOST_NS = 2**63
@@ -80,3 +80,4 @@ class Duration:
 
 
 Infinite = Duration(nanoseconds=_MOST_NS - 1)
+DurationType = Duration

@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.compat.rclpy.annotations import MsgType, SrvType, SrvTypeRequest, SrvTypeResponse
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
 from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, announced_qos
 from gazelle.compat.rclpy.task import Future
@@ -21,7 +22,18 @@ if TYPE_CHECKING:
     from gazelle.compat.rclpy.event_handler import EventWatch
     from gazelle.compat.rclpy.node import Node
 
-__all__ = ["RMW_IDENTIFIER", "Client", "Publisher", "Service", "Subscription", "check_type"]
+__all__ = [
+    "RMW_IDENTIFIER",
+    "Client",
+    "MsgType",
+    "Publisher",
+    "Service",
+    "SrvType",
+    "SrvTypeRequest",
+    "SrvTypeResponse",
+    "Subscription",
+    "check_type",
+]
 
 RMW_IDENTIFIER = "rmw_zenoh_cpp"
 

@@ -17,6 +17,7 @@ from gazelle.compat.rclpy.exceptions import (
 )
 
 __all__ = [
+    "TOPIC_SEPARATOR_STRING",
     "expand_topic_name",
     "validate_full_topic_name",
     "validate_namespace",
@@ -24,6 +25,8 @@ __all__ = [
     "validate_parameter_name",
     "validate_topic_name",
 ]
+
+TOPIC_SEPARATOR_STRING = "/"
 
 
 class _Fault(NamedTuple):

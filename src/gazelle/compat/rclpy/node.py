@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 from gazelle.compat.rclpy import logging
+from gazelle.compat.rclpy.annotations import MsgType, SrvType, SrvTypeRequest, SrvTypeResponse
 from gazelle.compat.rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from gazelle.compat.rclpy.clock import Clock, ROSClock
 from gazelle.compat.rclpy.context import Context, get_default_context
@@ -31,12 +32,23 @@ from gazelle.compat.rclpy.type_descriptions import (
     offer_type_descriptions,
 )
 from gazelle.compat.rclpy.work import Once, Work
+from gazelle.graph import NotFoundError as NodeNameNonExistentError
 from gazelle.graph import ServiceRefusedError
 from gazelle.graph.names import resolve
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.interfaces import message_type
 
-__all__ = ["Node"]
+__all__ = [
+    "HIDDEN_NODE_PREFIX",
+    "MsgType",
+    "Node",
+    "NodeNameNonExistentError",
+    "SrvType",
+    "SrvTypeRequest",
+    "SrvTypeResponse",
+]
+
+HIDDEN_NODE_PREFIX = "_"
 
 _T = TypeVar("_T")
 _S_TO_NS = 1_000_000_000

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import yaml
 
@@ -13,11 +13,14 @@ from gazelle.interfaces import message_type
 
 __all__ = [
     "PARAMETER_SEPARATOR_STRING",
+    "AllowableParameterValueT",
     "Parameter",
     "get_parameter_value",
     "parameter_dict_from_yaml_file",
     "parameter_value_to_python",
 ]
+
+AllowableParameterValueT = TypeVar("AllowableParameterValueT")
 
 PARAMETER_SEPARATOR_STRING = "."
 

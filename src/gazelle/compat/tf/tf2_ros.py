@@ -28,6 +28,8 @@ from gazelle.compat.tf.interface import (
 )
 
 __all__ = [
+    "DEFAULT_STATIC_TF_TOPIC",
+    "DEFAULT_TF_TOPIC",
     "Buffer",
     "BufferInterface",
     "ConnectivityException",
@@ -49,3 +51,6 @@ __all__ = [
     "pose_of",
     "stamped",
 ]
+
+DEFAULT_TF_TOPIC = "/tf"
+DEFAULT_STATIC_TF_TOPIC = "/tf_static"

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
 
 __all__ = [
+    "VALID_FALSE_EXPRESSIONS",
+    "VALID_TRUE_EXPRESSIONS",
     "IfCondition",
     "InvalidConditionExpressionError",
     "LaunchConfigurationEquals",
@@ -25,8 +27,8 @@ __all__ = [
     "evaluate_condition_expression",
 ]
 
-_TRUE = ("true", "1")
-_FALSE = ("false", "0")
+VALID_TRUE_EXPRESSIONS = ["true", "1"]
+VALID_FALSE_EXPRESSIONS = ["false", "0"]
 
 
 class InvalidConditionExpressionError(ValueError):
@@ -58,11 +60,12 @@ def evaluate_condition_expression(
     """
     written = list(expression)
     text = perform_substitutions(context, written).strip().lower()
-    if text in _TRUE:
+    if text in VALID_TRUE_EXPRESSIONS:
         return True
-    if text in _FALSE:
+    if text in VALID_FALSE_EXPRESSIONS:
         return False
-    raise InvalidConditionExpressionError(text, written, (*_TRUE, *_FALSE))
+    valid = [*VALID_TRUE_EXPRESSIONS, *VALID_FALSE_EXPRESSIONS]
+    raise InvalidConditionExpressionError(text, written, valid)
 
 
 class IfCondition(Condition):

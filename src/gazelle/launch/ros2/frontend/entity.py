@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["Entity"]
+__all__ = ["Entity", "TargetType"]
+
+TargetType = TypeVar("TargetType")
 
 
 class Entity:

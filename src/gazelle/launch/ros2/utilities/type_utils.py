@@ -23,12 +23,20 @@ __all__ = [
     "AllowedTypesType",
     "AllowedValueType",
     "ListTypesTuple",
+    "ListTypesType",
     "ListValueType",
+    "NormalizedScalarType",
+    "NormalizedSequenceType",
     "NormalizedValueType",
     "ScalarTypesTuple",
     "ScalarTypesType",
     "ScalarValueType",
+    "SequenceValueType",
+    "SomeScalarType",
+    "SomeSequenceType",
     "SomeValueType",
+    "StrSomeScalarType",
+    "StrSomeSequenceType",
     "StrSomeValueType",
     "coerce_list",
     "coerce_to_type",
@@ -56,6 +64,14 @@ AllowedValueType = ScalarValueType | ListValueType
 SomeValueType = SomeSubstitutionsType | AllowedValueType
 NormalizedValueType = Any
 StrSomeValueType = Any
+ListTypesType = Any
+SequenceValueType = ListValueType
+SomeScalarType = SomeSubstitutionsType | ScalarValueType
+SomeSequenceType = SomeSubstitutionsType | SequenceValueType
+StrSomeScalarType = Any
+StrSomeSequenceType = Any
+NormalizedScalarType = Any
+NormalizedSequenceType = Any
 
 # Which types the items of a list may have when another type is asked for.
 _FITTING: dict[type, tuple[type, ...]] = {
