@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["offer_states"]
+__all__ = ["offer_clock", "offer_states"]
 
 _EVERY_STEP = Fraction(1)
 # Faster than real time, nobody can use more of them: each costs every process 0.1 ms.
@@ -30,24 +30,10 @@ def offer_states(
     rate, as in gazebo_ros; 0 is every step.
     A world that is to run faster than real time shows the clock 500 times a second of real time.
     """
-    engine = server.engine
-    clock = resources.publisher("/clock", "rosgraph_msgs/Clock")
     rate_hz = clock_rate_hz
     if rate_hz is None:
         rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
-
-    def publish_clock() -> None:
-        if not server.paused and engine.iteration % _steps_between_clocks(server):
-            return
-        clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
-
-    resources.task(
-        "/clock",
-        period_in_steps(rate_hz, engine.step_ns),
-        publish_clock,
-        order=ORDER_CLOCK,
-        wanted=lambda: clock.matched,
-    )
+    offer_clock(server, resources, "/clock", rate_hz)
     links = resources.publisher("/gazebo/link_states", "gazebo_msgs/LinkStates", reliable=False)
     models = resources.publisher("/gazebo/model_states", "gazebo_msgs/ModelStates", reliable=False)
     resources.task(
@@ -63,6 +49,25 @@ def offer_states(
         lambda: models.publish(_model_states(server)),
         order=ORDER_STATE,
         wanted=lambda: models.matched,
+    )
+
+
+def offer_clock(server: WorldServer, resources: Resources, topic: str, rate_hz: float) -> None:
+    """Publish the world's time while somebody listens, each step at 0 Hz."""
+    engine = server.engine
+    clock = resources.publisher(topic, "rosgraph_msgs/Clock")
+
+    def publish_clock() -> None:
+        if not server.paused and engine.iteration % _steps_between_clocks(server):
+            return
+        clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
+
+    resources.task(
+        topic,
+        period_in_steps(rate_hz, engine.step_ns),
+        publish_clock,
+        order=ORDER_CLOCK,
+        wanted=lambda: clock.matched,
     )
 
 

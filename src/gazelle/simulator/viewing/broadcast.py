@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from gazelle.simulator.viewing.joint_rows import moving_joints
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources
-    from gazelle.simulator.ports import PublisherPort
+    from gazelle.simulator.viewing.gz_topics import GzTopics
     from gazelle.simulator.world_server import WorldServer
 
 __all__ = ["Broadcast"]
@@ -48,7 +48,7 @@ class Broadcast:
         self._poses = resources.publisher("/_gazelle/poses", frames, reliable=False)
         self._contacts = resources.publisher("/_gazelle/contacts", frames, reliable=False)
         self._joints = resources.publisher("/_gazelle/joints", frames, reliable=False)
-        self._gz_stats: PublisherPort | None = None
+        self._gz: GzTopics | None = None
         self._ended = threading.Event()
         self._looking = threading.Event()
         self._version = 0
@@ -62,11 +62,9 @@ class Broadcast:
         self._server.commands.post(self._show_scene)
         threading.Thread(target=self._run, name="gazelle-views", daemon=True).start()
 
-    def offer_gz_statistics(self, resources: Resources) -> None:
-        """Publish ``/world/NAME/stats`` too, as a world of the new Gazebo does, at 5 Hz."""
-        name = f"/world/{self._server.engine.world.name}/stats"
-        kind = "gazelle_msgs/WorldStatistics"
-        self._gz_stats = resources.publisher(name, kind, reliable=False)
+    def tell_gz(self, topics: GzTopics) -> None:
+        """Publish what a world of the new Gazebo does, too: statistics 5 times a second."""
+        self._gz = topics
 
     def touch(self) -> None:
         """Have the scene sent again: something that it shows was changed."""
@@ -89,6 +87,8 @@ class Broadcast:
             self._show_scene()
             if self._poses.matched:
                 self._send_poses()
+            if self._gz is not None:
+                self._gz.send_poses()
             if self._contacts.matched:
                 self._send(self._contacts, self._contact_rows())
             if self._count % _JOINTS_EVERY == 0 and self._joints.matched:
@@ -150,14 +150,14 @@ class Broadcast:
         )
 
     def _send_statistics(self) -> None:
-        for_gz = self._gz_stats if self._gz_stats is not None and self._gz_stats.matched else None
+        for_gz = self._gz if self._gz is not None and self._gz.wants_statistics() else None
         if for_gz is None and not self._stats.matched:
             return
         value = self._statistics()
         if self._stats.matched:
             self._stats.publish(_text(value))
         if for_gz is not None:
-            for_gz.publish(_gz_statistics(value))
+            for_gz.send_statistics(value)
 
     def _statistics(self) -> dict[str, Any]:
         server = self._server
@@ -172,23 +172,6 @@ class Broadcast:
             "iterations": server.engine.iteration,
             "version": self._version,
         }
-
-
-def _gz_statistics(value: Mapping[str, Any]) -> Any:
-    time_type = message_class("builtin_interfaces/msg/Time")
-
-    def time_of(seconds: float) -> Any:
-        nanoseconds = round(seconds * 1e9)
-        return time_type(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
-
-    return message_class("gazelle_msgs/WorldStatistics")(
-        sim_time=time_of(value["sim_s"]),
-        real_time=time_of(value["real_s"]),
-        paused=value["paused"],
-        iterations=value["iterations"],
-        real_time_factor=value["rtf"],
-        step_size=time_of(value["step_s"]),
-    )
 
 
 class _Pace:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GazelleError
 from gazelle.simulator.viewing.broadcast import Broadcast
+from gazelle.simulator.viewing.gz_topics import GzTopics
 from gazelle.simulator.viewing.requests import Requests
 
 if TYPE_CHECKING:
@@ -18,14 +19,14 @@ __all__ = ["offer_views"]
 def offer_views(server: WorldServer, *, is_gz: bool = False) -> None:
     """Publish ``/_gazelle/*`` while somebody looks, and answer ``/_gazelle/do``.
 
-    A world of the new Gazebo (`is_gz`) has its ``/world/NAME/stats``.
+    A world of the new Gazebo (`is_gz`) has its statistics, clock and poses under ``/world/NAME``.
 
     Nothing is computed for a topic that nobody listens to.
     """
     resources = server.world_resources
     broadcast = Broadcast(server, resources)
     if is_gz:
-        broadcast.offer_gz_statistics(resources)
+        broadcast.tell_gz(GzTopics(server, resources))
     requests = Requests(server, broadcast.touch)
 
     def answer(request: Any, response: Any) -> None:

@@ -33,11 +33,13 @@ _TYPES: Mapping[str, tuple[str, ...]] = {
     "Int32": (f"{_STD}Int32",),
     "JointTrajectory": ("trajectory_msgs/msg/JointTrajectory",),
     "Pose": tuple(f"{_GEOMETRY}{name}" for name in ("Pose", "PoseStamped")),
+    "Pose_V": ("tf2_msgs/msg/TFMessage",),
     "Quaternion": (f"{_GEOMETRY}Quaternion",),
     "StringMsg": (f"{_STD}String",),
     "Twist": tuple(f"{_GEOMETRY}{name}" for name in ("Twist", "TwistStamped")),
     "UInt32": (f"{_STD}UInt32",),
     "Vector3d": tuple(f"{_GEOMETRY}{name}" for name in ("Vector3", "Point")),
+    "WorldStatistics": ("gazelle_msgs/msg/WorldStatistics",),
     "Wrench": tuple(f"{_GEOMETRY}{name}" for name in ("Wrench", "WrenchStamped")),
 }
 _BACK = {ros: f"gz.msgs.{gz}" for gz, names in _TYPES.items() for ros in names}
