@@ -14,7 +14,9 @@ def run() -> NoReturn:
     """Run the command of the command line and end the process."""
     end_at_interrupts()
     from gazelle.cli.main import main
+    from gazelle.library_warnings import shorten_library_warnings
 
+    shorten_library_warnings()
     raise_interrupts()
     if "GAZELLE_PARENT_PID" in os.environ:
         # Started by a launch: most commands are not, and need nothing of the graph for this.

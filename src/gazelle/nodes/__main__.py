@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from gazelle.ending import StopEvent, at_stop_signal, end_at_interrupts, end_with
+from gazelle.library_warnings import shorten_library_warnings
 
 __all__ = ["main"]
 
@@ -58,4 +59,5 @@ def _single(name: str, argv: list[str]) -> int:
 
 
 if __name__ == "__main__":
+    shorten_library_warnings()
     end_with(lambda: main(sys.argv[1:]))
