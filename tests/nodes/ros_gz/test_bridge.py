@@ -37,6 +37,19 @@ def test_renamed_topic_is_passed_on(bench: Any) -> None:
     assert bench.stop() == [0]
 
 
+def test_clock_of_a_world_is_not_told_by_two(bench: Any) -> None:
+    got = bench.listen("/b", "std_msgs/msg/String")
+    bench.start(
+        _BRIDGE, "/world/w/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock",
+        "/a@std_msgs/msg/String[gz.msgs.StringMsg",
+        "--ros-args", "-r", "/world/w/clock:=/clock", "-r", "/a:=/b",
+    )  # fmt: skip
+    _send(bench, "/a", _STRING(data="both rows are made"))
+    bench.eventually(lambda: got)
+    clocks = [one for one in bench.graph.topics() if one.name == "/clock"]
+    assert not any(one.publishers for one in clocks)
+
+
 def test_both_directions_do_not_go_round_in_circles(bench: Any, tmp_path: Path) -> None:
     path = tmp_path / "bridge.yaml"
     path.write_text(

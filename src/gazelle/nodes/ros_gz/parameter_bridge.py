@@ -2,7 +2,8 @@
 
 In Gazelle both live on one graph: what a plug-in of the new Gazebo publishes has its name of
 Gazebo and the type of ROS that the bridge pairs with it. So a topic that keeps its name needs
-nothing; one that is renamed (``-r``, or two names in the file) is passed on.
+nothing; one that is renamed (``-r``, or two names in the file) is passed on, but for a world's
+clock, which is on ``/clock`` anyway.
 
 Parameters: ``config_file``, ``lazy`` (false), ``expand_gz_topic_names`` (false);
 ``override_timestamps_with_wall_time`` is told to have no effect.
@@ -25,6 +26,7 @@ from gazelle.nodes.ros_gz.services import offer
 __all__ = ["run", "run_image"]
 
 _LOOK_S = 0.2
+_CLOCK = "/clock"
 _IMAGE = ("sensor_msgs/msg/Image", "gz.msgs.Image")
 
 
@@ -97,6 +99,9 @@ def _relays(ros: Node, gz: Node, row: TopicRow) -> list[Relay]:
         arrow = way.name.replace("_TO_", "->")
         text = f"Creating {arrow} Bridge: [{names[from_ros]} -> {names[not from_ros]}]"
         ros.log("info", f"{text} (Lazy {int(row.lazy)})")
+        if not from_ros and ends[True].name == _CLOCK:
+            # The world tells it already: a second, later voice would turn time back.
+            continue
         relay = Relay(
             ends[from_ros],
             ends[not from_ros],
