@@ -32,7 +32,7 @@ from gazelle.compat.rclpy.type_descriptions import (
     offer_type_descriptions,
 )
 from gazelle.compat.rclpy.work import Once, Work
-from gazelle.graph import NotFoundError as NodeNameNonExistentError
+from gazelle.errors import NotFoundError as NodeNameNonExistentError
 from gazelle.graph import ServiceRefusedError
 from gazelle.graph.names import resolve
 from gazelle.graph.node_parameters import NodeParameters
