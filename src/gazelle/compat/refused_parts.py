@@ -346,9 +346,12 @@ REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
                 " static_callback",
             ),
             *_of(
-                "is the inside of controller_manager; controller_manager"
-                ".controller_manager_services has its public functions",
-                "controller_manager: bcolors",
+                "calls the controller manager's services from Python; call them with rclpy"
+                " (/controller_manager/load_controller, switch_controller, list_controllers), or"
+                " run ros2 control",
+                "controller_manager: bcolors cleanup_controller configure_controller"
+                " get_parameter_from_param_files list_* load_controller"
+                " reload_controller_libraries set_* switch_controllers unload_controller",
             ),
         ]
     )
