@@ -18,7 +18,55 @@ import pytest
 from gazelle.compat.refused import REFUSED, refusal_of
 
 NAMES = Path(__file__).parent / "original_names"
-_ROS1 = ("rospy",)
+_ROS1 = (
+    *(
+        "actionlib",
+        "angles",
+        "bondpy",
+        "cv_bridge",
+        "diagnostic_updater",
+    ),
+    *(
+        "dynamic_reconfigure",
+        "gazebo_ros",
+        "genpy",
+        "image_geometry",
+        "laser_geometry",
+    ),
+    *(
+        "moveit_commander",
+        "ros_numpy",
+        "rosbag",
+        "rosgraph",
+        "roslaunch",
+        "roslib",
+    ),
+    *(
+        "rosmsg",
+        "rosnode",
+        "rosparam",
+        "rospkg",
+        "rospy",
+        "rosservice",
+        "rostest",
+    ),
+    *(
+        "rostopic",
+        "rosunit",
+        "sensor_msgs",
+        "srdfdom",
+        "tf",
+        "tf2_geometry_msgs",
+        "tf2_kdl",
+    ),
+    *(
+        "tf2_sensor_msgs",
+        "tf_conversions",
+        "tf_transformations",
+        "unique_id",
+    ),
+    *("urdf_parser_py",),
+)
 _ROS2 = (
     *("ament_index_python", "controller_manager", "controller_manager_msgs", "launch"),
     *("launch_param_builder", "launch_pytest", "launch_ros", "launch_testing"),

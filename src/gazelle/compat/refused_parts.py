@@ -1,4 +1,4 @@
-"""Single names of ROS 2's Python packages that Gazelle does not have, though it has their module.
+"""Single names of ROS's Python packages that Gazelle does not have, though it has their module.
 
 A part is a dotted name of the original: an attribute of a module or class (``*`` at the end of a
 module's), or a callable with a keyword in brackets.
@@ -7,6 +7,8 @@ module's), or a callable with a keyword in brackets.
 from __future__ import annotations
 
 from typing import NamedTuple
+
+from gazelle.compat.refused_parts_ros1 import ROS1_GROUPS
 
 __all__ = ["REFUSED_PARTS", "RefusedPart"]
 
@@ -353,6 +355,7 @@ REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
                 " get_parameter_from_param_files list_* load_controller"
                 " reload_controller_libraries set_* switch_controllers unload_controller",
             ),
+            *(row for reason, owners in ROS1_GROUPS for row in _of(reason, *owners)),
         ]
     )
 )

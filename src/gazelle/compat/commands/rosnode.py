@@ -70,8 +70,11 @@ def rosnode_ping(
     return is_there
 
 
-def rosnode_ping_all(verbose: bool = False) -> tuple[list[str], list[str]]:
+def rosnode_ping_all(
+    verbose: bool = False, skip_cache: bool = False
+) -> tuple[list[str], list[str]]:
     """Return the nodes that answer and those that do not."""
+    del skip_cache
     names = get_node_names()
     alive = [name for name in names if rosnode_ping(name, verbose=verbose)]
     return alive, [name for name in names if name not in alive]

@@ -177,10 +177,22 @@ class PinholeCameraModel:
     projectPixelTo3dRay = project_pixel_to_3d_ray  # noqa: N815
     rectifyPoint = rectify_point  # noqa: N815
     unrectifyPoint = unrectify_point  # noqa: N815
-    getDeltaU = get_delta_u  # noqa: N815
-    getDeltaV = get_delta_v  # noqa: N815
-    getDeltaX = get_delta_x  # noqa: N815
-    getDeltaY = get_delta_y  # noqa: N815
+
+    def getDeltaU(self, deltaX: float, Z: float) -> float:
+        """Return `get_delta_u` (the old name)."""
+        return self.get_delta_u(deltaX, Z)
+
+    def getDeltaV(self, deltaY: float, Z: float) -> float:
+        """Return `get_delta_v` (the old name)."""
+        return self.get_delta_v(deltaY, Z)
+
+    def getDeltaX(self, deltaU: float, Z: float) -> float:
+        """Return `get_delta_x` (the old name)."""
+        return self.get_delta_x(deltaU, Z)
+
+    def getDeltaY(self, deltaV: float, Z: float) -> float:
+        """Return `get_delta_y` (the old name)."""
+        return self.get_delta_y(deltaV, Z)
 
 
 class StereoCameraModel:
@@ -231,7 +243,10 @@ class StereoCameraModel:
     project3dToPixel = project_3d_to_pixel  # noqa: N815
     projectPixelTo3d = project_pixel_to_3d  # noqa: N815
     getZ = get_z  # noqa: N815
-    getDisparity = get_disparity  # noqa: N815
+
+    def getDisparity(self, Z: float) -> float:
+        """Return `get_disparity` (the old name)."""
+        return self.get_disparity(Z)
 
 
 def _matrix(values: Any, n_rows: int) -> Any:
