@@ -106,8 +106,8 @@ class Launched:
     def graph(self) -> Any:
         """The launch's graph, joined when first asked for."""
         if self._graph is None:
-            # What roslaunch and ros2 launch say first; only the former has the graph by then.
-            self.wait_for_line("ROS_MASTER_URI=|Default logging verbosity")
+            # What these say first; only roslaunch has the graph by then.
+            self.wait_for_line("ROS_MASTER_URI=|Default logging verbosity|the world is paused")
             self._graph = self.eventually(self._joined)
         return self._graph
 
@@ -172,11 +172,12 @@ class Launched:
         return publisher
 
     def call(self, service: str, type_name: str, **fields: Any) -> Any:
-        """Call a service and return its response."""
+        """Call a service and return its response; a world's also where it is hidden."""
+        from gazelle.graph.world import offered_name
         from gazelle.interfaces import fill, service_type
 
         kind = service_type(type_name)
-        client = self.node.create_client(service, kind)
+        client = self.node.create_client(offered_name(self.graph, service, _PATIENCE_S), kind)
         assert client.wait_for_service(_PATIENCE_S), f"no {service}\n{self.text}"
         request = kind.Request()
         fill(request, fields)

@@ -11,7 +11,7 @@ import pytest
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
-from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.workspace import Workspace
 
 DIFF_ROBOT = """<robot name="cart">
@@ -90,7 +90,7 @@ def load(bare_workspace: Workspace) -> Iterator[Callable[..., Simulation]]:
         services = options.pop("services", False)
         opened.append(Simulation.load(source, **options))
         if services:
-            offer_gazebo_ros(opened[-1].server, ros2=True)
+            offer_gazebo_ros(opened[-1].server, ros2=ROS2_PLUGINS)
         return opened[-1]
 
     yield load_one

@@ -164,6 +164,75 @@ def test_ros_2_names_are_offered_when_its_plug_ins_are_named(
     assert found.model_names == ["ground_plane", "cart"]
 
 
+_API_LINES = ("Finished loading Gazebo ROS API Plugin.", "Physics dynamic reconfigure ready.")
+
+
+@pytest.mark.parametrize(
+    ("words", "started_by", "shows"),
+    [
+        ((), 1, True),
+        ((), 0, True),
+        ((), 2, False),
+        (("-s", "libgazebo_ros_factory.so"), 0, False),
+        (("--gz",), 0, False),
+    ],
+)
+def test_only_ros_1_shows_the_names_and_lines_of_its_gazebo_ros(
+    graph: Graph,
+    start: Callable[..., None],
+    words: tuple[str, ...],
+    started_by: int,
+    shows: bool,
+) -> None:
+    start("-u", *words, started_by=started_by)
+    space = "/gazebo" if shows else "/_gazebo"
+    kind = "gazebo_msgs/GetWorldProperties"
+    assert call(graph, f"{space}/get_world_properties", kind).model_names == ["ground_plane"]
+    call(graph, "/_gazelle/do", "gazelle_msgs/Do", request="{}")
+    offered = [
+        name
+        for name in (*(one.name for one in graph.services()), *(one.name for one in graph.topics()))
+        # Loggers belong to the node.
+        if name.startswith("/gazebo/") and "logger" not in name
+    ]
+    assert bool(offered) is shows, offered
+    if shows:
+        assert {"/gazebo/model_states", "/gazebo/pause_physics"} <= set(offered)
+
+
+@pytest.mark.parametrize(("version", "told"), [(1, True), (2, False), (0, False)])
+def test_lines_of_the_api_plug_in_are_ros_1s(
+    graph: Graph, capfd: pytest.CaptureFixture[str], version: int, told: bool
+) -> None:
+    words = ("--iters", "1", *(() if version else ("--gz",)))
+    assert serve(Arguments(words, started_by=version), graph, threading.Event()) == 0
+    text = "".join(capfd.readouterr())
+    assert [line in text for line in _API_LINES] == [told, told]
+
+
+@pytest.mark.parametrize(
+    ("plugin", "services"),
+    [
+        ("init", {"pause_physics", "unpause_physics", "reset_simulation", "reset_world"}),
+        ("factory", {"spawn_entity", "delete_entity", "get_model_list"}),
+        (
+            "force_system",
+            {
+                "apply_link_wrench", "clear_link_wrenches", "apply_joint_effort",
+                "clear_joint_efforts",
+            },
+        ),
+    ],
+)  # fmt: skip
+def test_each_plug_in_of_ros_2_offers_its_own_services(
+    graph: Graph, start: Callable[..., None], plugin: str, services: set[str]
+) -> None:
+    start("-u", "-s", f"libgazebo_ros_{plugin}.so", started_by=2)
+    call(graph, "/_gazelle/do", "gazelle_msgs/Do", request="{}")
+    root = {one.name[1:] for one in graph.services() if one.name.count("/") == 1}
+    assert root == services
+
+
 def test_iterations_end_the_server_by_itself(graph: Graph) -> None:
     assert serve(Arguments(("--iters", "50")), graph, threading.Event()) == 0
 

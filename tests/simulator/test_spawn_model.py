@@ -11,7 +11,7 @@ import pytest
 
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
-from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.spawn_model import spawn_model
 
@@ -43,7 +43,7 @@ def console(graph: Graph) -> Console:
 @pytest.fixture
 def sim(load: Callable[..., Simulation], graph: Graph) -> Simulation:
     made = load(world="empty", node=graph.create_node("gazebo"))
-    offer_gazebo_ros(made.server, ros2=True)
+    offer_gazebo_ros(made.server, ros2=ROS2_PLUGINS)
     return made
 
 

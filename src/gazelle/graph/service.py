@@ -28,8 +28,10 @@ from gazelle.graph.keys import (
     service_selector,
     token,
 )
+from gazelle.graph.names import is_hidden
 from gazelle.graph.relink import hub_knows
 from gazelle.graph.repeats import Answer, Repeats
+from gazelle.graph.world import other_version_hint
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
@@ -291,7 +293,11 @@ class ServiceClient:
             text = coded("graph.type-mismatch", text)
         elif not types:
             names = {one.name for one in self._graph.services(include_hidden=True)}
-            nearest = nearest_names(self.name, names)
+            hint = other_version_hint(self.name, names)
+            if not is_hidden(self.name):
+                names = {name for name in names if not is_hidden(name)}
+            nearest = () if hint else nearest_names(self.name, names)
+            text += f"; {hint}" if hint else ""
             text += f"; did you mean {' or '.join(nearest)}?" if nearest else ""
         return ServiceUnavailableError(text)
 

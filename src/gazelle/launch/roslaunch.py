@@ -22,6 +22,7 @@ from gazelle.description.text_place import (
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, NoGraphError
+from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.config import LaunchConfig, NodeSpec
 from gazelle.launch.console import Console, summary
@@ -218,8 +219,8 @@ def _unpause(graph: Graph) -> None:
     kind = service_type("std_srvs/Empty")
     # The launch may end while this waits for the simulator.
     with contextlib.suppress(GraphError):
-        client = node.create_client(_UNPAUSE, kind)
-        if client.wait_for_service(_UNPAUSE_S):
+        client = node.create_client(offered_name(graph, _UNPAUSE, _UNPAUSE_S), kind)
+        if client.available:
             client.call(kind.Request())
         node.shutdown()
 

@@ -14,7 +14,8 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_yo
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
 from gazelle.graph.aside import aside_path, write_aside
-from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.graph.world import SHOWN_SPACE, world_space
+from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
@@ -27,20 +28,10 @@ if TYPE_CHECKING:
     from gazelle.description.model import World
     from gazelle.graph import Graph
 
-__all__ = ["check_server_plugins", "offers_ros2", "ros_version_of", "serve"]
+__all__ = ["check_server_plugins", "ros2_plugins_of", "ros_version_of", "serve"]
 
 _RATE = "publish_rate"
 _ROS1_PLUGINS = frozenset({"gazebo_ros_api_plugin", "gazebo_ros_paths_plugin"})
-
-_ROS2_PLUGINS = frozenset(
-    {
-        "gazebo_ros_init",
-        "gazebo_ros_factory",
-        "gazebo_ros_state",
-        "gazebo_ros_force_system",
-        "gazebo_ros_properties",
-    }
-)
 
 
 class _Arguments(Protocol):
@@ -86,9 +77,10 @@ def serve(
         namespace=arguments.namespace,
         remappings=dict(arguments.remappings),
     )
-    offer_loggers(node)
     try:
         version = ros_version_of(options, arguments.started_by)
+        if world_space(version, is_gz=options.is_gz) == SHOWN_SPACE:
+            offer_loggers(node)
         rate_hz = None if version == 1 else _clock_rate(arguments, node, diagnostics)
         workspace = Workspace.discover()
         world = _world(options, node, workspace, diagnostics, falls_back=falls_back)
@@ -128,12 +120,13 @@ def _serve_world(
     _show(node, diagnostics, verbose=options.verbose)
     offer_gazebo_ros(
         server,
-        ros2=offers_ros2(options),
+        ros2=ros2_plugins_of(options),
+        is_gz=options.is_gz,
         report=lambda found: _show(node, found, verbose=options.verbose),
         clock_rate_hz=clock_rate_hz,
     )
     offer_views(server, is_gz=options.is_gz or _names_gz_systems(world))
-    if ros_version != 2:
+    if world_space(ros_version, is_gz=options.is_gz) == SHOWN_SPACE:
         # Plug-ins of ROS 1 say this; ROS 2 and gz have neither.
         node.log("info", "Finished loading Gazebo ROS API Plugin.")
         node.log("info", "Physics dynamic reconfigure ready.")
@@ -189,9 +182,9 @@ def _world(
     return world_from("empty", workspace, diagnostics)
 
 
-def offers_ros2(options: ServerOptions) -> bool:
-    """Tell whether the command line names a plug-in of ROS 2's gazebo_ros."""
-    return any(plain_name(name) in _ROS2_PLUGINS for name in options.plugins)
+def ros2_plugins_of(options: ServerOptions) -> frozenset[str]:
+    """Return the plug-ins of ROS 2's gazebo_ros that the command line names."""
+    return ROS2_PLUGINS & {plain_name(name) for name in options.plugins}
 
 
 def ros_version_of(options: ServerOptions, started_by: int) -> int:
@@ -204,7 +197,7 @@ def ros_version_of(options: ServerOptions, started_by: int) -> int:
     names = {plain_name(name) for name in options.plugins}
     told = {
         version
-        for version, plugins in ((1, _ROS1_PLUGINS), (2, _ROS2_PLUGINS))
+        for version, plugins in ((1, _ROS1_PLUGINS), (2, ROS2_PLUGINS))
         if version == started_by or not names.isdisjoint(plugins)
     }
     return told.pop() if len(told) == 1 else 0

@@ -18,11 +18,12 @@ Options:
   -v, --version            the version
   --verbose                tell more, on the console
   -u, --pause              start in a paused state
-  -s, --server-plugin LIB  named for compatibility; the services of gazebo_ros are always there
+  -s, --server-plugin LIB  library of ROS 2's gazebo_ros whose services are wanted
   -e, --physics ENGINE     named for compatibility; MuJoCo does the physics
   --seed N                 seed of all noise
   --iters N                stop after N steps
   --fast                   as fast as possible; late camera frames are dropped
+  --gz                     as gz sim: the graph has no names of ROS 1's gazebo_ros
   --lockstep               as fast as possible; every camera frame is finished first
 """
 

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
+from gazelle.graph.world import SHOWN_SPACE, first_there, world_names
 from gazelle.limits.names import exists, is_file
 from gazelle.simulator.messages import message_class, pose_message, service_class
 from gazelle.simulator.plugins.context import join_names
@@ -105,12 +106,17 @@ class _Spawner:
             if name in states.name:
                 there.set()
 
-        topic = join_names("/gazebo" if self._ros2 else self._namespace, "model_states")
+        # ROS 2's own topic needs a plug-in in the world; this waits without it, too.
+        space = SHOWN_SPACE if self._ros2 else self._namespace
         states = message_class("gazebo_msgs/ModelStates")
-        subscription = self._node.create_subscription(topic, states, look)
+        listening = [
+            self._node.create_subscription(topic, states, look)
+            for topic in world_names(join_names(space, "model_states"))
+        ]
         while not self._stop.is_set() and not there.wait(_POLL_S):
             continue
-        subscription.unregister()
+        for subscription in listening:
+            subscription.unregister()
 
     def _load(self) -> str:
         arguments = self._arguments
@@ -237,9 +243,10 @@ class _Spawner:
     ) -> Any:
         """Call a service of the simulator; None when told to stop before it was there."""
         name = join_names(self._namespace, service)
-        client = self._node.create_client(name, service_class(kind))
+        names = world_names(name)
+        clients = [self._node.create_client(one, service_class(kind)) for one in names]
         waited = 0.0
-        while not client.wait_for_service(_POLL_S):
+        while not (client := first_there(clients, _POLL_S)):
             waited += _POLL_S
             if self._stop.is_set() and not stopping:
                 return None

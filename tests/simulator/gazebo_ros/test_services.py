@@ -9,7 +9,7 @@ import pytest
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
-from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.messages import (
     message_class,
     pose_message,
@@ -468,7 +468,7 @@ def test_only_a_world_for_ros1_has_its_dynamic_parameters(
     with Graph.open(port=free_port, role="hub", environ={}) as graph:
         sim = Simulation.load(world="empty", node=graph.create_node("gazebo"))
         sim.server.ros_version = version
-        offer_gazebo_ros(sim.server, ros2=version == 2)
+        offer_gazebo_ros(sim.server, ros2=ROS2_PLUGINS if version == 2 else ())
         topics = dict(graph.topic_names_and_types())
         services = {one.name for one in graph.services()}
         for name in ("parameter_descriptions", "parameter_updates", "set_model_state"):

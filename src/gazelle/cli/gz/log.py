@@ -17,6 +17,7 @@ from pathlib import Path
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.states import MODEL_STATES, STATE_TOPICS, Filter, state_texts
 from gazelle.cli.gz.world_link import WorldLink, world_link
+from gazelle.graph.world import offered_name
 
 __all__ = ["COMMAND", "run"]
 
@@ -90,13 +91,14 @@ def _is_state_log(path: Path) -> bool:
 def _start(link: WorldLink, word: str) -> None:
     if _NODE in link.graph.node_names():
         raise GzError("a recorder runs already; gz log -d 0 stops it")
-    if not link.graph.publisher_count(MODEL_STATES):
+    if not link.graph.publisher_count(offered_name(link.graph, MODEL_STATES)):
         # The first answer of a new member may come before all of the graph is known.
         link.call("get_world_properties", "gazebo_msgs/GetWorldProperties")
     path = Path(word).absolute() if word else _default_path()
     path = path if path.suffix == ".bag" else path.with_name(f"{path.name}.bag")
     path.parent.mkdir(parents=True, exist_ok=True)
-    words = ["rosbag", "record", "-O", str(path), f"__name:={_NODE[1:]}", "-q", *STATE_TOPICS]
+    topics = [offered_name(link.graph, topic) for topic in STATE_TOPICS]
+    words = ["rosbag", "record", "-O", str(path), f"__name:={_NODE[1:]}", "-q", *topics]
     process = subprocess.Popen(
         [sys.executable, "-m", "gazelle.cli", *words],
         stdin=subprocess.DEVNULL,
@@ -107,7 +109,8 @@ def _start(link: WorldLink, word: str) -> None:
         env={**os.environ, "ROS_NAMESPACE": "/"},
     )
     end_s = time.monotonic() + _START_S
-    while _NODE not in {one.node for one in link.graph.subscriptions_info(MODEL_STATES)}:
+    states = offered_name(link.graph, MODEL_STATES)
+    while _NODE not in {one.node for one in link.graph.subscriptions_info(states)}:
         if process.poll() is not None or time.monotonic() > end_s:
             raise GzError(f"the recorder did not start; try gazelle {' '.join(words)}")
         link.ended.wait(_PAUSE_S)

@@ -15,6 +15,7 @@ from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import pose_line
 from gazelle.geometry import Pose
+from gazelle.graph.world import world_names
 from gazelle.interfaces import from_cdr, from_ros1, ros1_message_type
 
 __all__ = ["LINK_STATES", "MODEL_STATES", "STATE_TOPICS", "Filter", "state_texts"]
@@ -66,14 +67,16 @@ def state_texts(file: str, wanted: Filter, rate_hz: float = 0.0) -> Iterator[str
         raise GzError(str(error)) from None
     tell_of_unindexed(bag)
     learn_definitions(bag.connections)
-    if MODEL_STATES not in {one.topic for one in bag.connections}:
+    topics = {one.topic for one in bag.connections}
+    if topics.isdisjoint(world_names(MODEL_STATES)):
         raise GzError(f"there is no {MODEL_STATES} in '{file}'; gz log -d 1 records such bags")
     links: dict[str, _Body] = {}
     next_ns = 0
-    for one, stamp_ns, data in bag.messages(lambda item: item.topic in STATE_TOPICS):
+    wanted_topics = {name for topic in STATE_TOPICS for name in world_names(topic)}
+    for one, stamp_ns, data in bag.messages(lambda item: item.topic in wanted_topics):
         read = from_ros1 if one.encoding is Encoding.ROS1 else from_cdr
         bodies = _bodies(read(ros1_message_type(ros1_name_of(one)), data))
-        if one.topic == LINK_STATES:
+        if one.topic in world_names(LINK_STATES):
             links = bodies
         elif stamp_ns >= next_ns:
             next_ns = stamp_ns + int(_NS / rate_hz) if rate_hz > 0 else 0

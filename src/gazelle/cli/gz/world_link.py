@@ -1,4 +1,4 @@
-"""The running world as the ``gz`` commands reach it: services below ``/gazebo``."""
+"""The running world as the ``gz`` commands reach it: services of ``gazebo_ros``."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from gazelle.cli.gz.options import GzError
 from gazelle.cli.tool import joined
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph, Node
+from gazelle.graph.world import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type, service_type
 
 __all__ = ["WorldLink", "pose_line", "world_link"]
@@ -35,14 +36,15 @@ class WorldLink:
         self.node.on_shutdown(lambda _reason: self.ended.set())
 
     def call(self, name: str, kind: str, **fields: Any) -> Any:
-        """Call ``/gazebo/NAME``.
+        """Call ``/gazebo/NAME``, or what it is hidden as.
 
         Raises:
             GzError: there is no world, or it refuses.
         """
         service = service_type(kind)
-        client = self.node.create_client(f"/gazebo/{name}", service)
-        if not client.wait_for_service(_WAIT_S):
+        offered = offered_name(self.graph, f"{SHOWN_SPACE}/{name}", _WAIT_S)
+        client = self.node.create_client(offered, service)
+        if not client.available:
             raise GzError(
                 f"no world is running on this graph (/gazebo/{name} is not offered); "
                 "start one with gzserver or roslaunch"

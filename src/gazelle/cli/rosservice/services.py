@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from gazelle.cli.tool import hint
 from gazelle.graph import Graph, ServiceInfo
+from gazelle.graph.names import is_hidden
+from gazelle.graph.world import other_version_hint
 
-__all__ = ["find_service", "near_services"]
+__all__ = ["find_service", "near_services", "service_hint"]
 
 
 def find_service(graph: Graph, name: str) -> ServiceInfo | None:
@@ -15,5 +19,13 @@ def find_service(graph: Graph, name: str) -> ServiceInfo | None:
 
 
 def near_services(graph: Graph, name: str) -> str:
-    """Return a line with services spelled alike, empty when there are none."""
-    return hint(name, [one.name for one in graph.services()])
+    """Return a line with what may have been meant, empty when nothing is known."""
+    return service_hint(name, [one.name for one in graph.services(include_hidden=True)])
+
+
+def service_hint(name: str, offered: Collection[str]) -> str:
+    """Return a line with what does a service of ROS 1 here, or services spelled alike."""
+    other = other_version_hint(name, offered)
+    if other:
+        return f"\n  {other}"
+    return hint(name, [one for one in offered if is_hidden(name) or not is_hidden(one)])

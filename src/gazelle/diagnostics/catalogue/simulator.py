@@ -146,7 +146,7 @@ ENTRIES = (
         "simulator.server-plugin",
         "info",
         "A server plug-in is part of Gazelle",
-        "The services of gazebo_ros are always offered, whichever -s or -p names them.",
+        "ROS 1's services are offered without -s; ROS 2's by the library that offers them there.",
         "nothing to do",
     ),
 )

@@ -10,7 +10,8 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.records import Program
 from gazelle.errors import GazelleError
-from gazelle.graph.names import remap, resolve
+from gazelle.graph.names import is_hidden, remap, resolve
+from gazelle.graph.world import world_names
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.spawn_model import spawn_model
 
@@ -62,15 +63,19 @@ class Spawning:
             # Time shall not go on: what follows is to see the world before its first step.
             self.unpauses = True
             return None
-        return self._world_node.call(name, request)
+        return self._world_node.call(self._offered(name), request)
 
     def offers(self, name: str) -> bool:
         """Tell whether the simulator has a service; who waits for another one is stopped."""
-        if name in self._world_node.services:
+        if self._offered(name) in self._world_node.services:
             return True
-        near = did_you_mean(name, self._world_node.services)
+        near = did_you_mean(name, (one for one in self._world_node.services if not is_hidden(one)))
         self.give_up(f"service {name}, which nobody offers" + (f"; {near}" if near else ""))
         return False
+
+    def _offered(self, name: str) -> str:
+        names = world_names(name)
+        return next((one for one in names if one in self._world_node.services), name)
 
     def give_up(self, reason: str) -> None:
         """End a wait that nothing here can end."""

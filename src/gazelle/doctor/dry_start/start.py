@@ -17,7 +17,7 @@ from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.pace import Mode
-from gazelle.simulator.server_main import check_server_plugins, offers_ros2, ros_version_of
+from gazelle.simulator.server_main import check_server_plugins, ros2_plugins_of, ros_version_of
 from gazelle.simulator.server_options import ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
 from gazelle.simulator.world_server import WorldServer
@@ -122,7 +122,8 @@ def _server(
     def report(found: Diagnostics) -> None:
         diagnostics.extend(found)
 
-    offer_gazebo_ros(server, ros2=offers_ros2(options), report=report)
+    ros2 = ros2_plugins_of(options)
+    offer_gazebo_ros(server, ros2=ros2, is_gz=options.is_gz, report=report)
     return server
 
 

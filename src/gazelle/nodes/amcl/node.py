@@ -135,7 +135,7 @@ class AmclNode:
             self._options.initial_pose_a,
         )
         if not self._was_given():
-            self._hint = SpawnHint(node, begins)
+            self._hint = SpawnHint(node, begins, is_ros2=self._generation == 2)
         empty = service_type("std_srvs/srv/Empty")
         ros2 = self._generation == 2
         everywhere = "reinitialize_global_localization" if ros2 else "global_localization"

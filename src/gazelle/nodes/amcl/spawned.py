@@ -6,6 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
+from gazelle.graph.world import world_names
 from gazelle.nodes.navigation.frames import PlanePose, plane_of, pose_of_message
 
 if TYPE_CHECKING:
@@ -14,28 +15,32 @@ if TYPE_CHECKING:
 __all__ = ["SpawnHint"]
 
 _FAR_M, _FAR_RAD = 0.3, math.radians(20)
-_STATES = "/gazebo/model_states"
 
 
 class SpawnHint:
     """Tells once where a simulated robot stands when that is not where amcl begins."""
 
-    def __init__(self, node: Node, begins: PlanePose) -> None:
+    def __init__(self, node: Node, begins: PlanePose, *, is_ros2: bool) -> None:
         """Listen to the simulator, if there is one."""
         self._node, self._begins = node, begins
-        self._subscription: Any = node.create_subscription(
-            _STATES, "gazebo_msgs/msg/ModelStates", self._on_states, queue_size=1
-        )
+        shown, hidden = world_names("/gazebo/model_states")
+        # Who listens to a name shows it, too.
+        self._subscriptions: list[Any] = [
+            node.create_subscription(
+                topic, "gazebo_msgs/msg/ModelStates", self._on_states, queue_size=1
+            )
+            for topic in ((hidden,) if is_ros2 else (shown, hidden))
+        ]
 
     def close(self) -> None:
         """Listen no more."""
-        subscription, self._subscription = self._subscription, None
-        if subscription is not None:
+        subscriptions, self._subscriptions = self._subscriptions, []
+        for subscription in subscriptions:
             subscription.unregister()
 
     def _on_states(self, message: Any) -> None:
         index = self._robot(list(message.name))
-        if self._subscription is None or index is None:
+        if not self._subscriptions or index is None:
             return
         self.close()
         x, y, yaw = plane_of(pose_of_message(message.pose[index]))

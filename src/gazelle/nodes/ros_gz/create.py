@@ -14,6 +14,7 @@ from typing import Any
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
+from gazelle.graph.world import first_there, offered_name, world_names
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
@@ -92,7 +93,8 @@ def _create(
     place, turn = request.initial_pose.position, request.initial_pose.orientation
     place.x, place.y, place.z = pose.position_m
     turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
-    answer = node.create_client(_SPAWN[0], kind).call(request)
+    spawn = offered_name(node.graph, _SPAWN[0])
+    answer = node.create_client(spawn, kind).call(request)
     if not answer.success:
         node.log("error", f"Entity creation failed.\n {answer.status_message}")
         return 1
@@ -141,7 +143,7 @@ def _name(node: Node, options: Mapping[str, Any]) -> str:
     if not wanted or not options[_RENAMING]:
         return wanted
     kind: Any = service_type(_PROPERTIES[1])
-    client = node.create_client(_PROPERTIES[0], kind)
+    client = node.create_client(offered_name(node.graph, _PROPERTIES[0]), kind)
     taken = set(client.call(kind.Request()).model_names)
     name, count = wanted, 0
     while name in taken:
@@ -151,10 +153,10 @@ def _name(node: Node, options: Mapping[str, Any]) -> str:
 
 
 def _wait(node: Node, service: str, kind: str, stop: threading.Event) -> bool:
-    client = node.create_client(service, service_type(kind))
+    clients = [node.create_client(name, service_type(kind)) for name in world_names(service)]
     waited_s = 0.0
     while not stop.is_set():
-        if client.wait_for_service(_POLL_S):
+        if first_there(clients, _POLL_S) is not None:
             return True
         waited_s += _POLL_S
         if waited_s >= _TELL_S:

@@ -10,6 +10,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
+from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node
@@ -40,8 +41,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 def _remove(node: Node, name: str, stop: threading.Event) -> int:
     kind: Any = service_type("gazebo_msgs/DeleteModel")
-    client = node.create_client(_SERVICE, kind)
-    while not client.wait_for_service(_WAIT_S):
+    while True:
+        client = node.create_client(offered_name(node.graph, _SERVICE, _WAIT_S), kind)
+        if client.available:
+            break
+        client.unregister()
         if stop.is_set():
             node.log("info", "Entity removal was interrupted.")
             return 1

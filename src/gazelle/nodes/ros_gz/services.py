@@ -8,13 +8,13 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GraphError
 from gazelle.graph import Node
+from gazelle.graph.world import SHOWN_SPACE, offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.ros_gz.rows import ServiceRow
 
 __all__ = ["KINDS", "offer"]
 
 _WAIT_S = 5.0
-_SPACE = "/gazebo"
 
 
 def offer(node: Node, row: ServiceRow) -> None:
@@ -72,10 +72,11 @@ def _set_pose(node: Node, request: Any) -> bool:
 
 
 def _call(node: Node, name: str, kind: str, request: Any) -> Any:
-    client = node.create_client(f"{_SPACE}/{name}", service_type(kind))
+    offered = offered_name(node.graph, f"{SHOWN_SPACE}/{name}", _WAIT_S)
+    client = node.create_client(offered, service_type(kind))
     try:
-        if not client.wait_for_service(_WAIT_S):
-            raise GraphError(f"no world answers at {_SPACE}/{name}: is gz sim running?")
+        if not client.available:
+            raise GraphError(f"no world answers at {SHOWN_SPACE}/{name}: is gz sim running?")
         return client.call(request, timeout_s=_WAIT_S)
     finally:
         client.unregister()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gazelle.graph.world import SHOWN_SPACE
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 
 if TYPE_CHECKING:
@@ -22,14 +23,14 @@ _ODE = "A word of ODE; kept and returned, MuJoCo does the physics."
 class PhysicsParameters:
     """The one place that physics settings are changed through."""
 
-    def __init__(self, server: WorldServer, resources: Resources) -> None:
+    def __init__(self, server: WorldServer, resources: Resources, space: str) -> None:
         self._server = server
         rows = _rows(server)
         self._own: dict[str, Any] = {row.name: row.default for row in rows}
         self._dynamic = (
-            None
-            if server.ros_version == 2
-            else DynamicParameters(resources, server, "/gazebo", rows, changed=self._apply)
+            DynamicParameters(resources, server, space, rows, changed=self._apply)
+            if space == SHOWN_SPACE
+            else None
         )
 
     @property

@@ -1,4 +1,4 @@
-"""``/clock``, ``/gazebo/link_states`` and ``/gazebo/model_states``."""
+"""``/clock``, and the states of models and links."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.geometry import Pose
 from gazelle.simulator.messages import message_class, pose_message, stamp, twist_message
+from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["offer_clock", "offer_states"]
+__all__ = ["offer_clock", "offer_entity_states", "offer_states"]
 
 _EVERY_STEP = Fraction(1)
 # Faster than real time, nobody can use more of them: each costs every process 0.1 ms.
@@ -22,9 +23,9 @@ _CLOCKS_PER_REAL_S = 500.0
 
 
 def offer_states(
-    server: WorldServer, resources: Resources, clock_rate_hz: float | None = None
+    server: WorldServer, resources: Resources, space: str, clock_rate_hz: float | None = None
 ) -> None:
-    """Publish clock and states every step while somebody listens.
+    """Publish clock and, in a namespace, states every step while somebody listens.
 
     ``clock_rate_hz``, or the ROS parameter ``/gazebo/pub_clock_frequency``, lowers the clock's
     rate, as in gazebo_ros; 0 is every step.
@@ -34,17 +35,23 @@ def offer_states(
     if rate_hz is None:
         rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
     offer_clock(server, resources, "/clock", rate_hz)
-    links = resources.publisher("/gazebo/link_states", "gazebo_msgs/LinkStates", reliable=False)
-    models = resources.publisher("/gazebo/model_states", "gazebo_msgs/ModelStates", reliable=False)
+    offer_entity_states(server, resources, space)
+
+
+def offer_entity_states(server: WorldServer, resources: Resources, space: str) -> None:
+    """Publish ``model_states`` and ``link_states`` in a namespace while somebody listens."""
+    links_topic, models_topic = (join_names(space, f"{one}_states") for one in ("link", "model"))
+    links = resources.publisher(links_topic, "gazebo_msgs/LinkStates", reliable=False)
+    models = resources.publisher(models_topic, "gazebo_msgs/ModelStates", reliable=False)
     resources.task(
-        "/gazebo/link_states",
+        links_topic,
         _EVERY_STEP,
         lambda: links.publish(_link_states(server)),
         order=ORDER_STATE,
         wanted=lambda: links.matched,
     )
     resources.task(
-        "/gazebo/model_states",
+        models_topic,
         _EVERY_STEP,
         lambda: models.publish(_model_states(server)),
         order=ORDER_STATE,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from gazelle.graph.world import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.services import request_response
@@ -22,13 +23,14 @@ def has_world(studio: Studio) -> bool:
 
 
 def call_world(studio: Studio, name: str, type_name: str, **fields: Any) -> Any:
-    """Call ``/gazebo/NAME`` and return the response.
+    """Call ``/gazebo/NAME``, or what it is hidden as, and return the response.
 
     Raises:
         StudioError: there is no world, or it refuses.
     """
     _check(studio)
-    response = request_response(studio, f"/gazebo/{name}", type_name, **fields)
+    service = offered_name(studio.graph, f"{SHOWN_SPACE}/{name}")
+    response = request_response(studio, service, type_name, **fields)
     if not getattr(response, "success", True):
         raise StudioError(response.status_message)
     return response

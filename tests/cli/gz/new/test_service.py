@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 from gazelle.graph import Graph
 from gazelle.interfaces import service_type
 from gazelle.simulator import Simulation
+from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 
 Run = Callable[..., Any]
 CONTROL = ("--reqtype", "gz.msgs.WorldControl", "--reptype", "gz.msgs.Boolean", "--timeout", "3000")
@@ -111,3 +113,20 @@ def test_what_cannot_be_done_is_told(
     found = gz("service", *words)
     assert found.code == 255
     assert said in found.err
+
+
+def test_world_of_gz_lists_no_names_of_ros_1_and_answers(graph: Graph, gz: Run) -> None:
+    with Simulation.load(world="empty", node=graph.create_node("gazebo", rosout=False)) as sim:
+        offer_gazebo_ros(sim.server, is_gz=True)
+        names = gz("service", "-l").out.splitlines()
+        assert "/world/default/control" in names
+        topics = gz("topic", "-l").out.splitlines()
+        assert [one for one in (*names, *topics) if "gazebo/" in one] == []
+        loop = threading.Thread(target=sim.server.run)
+        loop.start()
+        assert gz("model", "--list").out == "Available models:\n    - ground_plane\n"
+        told = gz("service", "-s", "/world/default/control", *CONTROL, "--req", "pause: true")
+        assert told == (0, "data: true\n\n", "")
+        assert sim.server.paused
+        sim.server.stop()
+        loop.join()

@@ -17,6 +17,7 @@ from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import ServiceInfo
 from gazelle.graph.names import is_hidden
+from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type, to_plain
 
 __all__ = ["COMMAND", "run"]
@@ -64,7 +65,7 @@ def run(options: Mapping[str, str]) -> int:
 
 def _of_worlds(link: WorldLink) -> list[str]:
     """A world answers to any name; the list has the one that its topics have."""
-    if not link.graph.finds_service("/gazebo/control_world"):
+    if not link.graph.has_service(offered_name(link.graph, "/gazebo/control_world")):
         return []
     topics = (_OF_WORLD.match(one.name) for one in link.graph.topics())
     world = next((found.group(1) for found in topics if found), "default")

@@ -10,9 +10,10 @@ import time
 from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2
 from gazelle.cli.ros2.types import ros2_service_class
 from gazelle.cli.ros2.verbs import positive_float
+from gazelle.cli.rosservice.services import service_hint
 from gazelle.cli.text.ros2_filling import filled, yaml_values
 from gazelle.cli.text.ros2_text import message_repr
-from gazelle.cli.tool import ToolError, hint
+from gazelle.cli.tool import ToolError
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, ServiceClient
 from gazelle.interfaces import Message
@@ -74,7 +75,7 @@ def _wait(graph: Graph, client: ServiceClient, type_name: str, ended: threading.
     if client.name in services:
         return
     print("waiting for service to become available...", flush=True)
-    near = hint(client.name, services).strip("\n")
+    near = service_hint(client.name, services).strip("\n")
     if near:
         print(near, file=sys.stderr, flush=True)
     while not ended.is_set() and not client.wait_for_service(_LOOK_S):
