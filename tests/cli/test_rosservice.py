@@ -136,3 +136,14 @@ def test_call_can_wait_for_the_service(robot: Node, run, monkeypatch) -> None:
     monkeypatch.setattr(Graph, "wait_for_service", appear)
     out = run("rosservice", "call", "--wait", "/late", "true").out
     assert out == 'success: True\nmessage: "late"\n'
+
+
+def test_a_service_of_ros_1_in_another_world_is_told_its_name_there(robot, run) -> None:
+    kind = ros1_service_type("std_srvs/Empty")
+    robot.create_service("/_gazebo/pause_physics", kind, print)
+    robot.create_service("/pause_physics", kind, print)
+    assert run("rosservice", "list").out == "/pause_physics\n"
+    assert run("rosservice", "call", "/gazebo/pause_physics").err == (
+        "ERROR: Service [/gazebo/pause_physics] is not available.\n  it is ROS 1's, and this "
+        "world was started by ROS 2 or gz, which have /pause_physics\n"
+    )

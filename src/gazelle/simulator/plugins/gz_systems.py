@@ -52,7 +52,7 @@ TABLE = PluginTable(
 
 SERVER_TABLE = PluginTable(
     family="gazebo_ros server plug-ins",
-    summary="Services and topics: ROS 1's under /gazebo, and ROS 2's of each plug-in that is named.",
+    summary="ROS 1's services and topics under /gazebo; ROS 2's of each plug-in that is named.",
     filenames=(
         "gazebo_ros_api_plugin",
         "gazebo_ros_paths_plugin",
