@@ -98,9 +98,6 @@ _MOVE = (
     "is not among what Gazelle's MoveIt has; plan, go, execute, set_path_constraints and "
     "PlanningSceneInterface's add and attach functions are"
 )
-_XACRO = (
-    "is the inside of xacro; xacro.process_file and xacro.process_doc make a document of a file"
-)
 _SRDF = (
     "is the builder's inside of srdfdom; Robot.from_xml_string and Robot.from_xml_file read "
     "a file, whose lists can be appended to"
@@ -395,18 +392,6 @@ ROS1_GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
             "moveit_commander.planning_scene_interface: acm_set_allowed acm_set_default",
             "moveit_commander.planning_scene_interface: pyassimp",
             "moveit_commander.robot.RobotCommander: get_robot_markers",
-        ),
-    ),
-    (
-        _XACRO,
-        (
-            "xacro: MacroNameSpace PropertyNameSpace allow_non_prefixed_tags attribute",
-            "xacro: check_deprecated_tag construct_angle_degrees construct_angle_radians",
-            "xacro: deprecated_tag do_check_order encoding fixed_writexml global_symbols",
-            "xacro: grab_macros grab_properties is_include process_includes push_file",
-            "xacro: restore_filestack unicode",
-            "xacro.print_location: (err) (file) (filestack)",
-            "xacro.xmlutils: check_attrs",
         ),
     ),
     (
