@@ -138,8 +138,8 @@ def test_world_of_gazebo_that_is_not_here_says_where_it_is(gz: Run) -> None:
 def test_world_of_gz_tells_its_statistics_under_its_true_name(
     gazelle: Run, world_file: str
 ) -> None:
-    run = gazelle("gz", "sim", "-s", "-r", world_file)
-    run.wait_for_line("Finished loading Gazebo ROS API Plugin")
+    run = gazelle("gz", "sim", "-s", world_file)
+    run.eventually(lambda: run.graph.has_service("/_gazebo/control_world"))
     topics = gazelle("gz", "topic", "-l")
     assert topics.wait() == 0
     assert "/world/hall/stats" in topics.lines
