@@ -98,7 +98,6 @@ def test_any_service_of_the_graph_is_called(graph: Graph, gz: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ((), "-s SERVICE names the service"),
         (("-s", "/lamp"), "-i or --req says what to do with the service"),
         (("-s", "/lmap", "-i"), "no service providers on service [/lmap]; did you mean '/lamp'?"),
         (("-s", "/world/x/light_config", "--req", ""), "of a world's services there are control,"),
