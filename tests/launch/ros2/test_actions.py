@@ -150,6 +150,40 @@ def ResetEnvironment(run: Run) -> None:
 
 
 @_row
+def ForEach(run: Run) -> None:
+    each = a.ForEach("{n: a};{n: b}", function=lambda n: [a.LogInfo(msg=f"robot {n}")])
+    assert _said(run(each)) == ["robot a", "robot b"]
+
+
+@_row
+def ForLoop(run: Run) -> None:
+    loop = a.ForLoop(LaunchConfiguration("x"), function=lambda i: [a.LogInfo(msg=f"round {i}")])
+    assert _said(run(loop, x="2")) == ["round 0", "round 1"]
+
+
+@_row
+def Log(run: Run) -> None:
+    ran = run(a.Log(msg="careful", level=LaunchConfiguration("x")), x="WARNING")
+    assert "[WARNING] [launch.user]: careful" in ran.lines
+
+
+@_row
+def LogDebug(run: Run) -> None:
+    assert "quiet" not in run(a.LogDebug(msg="quiet")).text
+
+
+@_row
+def LogWarning(run: Run) -> None:
+    assert "[WARNING] [launch.user]: careful" in run(a.LogWarning(msg="careful")).lines
+
+
+@_row
+def LogError(run: Run) -> None:
+    ran = run(a.LogError(msg="broken"))
+    assert "[ERROR] [launch.user]: broken" in ran.lines and ran.code == 0
+
+
+@_row
 def LogInfo(run: Run) -> None:
     ran = run(a.LogInfo(msg=["a ", LaunchConfiguration("x")]), x="word")
     assert "[INFO] [launch.user]: a word" in ran.lines
