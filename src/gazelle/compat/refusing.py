@@ -82,9 +82,11 @@ def _refuse_word(thing: Any, word: str, reason: str) -> None:
     """Let a function or a class say why it does not take a keyword."""
     is_class = isinstance(thing, type)
     called: str = thing.__name__
-    made: Any = thing.__init__ if is_class else thing
+    # Tuples take their values in __new__.
+    maker = "__init__" if getattr(thing, "__init__", None) is not object.__init__ else "__new__"
+    made: Any = getattr(thing, maker) if is_class else thing
     # A class may inherit the wrapper of its parent, which names the parent.
-    words = getattr(vars(thing).get("__init__") if is_class else made, _WORDS, None)
+    words = getattr(vars(thing).get(maker) if is_class else made, _WORDS, None)
     if words is not None:
         words[word] = reason
         return
@@ -101,7 +103,7 @@ def _refuse_word(thing: Any, word: str, reason: str) -> None:
 
     setattr(told, _WORDS, refused)
     if is_class:
-        thing.__init__ = told
+        setattr(thing, maker, told)
     else:
         _replace(thing, told)
 

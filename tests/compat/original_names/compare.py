@@ -37,8 +37,9 @@ def missing_words(thing, words):
         return []
     if any(one.kind is one.VAR_KEYWORD for one in parameters):
         return []
-    maker = thing.__init__ if inspect.isclass(thing) else thing
-    own = {one.name for one in parameters} | set(getattr(maker, "__refused_words__", ()))
+    makers = (thing.__init__, thing.__new__) if inspect.isclass(thing) else (thing,)
+    own = {one.name for one in parameters}
+    own.update(*(getattr(maker, "__refused_words__", ()) for maker in makers))
     return [word for word in words if word and word not in own]
 
 

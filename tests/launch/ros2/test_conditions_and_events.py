@@ -60,6 +60,22 @@ def _told(event: type, function: Callable[[Any], Any]) -> a.RegisterEventHandler
 
 
 @_row
+def VALID_TRUE_EXPRESSIONS(run: Run) -> None:
+    for text in conditions.VALID_TRUE_EXPRESSIONS:
+        assert _handled(
+            run(a.LogInfo(msg="on", condition=conditions.IfCondition(text.upper())))
+        ) == ["on"]
+
+
+@_row
+def VALID_FALSE_EXPRESSIONS(run: Run) -> None:
+    for text in conditions.VALID_FALSE_EXPRESSIONS:
+        assert not _handled(
+            run(a.LogInfo(msg="on", condition=conditions.IfCondition(text.upper())))
+        )
+
+
+@_row
 def IfCondition(context: LaunchContext) -> None:
     context.launch_configurations["x"] = " TRUE "
     assert conditions.IfCondition(LaunchConfiguration("x")).evaluate(context)
