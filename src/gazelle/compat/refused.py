@@ -129,8 +129,13 @@ REFUSED: tuple[Refusal, ...] = tuple(
                 "osrf_pycommon",
             ),
             *_rows(
-                "is part of a package on PyPI that runs without ROS: pip install urdf-parser-py",
-                "urdf_parser_py",
+                "ends with a NameError in urdf_parser_py too; gz sdf -p reads SDF, and"
+                " xml.etree.ElementTree its XML",
+                "urdf_parser_py.sdf",
+            ),
+            *_rows(
+                "shows a URDF file as text; print(urdf_parser_py.urdf.URDF.from_xml_file(PATH))",
+                "urdf_parser_py.display_urdf",
             ),
             *_rows(
                 "makes messages of identifiers; str(uuid.uuid4()) of Python's uuid does its work",

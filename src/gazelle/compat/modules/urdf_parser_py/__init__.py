@@ -1,0 +1,1 @@
+"""urdf_parser_py, by Gazelle."""

@@ -1,0 +1,1 @@
+"""What `urdf_parser_py` is in Gazelle: URDF as Python objects, and the reflection they use."""
