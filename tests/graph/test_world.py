@@ -88,7 +88,26 @@ def test_who_calls_ros_1s_name_in_ros_2_is_told_ros_2s(server: Node, caller: Nod
         (
             "get_link_state",
             ["/_gazebo/get_link_state"],
-            ", which have the services of libgazebo_ros_state.so (get_entity_state)",
+            ", which have /get_entity_state once the world's file has"
+            ' <plugin name="gazebo_ros_state" filename="libgazebo_ros_state.so"/>',
+        ),
+        (
+            "get_link_state",
+            ["/_gazebo/get_link_state", "/demo/get_entity_state"],
+            ", which have /demo/get_entity_state",
+        ),
+        (
+            "get_model_properties",
+            ["/_gazebo/get_model_properties"],
+            ", which have /get_model_properties once the world's file has"
+            ' <plugin name="gazebo_ros_properties" filename="libgazebo_ros_properties.so"/>',
+        ),
+        (
+            "set_model_state",
+            ["/_gazebo/set_model_state"],
+            ", which have /set_entity_state once the world's file has"
+            ' <plugin name="gazebo_ros_state" filename="libgazebo_ros_state.so"/>'
+            " or gz service -s /world/NAME/set_pose",
         ),
         ("get_state_hash", ["/_gazebo/get_state_hash"], ""),
     ],

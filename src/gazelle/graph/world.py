@@ -30,17 +30,32 @@ _ROS2 = 2
 _OFFERS = frozenset({Kind.SERVICE, Kind.PUBLISHER})
 _SPAWN = ("/spawn_entity", "create")
 _DELETE = ("/delete_entity", "remove")
-_STATE = ("the services of libgazebo_ros_state.so (get_entity_state)", "")
+_PROPERTIES = (
+    "get_model_properties",
+    "get_joint_properties",
+    "set_joint_properties",
+    "get_link_properties",
+    "set_link_properties",
+    "get_light_properties",
+    "set_light_properties",
+)
+# What a plug-in in the world's file offers, in the namespace that it names.
+_PLUGIN_OF = {
+    "get_entity_state": "gazebo_ros_state",
+    "set_entity_state": "gazebo_ros_state",
+    **dict.fromkeys(_PROPERTIES, "gazebo_ros_properties"),
+}
 # What ROS 2's gazebo_ros and a world of gz have in place of ROS 1's services.
 _INSTEAD = {
     "spawn_urdf_model": _SPAWN,
     "spawn_sdf_model": _SPAWN,
     "delete_model": _DELETE,
     "get_world_properties": ("/get_model_list", ""),
-    "get_model_state": _STATE,
-    "get_link_state": _STATE,
-    "set_model_state": ("the services of libgazebo_ros_state.so (set_entity_state)", "set_pose"),
-    "set_link_state": ("the services of libgazebo_ros_state.so (set_entity_state)", ""),
+    "get_model_state": ("get_entity_state", ""),
+    "get_link_state": ("get_entity_state", ""),
+    "set_model_state": ("set_entity_state", "set_pose"),
+    "set_link_state": ("set_entity_state", ""),
+    **{name: (name, "") for name in _PROPERTIES},
     "pause_physics": ("/pause_physics", "control"),
     "unpause_physics": ("/unpause_physics", "control"),
     "reset_simulation": ("/reset_simulation", "control"),
@@ -104,7 +119,18 @@ def other_version_hint(name: str, offered: Iterable[str]) -> str:
         return ""
     in_ros2, in_gz = _INSTEAD.get(name.rpartition("/")[2], ("", ""))
     text = "it is ROS 1's, and this world was started by ROS 2 or gz"
-    there = in_ros2 in offered
+    in_ros2, there = _in_world(in_ros2, offered)
     words = [in_ros2] if in_ros2 else []
     words += [f"gz service -s /world/NAME/{in_gz}"] if in_gz and not there else []
     return f"{text}, which have {' or '.join(words)}" if words else text
+
+
+def _in_world(service: str, offered: Iterable[str]) -> tuple[str, bool]:
+    """Return what to say for a service of ROS 2's, and whether this world offers it."""
+    plugin = _PLUGIN_OF.get(service)
+    if plugin is None:
+        return service, service in offered
+    shown = (one for one in sorted(offered) if not one.startswith(f"{HIDDEN_SPACE}/"))
+    found = next((one for one in shown if one.endswith(f"/{service}")), "")
+    line = f'<plugin name="{plugin}" filename="lib{plugin}.so"/>'
+    return found or f"/{service} once the world's file has {line}", bool(found)

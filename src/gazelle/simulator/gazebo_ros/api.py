@@ -9,6 +9,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph.world import SHOWN_SPACE, world_space
 from gazelle.simulator.gazebo_ros.entities import Entities
 from gazelle.simulator.gazebo_ros.joint_services import JointServices
+from gazelle.simulator.gazebo_ros.light_services import LightServices
 from gazelle.simulator.gazebo_ros.link_services import LinkServices
 from gazelle.simulator.gazebo_ros.model_services import ModelServices
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
@@ -75,7 +76,7 @@ def offer_gazebo_ros(
     )
     spawns = SpawnServices(server, entities, report)
     world = WorldServices(server, PhysicsParameters(server, resources, space))
-    for group in (models, links, joints, spawns, world):
+    for group in (models, links, joints, spawns, world, LightServices(server)):
         for row in group.rows():
             resources.service(join_names(space, row.name), row.type, row.handler)
         for row in group.ros2_rows():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -88,9 +88,24 @@ class Entities:
         linear, angular = link.velocity_world()
         return Entity(link.T_world_link(), linear, angular)
 
-    def frame(self, name: str) -> Entity | None:
-        """Return a reference frame: a model, a link or the world; None for anything else."""
+    def any(self, name: str) -> Entity | None:
+        """Return a model, a link or a light of the world; None when there is none of them."""
         found = self.model(name) or self.link(name)
+        lights = () if found is not None else self._server.sensors.lights
+        light = next((one for one in lights if one.name == name), None)
+        return found if light is None else replace(WORLD, T_world_entity=light.T_parent_light)
+
+    def place_light(self, name: str, wanted: Entity) -> None:
+        """Move a light of the world."""
+        sensors = self._server.sensors
+        sensors.lights = tuple(
+            replace(one, T_parent_light=wanted.T_world_entity) if one.name == name else one
+            for one in sensors.lights
+        )
+
+    def frame(self, name: str) -> Entity | None:
+        """Return a reference frame: an entity or the world; None for anything else."""
+        found = self.any(name)
         return WORLD if found is None and name in _WORLD_NAMES else found
 
     def hint(self, name: str) -> str:

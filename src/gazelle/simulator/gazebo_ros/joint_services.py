@@ -39,10 +39,16 @@ class JointServices:
     def rows(self) -> list[Row]:
         """Return the services below ``/gazebo``."""
         return [
-            Row("get_joint_properties", "gazebo_msgs/GetJointProperties", self._get_properties),
-            Row("set_joint_properties", "gazebo_msgs/SetJointProperties", self._set_properties),
+            *self.property_rows(),
             Row("apply_joint_effort", "gazebo_msgs/ApplyJointEffort", self._apply),
             Row("clear_joint_forces", "gazebo_msgs/JointRequest", self._clear),
+        ]
+
+    def property_rows(self) -> list[Row]:
+        """Return the services of ``libgazebo_ros_properties``."""
+        return [
+            Row("get_joint_properties", "gazebo_msgs/GetJointProperties", self._get_properties),
+            Row("set_joint_properties", "gazebo_msgs/SetJointProperties", self._set_properties),
         ]
 
     def ros2_rows(self) -> list[Row]:

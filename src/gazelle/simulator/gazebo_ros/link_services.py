@@ -35,10 +35,16 @@ class LinkServices:
         return [
             Row("get_link_state", "gazebo_msgs/GetLinkState", self._get_state),
             Row("set_link_state", "gazebo_msgs/SetLinkState", self._set_state),
-            Row("get_link_properties", "gazebo_msgs/GetLinkProperties", self._get_properties),
-            Row("set_link_properties", "gazebo_msgs/SetLinkProperties", self._set_properties),
+            *self.property_rows(),
             Row("apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", self._apply_body_wrench),
             Row("clear_body_wrenches", "gazebo_msgs/BodyRequest", self._clear_body_wrenches),
+        ]
+
+    def property_rows(self) -> list[Row]:
+        """Return the services of ``libgazebo_ros_properties``."""
+        return [
+            Row("get_link_properties", "gazebo_msgs/GetLinkProperties", self._get_properties),
+            Row("set_link_properties", "gazebo_msgs/SetLinkProperties", self._set_properties),
         ]
 
     def ros2_rows(self) -> list[Row]:

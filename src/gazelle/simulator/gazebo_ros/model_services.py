@@ -41,10 +41,21 @@ class ModelServices:
     def ros2_rows(self) -> list[Row]:
         """Return the services of gazebo_ros in ROS 2."""
         return [
-            Row("get_entity_state", "gazebo_msgs/GetEntityState", self._get_entity_state),
-            Row("set_entity_state", "gazebo_msgs/SetEntityState", self._set_entity_state),
+            *self.state_rows(),
             Row("get_model_list", "gazebo_msgs/GetModelList", self._get_list),
         ]
+
+    def state_rows(self) -> list[Row]:
+        """Return the services of ``libgazebo_ros_state``."""
+        return [
+            Row("get_entity_state", "gazebo_msgs/GetEntityState", self._get_entity_state),
+            Row("set_entity_state", "gazebo_msgs/SetEntityState", self._set_entity_state),
+        ]
+
+    def property_rows(self) -> list[Row]:
+        """Return the services of ``libgazebo_ros_properties``, which scopes names of links."""
+        get = self._get_scoped_properties
+        return [Row("get_model_properties", "gazebo_msgs/GetModelProperties", get)]
 
     def set_state(self, state: Any) -> str:
         """Apply a ``gazebo_msgs/ModelState``; returns what went wrong, empty when nothing did."""
@@ -93,6 +104,13 @@ class ModelServices:
         response.is_static = model.static
         _succeed(response, "GetModelProperties: got properties")
 
+    def _get_scoped_properties(self, request: Any, response: Any) -> None:
+        self._get_properties(request, response)
+        if response.success:
+            scope = f"{request.model_name}::"
+            response.canonical_body_name = scope + response.canonical_body_name
+            response.body_names = [scope + name for name in response.body_names]
+
     def _set_configuration(self, request: Any, response: Any) -> None:
         if self._entities.model(request.model_name) is None:
             text = "SetModelConfiguration: model does not exist"
@@ -124,28 +142,46 @@ class ModelServices:
         _succeed(response, text)
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
-        entity = self._entities.model(request.name) or self._entities.link(request.name)
+        entity = self._entities.any(request.name)
         frame = self._entities.frame(request.reference_frame)
         response.header = header(self._server.time_ns, request.reference_frame or "world")
         response.success = entity is not None and frame is not None
-        if entity is not None and frame is not None:
-            relative = entity.relative_to(frame)
-            response.state.name = request.name
-            response.state.pose = pose_message(relative.T_world_entity)
-            response.state.twist = twist_message(relative.linear_m_s, relative.angular_rad_s)
-            response.state.reference_frame = request.reference_frame
+        if entity is None or frame is None:
+            self._log_unknown("GetEntityState", request.name, request.reference_frame)
+            return
+        relative = entity.relative_to(frame)
+        response.state.name = request.name
+        response.state.pose = pose_message(relative.T_world_entity)
+        response.state.twist = twist_message(relative.linear_m_s, relative.angular_rad_s)
+        response.state.reference_frame = request.reference_frame
 
     def _set_entity_state(self, request: Any, response: Any) -> None:
         state = request.state
         frame = self._entities.frame(state.reference_frame)
-        is_model = self._entities.model(state.name) is not None
-        is_link = self._entities.link(state.name) is not None
-        response.success = frame is not None and (is_model or is_link)
+        response.success = frame is not None and self._entities.any(state.name) is not None
         if frame is None or not response.success:
+            self._log_unknown("SetEntityState", state.name, state.reference_frame)
             return
         wanted = state_from(state).in_world(frame)
-        place = place_model if is_model else place_link
-        response.success = not place(self._server.engine, state.name, wanted)
+        if self._entities.model(state.name) is not None:
+            problem = place_model(self._server.engine, state.name, wanted)
+        elif self._entities.link(state.name) is not None:
+            problem = place_link(self._server.engine, state.name, wanted)
+        else:
+            problem = ""
+            self._entities.place_light(state.name, wanted)
+        response.success = not problem
+        if problem:
+            self._server.node.log("ERROR", problem)
+
+    def _log_unknown(self, service: str, name: str, frame: str) -> None:
+        """Say what is missing, for the response has no words."""
+        if self._entities.any(name) is None:
+            text = f"{service}: entity [{name}] does not exist{self._entities.hint(name)}"
+        else:
+            text = f"{service}: reference entity [{frame}] not found, did you forget to scope the "
+            text += f"entity name?{self._entities.hint(frame)}"
+        self._server.node.log("ERROR", text)
 
     def _get_list(self, request: Any, response: Any) -> None:
         response.header = header(self._server.time_ns, "")

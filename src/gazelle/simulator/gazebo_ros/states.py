@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gazelle.geometry import Pose
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["offer_clock", "offer_entity_states", "offer_states"]
 
-_EVERY_STEP = Fraction(1)
 # Faster than real time, nobody can use more of them: each costs every process 0.1 ms.
 _CLOCKS_PER_REAL_S = 500.0
 
@@ -35,24 +33,31 @@ def offer_states(
     if rate_hz is None:
         rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
     offer_clock(server, resources, "/clock", rate_hz)
-    offer_entity_states(server, resources, space)
+    models, links = (join_names(space, f"{one}_states") for one in ("model", "link"))
+    offer_entity_states(server, resources, models, links)
 
 
-def offer_entity_states(server: WorldServer, resources: Resources, space: str) -> None:
-    """Publish ``model_states`` and ``link_states`` in a namespace while somebody listens."""
-    links_topic, models_topic = (join_names(space, f"{one}_states") for one in ("link", "model"))
+def offer_entity_states(
+    server: WorldServer,
+    resources: Resources,
+    models_topic: str,
+    links_topic: str,
+    rate_hz: float = 0.0,
+) -> None:
+    """Publish the states of all models and links while somebody listens; at 0 Hz each step."""
+    period = period_in_steps(rate_hz, server.engine.step_ns)
     links = resources.publisher(links_topic, "gazebo_msgs/LinkStates", reliable=False)
     models = resources.publisher(models_topic, "gazebo_msgs/ModelStates", reliable=False)
     resources.task(
         links_topic,
-        _EVERY_STEP,
+        period,
         lambda: links.publish(_link_states(server)),
         order=ORDER_STATE,
         wanted=lambda: links.matched,
     )
     resources.task(
         models_topic,
-        _EVERY_STEP,
+        period,
         lambda: models.publish(_model_states(server)),
         order=ORDER_STATE,
         wanted=lambda: models.matched,

@@ -58,9 +58,7 @@ SERVER_TABLE = PluginTable(
         "gazebo_ros_paths_plugin",
         "gazebo_ros_init",
         "gazebo_ros_factory",
-        "gazebo_ros_state",
         "gazebo_ros_force_system",
-        "gazebo_ros_properties",
     ),
 )
 

@@ -41,6 +41,8 @@ _FAMILIES = (
     ("joint_state_publisher", "GZ_TABLE", "load_gz"),
     ("gz_systems", "TABLE", "load"),
     ("gz_systems", "SERVER_TABLE", "load"),
+    ("world_entities", "STATE_TABLE", "load_state"),
+    ("world_entities", "PROPERTIES_TABLE", "load_properties"),
     ("ros_control", "TABLE", "load"),
     ("ros2_control", "TABLE", "load"),
     ("ros2_control", "GZ_TABLE", "load_gz"),

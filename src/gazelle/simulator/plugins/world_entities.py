@@ -1,0 +1,95 @@
+"""``libgazebo_ros_state`` and ``libgazebo_ros_properties``, ROS 2's plug-ins of a world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, cast
+
+from gazelle.simulator.gazebo_ros.entities import Entities, Row
+from gazelle.simulator.gazebo_ros.joint_services import JointServices
+from gazelle.simulator.gazebo_ros.light_services import LightServices
+from gazelle.simulator.gazebo_ros.link_services import LinkServices
+from gazelle.simulator.gazebo_ros.model_services import ModelServices
+from gazelle.simulator.gazebo_ros.states import offer_entity_states
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+
+if TYPE_CHECKING:
+    from gazelle.simulator.world_server import WorldServer
+
+__all__ = ["PROPERTIES_TABLE", "STATE_TABLE", "load_properties", "load_state"]
+
+_NAMES = "`<ros>`'s namespace and remappings give the names."
+
+STATE_TABLE = PluginTable(
+    family="gazebo_ros_state",
+    summary="States of all models, links and lights of the world, asked for, set and published.",
+    filenames=("gazebo_ros_state",),
+    behaviour=(
+        _NAMES,
+        "An entity is a model, `model::link` or a light; `reference_frame` is one of them, or"
+        " empty or `world`. What is not there is logged, for the responses have no words.",
+    ),
+    topics=(
+        Topic("model_states", "gazebo_msgs/msg/ModelStates", "`update_rate`"),
+        Topic("link_states", "gazebo_msgs/msg/LinkStates", "`update_rate`"),
+    ),
+    services=(
+        Service("get_entity_state", "gazebo_msgs/srv/GetEntityState"),
+        Service("set_entity_state", "gazebo_msgs/srv/SetEntityState"),
+    ),
+    parameters=(
+        Parameter("update_rate", "number", 100.0, "of both topics, 0 for every step", "Hz"),
+    ),
+)
+
+PROPERTIES_TABLE = PluginTable(
+    family="gazebo_ros_properties",
+    summary="What models, joints, links and lights of the world are, asked for and set.",
+    filenames=("gazebo_ros_properties",),
+    behaviour=(_NAMES, "The links of a model are told as `model::link`, as in ROS 2."),
+    services=(
+        Service("get_model_properties", "gazebo_msgs/srv/GetModelProperties"),
+        Service("get_joint_properties", "gazebo_msgs/srv/GetJointProperties"),
+        Service("set_joint_properties", "gazebo_msgs/srv/SetJointProperties"),
+        Service("get_link_properties", "gazebo_msgs/srv/GetLinkProperties"),
+        Service("set_link_properties", "gazebo_msgs/srv/SetLinkProperties"),
+        Service("get_light_properties", "gazebo_msgs/srv/GetLightProperties"),
+        Service("set_light_properties", "gazebo_msgs/srv/SetLightProperties"),
+    ),
+)
+
+
+def load_state(context: PluginContext) -> None:
+    """Offer states of entities."""
+    parameters, server = context.reader(STATE_TABLE), _server(context)
+    _offer(context, parameters, ModelServices(server, Entities(server)).state_rows())
+    models, links = (context.topic(parameters, name) for name in ("model_states", "link_states"))
+    rate_hz = parameters.number("update_rate")
+    offer_entity_states(server, context.resources, models, links, rate_hz)
+    parameters.report_unread()
+
+
+def load_properties(context: PluginContext) -> None:
+    """Offer properties of models, joints, links and lights."""
+    parameters, server = context.reader(PROPERTIES_TABLE), _server(context)
+    entities = Entities(server)
+    for group in (
+        ModelServices(server, entities),
+        JointServices(server),
+        LinkServices(server, entities),
+        LightServices(server),
+    ):
+        _offer(context, parameters, group.property_rows())
+    parameters.report_unread()
+
+
+def _offer(context: PluginContext, parameters: ParameterReader, rows: Iterable[Row]) -> None:
+    for row in rows:
+        context.resources.service(context.topic(parameters, row.name), row.type, row.handler)
+
+
+def _server(context: PluginContext) -> WorldServer:
+    """Return the host, which is always a whole world server."""
+    return cast("WorldServer", context.host)
