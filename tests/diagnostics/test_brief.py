@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan, brief
+from gazelle.diagnostics.catalogue import all_entries
 
 
 def _found(*names: str) -> Diagnostics:
@@ -57,3 +58,26 @@ def test_what_raises_its_severity_is_not_summed() -> None:
     for name in "ab":
         found.report("urdf.gazebo-no-effect", f"{name} is lost", severity=Severity.WARNING)
     assert brief(found).shown == tuple(found)
+
+
+def test_what_works_and_asks_for_nothing_is_kept_and_not_said() -> None:
+    found = Diagnostics()
+    found.report("plugin.built-in", "plug-in 'a' is part of Gazelle")
+    found.report("simulator.server-plugin", "server plug-in 'b' is part of Gazelle")
+    found.report("plugin.unknown", "plug-in 'c' is compiled code")
+    shown, kept = brief(found)
+    assert [item.code for item in shown] == ["plugin.unknown"]
+    assert [item.code for item in kept] == ["plugin.built-in", "simulator.server-plugin"]
+    shown, kept = brief([*found, *_found("x", "y")])
+    assert [item.code for item in shown] == ["plugin.unknown", "navigation.idle-parameter"]
+    assert len(kept) == 4
+
+
+def test_whatever_says_that_nothing_is_to_be_done_is_not_said() -> None:
+    printed = {"xacro.message"}
+    told = {
+        entry.code
+        for entry in all_entries().values()
+        if entry.fix.startswith("nothing to do") and not (entry.quiet or entry.idle)
+    }
+    assert told == printed

@@ -17,27 +17,31 @@ class Brief(NamedTuple):
 
     Attributes:
         shown: those that are said.
-        idle: those that one of them sums up, for a list elsewhere; empty when none does.
+        kept: those that are for a list elsewhere: what one of the shown sums up, and what nobody
+            has to do anything about.
     """
 
     shown: tuple[Diagnostic, ...]
-    idle: tuple[Diagnostic, ...]
+    kept: tuple[Diagnostic, ...]
 
 
 def brief(findings: Iterable[Diagnostic], kept: str = "") -> Brief:
     """Sum up the findings about settings that are known and have no effect here.
 
     One of them is said as it is, without its general remedy; of several the first is said, with
-    their number. Warnings and errors stay whole, and so does everything else.
+    their number. What works and asks for nothing is not said. Warnings and errors stay whole, and
+    so does everything else.
 
     Args:
         findings: in the order they were made.
         kept: where all of them can be read, such as a file.
     """
     items = tuple(findings)
+    quiet = tuple(item for item in items if _is_quiet(item))
+    items = tuple(item for item in items if not _is_quiet(item))
     idle = [item for item in items if _is_idle(item)]
     if not idle:
-        return Brief(items, ())
+        return Brief(items, quiet)
     first, summed = idle[0], tuple(idle) if len(idle) > 1 else ()
     if not summed:
         summary = replace(first, fix=_own_fix(first))
@@ -48,7 +52,11 @@ def brief(findings: Iterable[Diagnostic], kept: str = "") -> Brief:
         summary = replace(first, message=text, fix="", phrase="")
     shown = [summary if item is first else item for item in items
              if item is first or not _is_idle(item)]  # fmt: skip
-    return Brief(tuple(shown), summed)
+    return Brief(tuple(shown), (*summed, *quiet))
+
+
+def _is_quiet(item: Diagnostic) -> bool:
+    return item.severity is Severity.INFO and entry_for(item.code).quiet
 
 
 def _is_idle(item: Diagnostic) -> bool:

@@ -22,6 +22,7 @@ def log_findings(
 ) -> bool:
     """Say what was found; parameters without effect are summed, and listed in the log file.
 
+    So is what works and asks for nothing, which the terminal is spared.
     A node that logs at level debug says all of it.
 
     Args:
@@ -32,8 +33,8 @@ def log_findings(
     Returns:
         whether there was no error.
     """
-    shown, idle = brief(diagnostics, str(aside_path(node)))
-    if idle and (node.log_level <= Level.DEBUG or not write_aside(node, map(text_of, idle))):
+    shown, kept = brief(diagnostics, str(aside_path(node)))
+    if kept and (node.log_level <= Level.DEBUG or not write_aside(node, map(text_of, kept))):
         shown = tuple(diagnostics)
     for item in shown:
         node.log(_LEVELS[int(item.severity)], text_of(item), depth=2)

@@ -230,8 +230,8 @@ def _show(node: Any, found: Iterable[Diagnostic], *, verbose: bool = True) -> No
     """Print findings on standard error; notices only when asked to be verbose, and summed."""
     least = Severity.INFO if verbose else Severity.WARNING
     items = [item for item in found if item.severity >= least]
-    shown, idle = brief(items, str(aside_path(node)))
-    render(shown if not idle or write_aside(node, map(str, idle)) else items)
+    shown, kept = brief(items, str(aside_path(node)))
+    render(shown if not kept or write_aside(node, map(str, kept)) else items)
 
 
 def _names_gz_systems(world: World) -> bool:

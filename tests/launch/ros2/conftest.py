@@ -13,7 +13,13 @@ import pytest
 
 from gazelle.diagnostics import Diagnostic
 from gazelle.launch import guard
-from gazelle.launch.ros2 import LaunchContext, LaunchDescription, LaunchService, logging
+from gazelle.launch.ros2 import (
+    LaunchContext,
+    LaunchDescription,
+    LaunchService,
+    deprecation,
+    logging,
+)
 from gazelle.launch.ros2.actions import IncludeLaunchDescription
 
 Run = Callable[..., "Ran"]
@@ -44,6 +50,7 @@ class Ran:
 def _own_logs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     monkeypatch.setattr(guard, "_PATIENCE_S", 0.2)
+    deprecation.TOLD.clear()
     for name in list(os.environ):
         if name.startswith("OVERRIDE_LAUNCH"):
             monkeypatch.delenv(name)

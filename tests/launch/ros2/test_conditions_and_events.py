@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -113,6 +114,16 @@ def LaunchConfigurationNotEquals(context: LaunchContext) -> None:
     assert (differs.evaluate(context), is_set.evaluate(context)) == (True, False)
     context.launch_configurations["x"] = "1"
     assert (differs.evaluate(context), is_set.evaluate(context)) == (False, True)
+
+
+def test_a_deprecated_condition_is_told_once_however_often_it_stands() -> None:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for name in "abc":
+            conditions.LaunchConfigurationEquals(name, "1")
+    (one,) = told
+    assert "'LaunchConfigurationEquals' condition is deprecated" in str(one.message)
+    assert one.filename == __file__
 
 
 @_row

@@ -78,6 +78,14 @@ def test_unknown_and_idle_parameters_are_told_with_what_is_near() -> None:
     assert "'ghost' (2) has no effect here: there is no such thing here" in idle.message
 
 
+def test_a_long_value_is_told_by_its_beginning() -> None:
+    settings, diagnostics = _settings({"ghost": [f"library_{number}" for number in range(50)]})
+    settings.report_unknown()
+    (idle,) = diagnostics
+    assert "library_0" in idle.message and "… of 50) has no effect here" in idle.message
+    assert len(idle.message) < 200
+
+
 def test_names_with_slashes_and_dots_become_trees() -> None:
     tree = nested({"a/b": 1, "a.c": {"d": 2}, "e": 3})
     assert tree == {"a": {"b": 1, "c": {"d": 2}}, "e": 3}

@@ -47,6 +47,7 @@ ENTRIES = (
         "A plug-in does nothing by itself",
         "It is a library that other plug-ins are made of, or a template to copy.",
         "nothing to do; the element can be removed",
+        quiet=True,
     ),
     Entry(
         "plugin.compiled",

@@ -53,6 +53,7 @@ ENTRIES = (
         "Elements with a prefix belong to one program; Gazelle uses those it knows by name and "
         "keeps the rest for plug-ins.",
         "nothing to do",
+        quiet=True,
     ),
     Entry(
         "sdf.model-without-link",

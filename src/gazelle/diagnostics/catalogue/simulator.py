@@ -23,6 +23,7 @@ ENTRIES = (
         "gz-sim loads physics, sensors, user commands and the like as plug-ins; here they are "
         "always there.",
         "nothing to do",
+        quiet=True,
     ),
     Entry(
         "plugin.unknown-parameter",
@@ -148,5 +149,6 @@ ENTRIES = (
         "A server plug-in is part of Gazelle",
         "ROS 1's services are offered without -s; ROS 2's by the library that offers them there.",
         "nothing to do",
+        quiet=True,
     ),
 )

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from gazelle.launch.ros2.condition import Condition
+from gazelle.launch.ros2.deprecation import warn_once
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
@@ -95,12 +95,9 @@ class LaunchConfigurationEquals(Condition):
     def __init__(
         self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None
     ) -> None:
-        kind = type(self).__name__
-        warnings.warn(
-            f"The '{kind}' condition is deprecated, use IfCondition(EqualsSubstitution("
-            f"LaunchConfiguration('{launch_configuration_name}'), …)) or NotEqualsSubstitution",
-            UserWarning,
-            stacklevel=2,
+        warn_once(
+            f"The '{type(self).__name__}' condition is deprecated, use IfCondition("
+            "EqualsSubstitution(LaunchConfiguration(…), …)) or NotEqualsSubstitution"
         )
         self.__name = launch_configuration_name
         self.__expected = (

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
@@ -23,6 +24,8 @@ from gazelle.nodes.filters.measuring import (
     measure_pose,
     measure_twist,
 )
+from gazelle.nodes.filters.tables import report_ekf, threshold_owners
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.navigation.frames import fill_pose, set_stamp, stamp_ns_of
 from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import start_node, ticks
@@ -36,12 +39,6 @@ _INPUTS = {
     "imu": "sensor_msgs/msg/Imu",
 }
 _MOST = 20
-_REFUSED = {
-    "use_control": "commands do not count; odometry and IMU do",
-    "smooth_lagged_data": "messages up to a second late are taken in as they come",
-    "publish_acceleration": "accelerations are not published",
-    "dynamic_process_noise_covariance": "the process noise is the same at every speed",
-}
 
 
 def config_of(name: str, value: Any) -> NDArray[np.bool_]:
@@ -115,9 +112,9 @@ class _Localization:
         self._map = str(tree.get("map_frame", "map"))
         self._world = str(tree.get("world_frame", self._odom))
         self._offset_ns = int(float(tree.get("transform_time_offset", 0.0)) * 1e9)
-        for key, why in _REFUSED.items():
-            if tree.get(key):
-                node.log("warn", f"parameter '{key}' has no effect here: {why}")
+        told = Diagnostics()
+        report_ekf(tree, node.name, told)
+        log_findings(node, told)
         found = [f"{kind}{k}" for kind in _INPUTS for k in range(_MOST) if f"{kind}{k}" in tree]
         if not found:
             node.log("error", "no input is given: set odom0, imu0, pose0 or twist0 to a topic, and "
@@ -135,6 +132,11 @@ class _Localization:
         if not config.any():
             node.log("warn", f"{name}_config is all false: {self._tree[name]} does not count")
 
+        thresholds = {
+            part: float(self._tree.get(f"{owner}_rejection_threshold", math.inf))
+            for owner, part in threshold_owners(name).items()
+        }
+
         def on_message(message: Any) -> None:
             for found, part in self._measurements(name, kind, message):
                 key, poses = f"{name}_{part}", part == "pose"
@@ -144,7 +146,7 @@ class _Localization:
                     config,
                     by_difference=poses and bool(self._tree.get(f"{name}_differential")),
                     relative=poses and bool(self._tree.get(f"{name}_relative")),
-                    threshold=float(self._tree.get(f"{key}_rejection_threshold", math.inf)),
+                    threshold=thresholds[part],
                 )
 
         node.create_subscription(str(self._tree[name]), _INPUTS[kind], on_message, queue_size=10)

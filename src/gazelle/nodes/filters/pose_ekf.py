@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -14,8 +15,10 @@ from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.filters.fusing import Fusion
 from gazelle.nodes.filters.measuring import measure_imu, measure_pose
+from gazelle.nodes.filters.tables import report_pose_ekf
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.navigation.frames import fill_pose, set_stamp, stamp_ns_of
-from gazelle.nodes.parameters import private, private_number, start_node, ticks
+from gazelle.nodes.parameters import parameter_tree, private, private_number, start_node, ticks
 
 __all__ = ["run"]
 
@@ -30,6 +33,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     fusion = Fusion(node, Ekf())
     base = str(private(node, arguments, "base_footprint_frame", "base_footprint"))
     parent = str(private(node, arguments, "output_frame", "odom_combined"))
+    told = Diagnostics()
+    report_pose_ekf(parameter_tree(node, arguments), node.name, told)
+    log_findings(node, told)
     _connect(node, arguments, fusion, base)
     kind: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
     out = node.create_publisher("~/odom_combined", kind)
@@ -82,6 +88,3 @@ def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) ->
         node.create_subscription("vo", odometry, on_odometry("vo"), queue_size=10)
     if used("imu_used"):
         node.create_subscription("imu_data", "sensor_msgs/msg/Imu", on_imu, queue_size=10)
-    if used("gps_used", default=False):
-        node.log("warn", "gps_used has no effect here: positions of satellites are not fused; "
-                 "robot_localization's pose0 takes them")  # fmt: skip

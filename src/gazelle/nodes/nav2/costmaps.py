@@ -15,6 +15,7 @@ from gazelle.nodes.navigation.assembling import assemble
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
+from gazelle.nodes.ros2_console import print_ros2
 
 __all__ = ["Nav2Costmap"]
 
@@ -33,8 +34,12 @@ class Nav2Costmap:
         """Make node and costmap; it is updated from `LiveCostmap.start` on."""
         space = f"{arguments.namespace.rstrip('/')}/{name}"
         self.node: Node = graph.create_node(
-            name, namespace=space, remappings=_rules(arguments.remappings, arguments.namespace)
+            name,
+            namespace=space,
+            remappings=_rules(arguments.remappings, arguments.namespace),
+            is_ros2=True,
         )
+        self.node.console = print_ros2
         tree = tree_of_node(arguments, self.node.name)
         if name == "local_costmap":
             tree.setdefault("global_frame", "odom")

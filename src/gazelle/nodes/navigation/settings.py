@@ -14,6 +14,8 @@ __all__ = ["Settings", "flat", "nested"]
 
 _T = TypeVar("_T")
 _MISSING = object()
+# Nav2's files list some fifty libraries in one parameter.
+_LONGEST = 60
 _READ = {
     "number": "number", "integer": "integer", "flag": "flag", "text": "text", "texts": "texts",
     "numbers": "numbers", "any": "raw",
@@ -190,7 +192,7 @@ class Settings:
                 text = f"parameter '{key}' is not one of {self.table.family}; it has no effect"
                 self.report("navigation.unknown-parameter", text, did_you_mean(word, known))
             elif row.kind == "refused":
-                text = f"parameter '{key}' ({value!r}) has no effect here: {row.meaning}"
+                text = f"parameter '{key}' ({_short(value)}) has no effect here: {row.meaning}"
                 self.report("navigation.idle-parameter", text)
 
     def _given(self, key: str) -> Any:
@@ -227,6 +229,15 @@ class Settings:
 def _fields(options: type) -> dict[str, str]:
     """Return fields by the parameters that they are."""
     return {item.metadata.get("key") or item.name: item.name for item in fields(options)}
+
+
+def _short(value: Any) -> str:
+    """Return a value in words; of a long one its beginning and how much there is."""
+    text = repr(value)
+    if len(text) <= _LONGEST:
+        return text
+    count = f" of {len(value)}" if isinstance(value, list | tuple) else ""
+    return f"{text[:_LONGEST]}…{count}"
 
 
 def _number(value: Any) -> float | None:

@@ -62,6 +62,7 @@ _GMAPPING = _flavour(
         *why_not(_OWN_MATCHER, "sigma", "kernelSize", "lstep", "astep", "iterations", "lsigma",
                  "ogain", "lskip", "minimumScore", "srt"),
         *why_not(_GROWS, "xmin", "ymin", "xmax", "ymax"),
+        *why_not("the scan's frame tells how the lidar is mounted", "inverted_laser"),
     ),
 )  # fmt: skip
 

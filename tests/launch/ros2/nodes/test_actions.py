@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -120,6 +121,14 @@ def test_names_of_foxy_are_taken_with_a_warning(run: Run, package: Path) -> None
         a.Node(package="demo", executable="show", node_name="n", name="m")
     with pytest.raises(TypeError, match="missing 1 required keyword-only argument: 'executable'"):
         a.Node(package="demo")
+
+
+def test_a_name_of_foxy_is_told_once_for_all_nodes(package: Path) -> None:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for name in "abc":
+            a.Node(package="demo", node_executable="show", name=name)
+    assert len(told) == 1
 
 
 def test_path_in_place_of_a_package_is_run(run: Run, package: Path) -> None:

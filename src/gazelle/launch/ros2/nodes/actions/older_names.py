@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
+
+from gazelle.launch.ros2.deprecation import warn_once
 
 __all__ = ["newer_names"]
 
@@ -30,7 +31,7 @@ def newer_names(
         if found.get(new) is not None:
             raise TypeError(f"{owner}: both '{old}' and '{new}' are given; leave out '{old}'")
         found[new] = rest.pop(old)
-        warnings.warn(
+        warn_once(
             f"The parameter '{old}' of {owner} is deprecated, use '{new}' (Foxy was the last to "
             "have it)",
             FutureWarning,
