@@ -1,4 +1,4 @@
-"""Names of built-in nodes of velocity commands: joysticks, and choosing among commands."""
+"""Names of built-in nodes that command: joysticks, choosing among velocities, goals in turn."""
 
 from __future__ import annotations
 
@@ -65,5 +65,22 @@ COMMANDS = (
         True,
         "drives any robot by a joystick",
         name="teleop_twist_joy_node",
+    ),
+    CommandNode(
+        "ros2_controllers_test_nodes",
+        "publisher_forward_position_controller",
+        "controller_goals.forward_position:run",
+        True,
+        "sends one list of commands after another to a forward controller",
+        (("ros2_control_test_nodes", "publisher_forward_position_controller"),),
+    ),
+    CommandNode(
+        "ros2_controllers_test_nodes",
+        "publisher_joint_trajectory_controller",
+        "controller_goals.joint_trajectory:run",
+        True,
+        "sends one goal after another to a joint_trajectory_controller",
+        (("ros2_control_test_nodes", "publisher_joint_trajectory_controller"),),
+        "publisher_position_trajectory_controller",
     ),
 )
