@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import math
 
+import mujoco
 import pytest
 
 from gazelle.description.model import (
@@ -128,6 +130,49 @@ def test_universal_joint_has_two_axes():
     engine.joint("m::j").set_state(0.1)
     turned = Pose.from_xyz_rpy((0, 0, 0), (0.1, 0, 0)) @ Pose.from_xyz_rpy((0, 0, 0), (0, 0.2, 0))
     assert engine.link("m::stick").T_world_link().quat_xyzw == pytest.approx(turned.quat_xyzw)
+
+
+def swinging(kind, *axes, **more):
+    """A link whose centre of mass is off every axis of its joint, let go from rest."""
+    bob = Link("bob", inertial=Inertial(1.0, Pose((0.1, -0.1, 0.1)), (6e-3, 0, 0, 6e-3, 0, 1e-3)))
+    names = dict(zip(("axis", "axis2"), (JointAxis(xyz) for xyz in axes), strict=False))
+    joint = Joint("j", kind, "world", "bob", **names, **more)
+    return Model("m", links=(bob,), joints=(joint,))
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        swinging(JointType.BALL),
+        swinging(JointType.UNIVERSAL, (1, 0, 0), (0, 1, 0)),
+        swinging(JointType.REVOLUTE2, (1, 0, 0), (0, 0, 1)),
+        swinging(JointType.UNIVERSAL, (0, 1, 0), (0, 1, 0)),
+        swinging(JointType.SCREW, (0, 1, 0), thread_pitch_rad_m=20.0),
+    ],
+    ids=["ball", "universal", "revolute2", "parallel", "screw"],
+)
+def test_link_that_swings_in_space_never_gains_energy(model):
+    engine = engine_of(model)
+    engine.model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    energies = []
+    for _ in range(60):
+        engine.step(1000)
+        data = copy.copy(engine.data)
+        mujoco.mj_forward(engine.model, data)
+        energies.append(float(data.energy.sum()))
+    # At rest it was 0.1 m above its joint.
+    assert max(energies) < 1.01 * 9.8 * 0.1
+    assert min(energies) > -1.01 * 9.8 * 0.18
+
+
+def test_axes_in_one_direction_are_one_axis():
+    found = Diagnostics()
+    engine = engine_of(swinging(JointType.UNIVERSAL, (0, 0, 1), (0, 0, -1)), found)
+    assert [item.message for item in found.by_code("engine.parallel-axes")] == [
+        "both axes of universal joint 'j' have the same direction; it turns about one"
+    ]
+    assert engine.joint("m::j").is_driveable
+    assert not engine.joint("m::j", axis=1).is_driveable
 
 
 def test_planar_joint_moves_in_its_plane_only():

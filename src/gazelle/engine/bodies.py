@@ -13,7 +13,7 @@ from gazelle.engine.inertia import (
     BodyInertia,
     body_inertia,
 )
-from gazelle.engine.joints import add_joint, add_mimic, add_root_joint
+from gazelle.engine.joints import add_joint, add_mimic, add_root_joint, has_parallel_axes
 from gazelle.engine.library import mujoco
 from gazelle.engine.names import part_of, scoped
 from gazelle.engine.shapes import add_geom, geom_shapes
@@ -142,6 +142,10 @@ class SpecBuilder:
         else:
             T_link_joint = entry.link.T_model_link.inverse() @ joint.T_model_joint
             add_joint(self.spec, body, joint, model.name, T_link_joint, self.step_s)
+            if has_parallel_axes(joint):
+                message = f"both axes of {joint.type.value} joint '{joint.name}' have the same"
+                message += " direction; it turns about one"
+                self.diagnostics.report("engine.parallel-axes", message, joint.span)
         if is_root:
             policy = mujoco.mjtSleepPolicy
             allowed = model.allow_auto_disable

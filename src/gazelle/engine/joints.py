@@ -21,8 +21,10 @@ __all__ = [
     "add_root_joint",
     "couple",
     "equality_solver",
+    "has_parallel_axes",
     "implicit_damping",
     "is_single_axis",
+    "keeps_turning",
 ]
 
 INFINITE_LIMIT = 1e10
@@ -32,6 +34,10 @@ Vector3 = tuple[float, float, float]
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
+_PARALLEL = 1e-2
+"""Axes that enclose less, rad, are one: the joint's inertia would be singular."""
+
+_DOUBLE = (JointType.UNIVERSAL, JointType.REVOLUTE2)
 _SINGLE = {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.SCREW}
 
 
@@ -43,6 +49,23 @@ def implicit_damping(damping: Value, step_s: float) -> Value:
     lag; as an armature the constraints see it.
     """
     return step_s * damping
+
+
+def has_parallel_axes(joint: Joint) -> bool:
+    """Whether a joint of two axes has but one: what they do against each other moves nothing."""
+    if joint.type not in _DOUBLE:
+        return False
+    first, second = (joint.axis or JointAxis()).xyz, _second_axis(joint).xyz
+    return float(np.linalg.norm(np.cross(first, second))) < _PARALLEL
+
+
+def keeps_turning(joint: Joint) -> bool:
+    """Whether a joint turns about several axes, so that gyroscopic torques act on its child."""
+    return joint.type in _DOUBLE or joint.type in (JointType.BALL, JointType.FLOATING)
+
+
+def _second_axis(joint: Joint) -> JointAxis:
+    return joint.axis2 or JointAxis((1.0, 0.0, 0.0))
 
 
 def is_single_axis(joint: Joint) -> bool:
@@ -70,7 +93,8 @@ def add_joint(
             add.slide(name, axis)
         case JointType.UNIVERSAL | JointType.REVOLUTE2:
             add.hinge(name, axis)
-            add.hinge(joint_part(name, "axis2"), joint.axis2 or JointAxis((1.0, 0.0, 0.0)))
+            if not has_parallel_axes(joint):
+                add.hinge(joint_part(name, "axis2"), _second_axis(joint))
         case JointType.BALL:
             add.ball(name)
         case JointType.FLOATING:

@@ -94,6 +94,20 @@ def test_joints_with_two_axes(model, kind):
     assert joint.axis2.xyz == pytest.approx((0, 1, 0))
 
 
+@pytest.mark.parametrize(
+    ("kind", "first", "second"),
+    [("universal", (0, 1, 0), (1, 0, 0)), ("revolute2", (1, 0, 0), (0, 1, 0))],
+)
+def test_unsaid_axes_of_two_are_one_of_the_parents_and_one_of_the_childs(
+    model, kind, first, second
+):
+    found = model(_joint("", kind))
+    joint, child = found.joint("j"), found.link("b")
+    assert joint.T_model_joint.rotate(joint.axis.xyz) == pytest.approx(first)
+    in_child = child.T_model_link.inverse().rotate(joint.T_model_joint.rotate(joint.axis2.xyz))
+    assert in_child == pytest.approx(second)
+
+
 @pytest.mark.parametrize("kind", ["fixed", "ball"])
 def test_joints_without_axis(model, kind):
     joint = model(_joint(kind=kind)).joint("j")

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointAxis, JointType, Mimic
-from gazelle.description.sdf.frames import MODEL_FRAME, FramePoint
+from gazelle.description.sdf.frames import MODEL_FRAME, WORLD_FRAME, FramePoint
 from gazelle.description.sdf.resolving import PoseResolver
 from gazelle.description.sdf.sensors import read_sensor
 from gazelle.description.sdf.values import child_bool, child_float, optional_float, vector3_from
 from gazelle.description.xml import Tag, bool_from, float_from
 from gazelle.diagnostics import did_you_mean
-from gazelle.geometry import Pose
+from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["JOINT_TYPES", "joint_type_of", "read_joint"]
+
+Vector3 = tuple[float, float, float]
 
 _UNLIMITED = 1e16
 _TYPES = (
@@ -32,6 +34,10 @@ _TYPES = (
 JOINT_TYPES = {item.value: item for item in _TYPES}
 _WITHOUT_AXIS = (JointType.FIXED, JointType.BALL)
 _WITH_SECOND_AXIS = (JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX)
+_X, _Y, _Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+# ODE gives its joints of two axes these where a file has none: the first is one of the parent's,
+# the second one of the child's. The others turn about z, as SDF says of an <axis> without <xyz>.
+_UNSAID_AXES = {JointType.UNIVERSAL: (_Y, _X), JointType.REVOLUTE2: (_X, _Y)}
 
 
 def joint_type_of(tag: Tag, context: ReadContext) -> JointType | None:
@@ -64,6 +70,7 @@ def read_joint(
     T_model_joint = resolver.frames.pose(point.name)
     axes = _AxisReader(resolver, T_model_joint, point)
     axis, axis2 = tag.find("axis"), tag.find("axis2")
+    unsaid = axes.unsaid(kind, parent, child)
     ode = tag.find("physics", "ode")
     return Joint(
         name=tag.attributes["name"].strip(),
@@ -71,8 +78,8 @@ def read_joint(
         parent=parent,
         child=child,
         T_model_joint=T_model_joint,
-        axis=None if kind in _WITHOUT_AXIS else axes.read(axis, kind),
-        axis2=axes.read(axis2, kind) if kind in _WITH_SECOND_AXIS else None,
+        axis=None if kind in _WITHOUT_AXIS else axes.read(axis, kind, unsaid[0]),
+        axis2=axes.read(axis2, kind, unsaid[1]) if kind in _WITH_SECOND_AXIS else None,
         mimic=_mimic(axis, context),
         sensors=tuple(
             sensor
@@ -146,9 +153,21 @@ class _AxisReader:
     T_model_joint: Pose
     point: FramePoint
 
-    def read(self, tag: Tag | None, kind: JointType) -> JointAxis:
+    def unsaid(self, kind: JointType, parent: str, child: str) -> tuple[Vector3, Vector3]:
+        """Return the directions of axes that the file leaves out, in the joint's frame."""
+        if kind not in _UNSAID_AXES:
+            return _Z, _Z
+        frames, T_joint_model = self.resolver.frames, self.T_model_joint.inverse()
+        T_model_parent = IDENTITY_POSE if parent == WORLD_FRAME else frames.pose(parent)
+        first, second = _UNSAID_AXES[kind]
+        return (
+            T_joint_model.rotate(T_model_parent.rotate(first)),
+            T_joint_model.rotate(frames.pose(child).rotate(second)),
+        )
+
+    def read(self, tag: Tag | None, kind: JointType, unsaid: Vector3) -> JointAxis:
         if tag is None:
-            return JointAxis()
+            return JointAxis(unsaid)
         context = self.resolver.context
         limit, dynamics = tag.find("limit") or tag, tag.find("dynamics") or tag
         turns_freely = kind is JointType.CONTINUOUS

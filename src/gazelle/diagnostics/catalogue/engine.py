@@ -127,6 +127,14 @@ ENTRIES = (
         "read its words; simplify the collisions where contacts are too many",
     ),
     Entry(
+        "engine.parallel-axes",
+        "warning",
+        "Both axes of a joint have the same direction",
+        "A universal or revolute2 joint turns about two axes; about one direction it can turn only"
+        " once, and ODE's solver finds no second way to move.",
+        "give <axis> and <axis2> different directions, or make the joint revolute",
+    ),
+    Entry(
         "engine.gearbox",
         "warning",
         "A gearbox has no effect",
