@@ -6,6 +6,7 @@ Gazelle's ask the world by them: there they are below ``/_gazebo``, which lists 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,14 +19,17 @@ __all__ = [
     "HIDDEN_SPACE",
     "SHOWN_SPACE",
     "first_there",
+    "hidden_transport_name",
     "offered_name",
     "other_version_hint",
+    "shown_transport_name",
     "world_names",
     "world_space",
 ]
 
 SHOWN_SPACE = "/gazebo"
 HIDDEN_SPACE = "/_gazebo"
+_TRANSPORT = "/_transport"
 _ROS2 = 2
 _OFFERS = frozenset({Kind.SERVICE, Kind.PUBLISHER})
 _SPAWN = ("/spawn_entity", "create")
@@ -83,6 +87,26 @@ def world_names(name: str) -> tuple[str, ...]:
     if not name.startswith(start):
         return (name,)
     return (name, f"{HIDDEN_SPACE}/{name.removeprefix(start)}")
+
+
+def hidden_transport_name(name: str, world: str) -> str:
+    """Return as what the graph has a topic of Gazebo Classic's own transport.
+
+    Args:
+        name: the topic; ``~`` is ``/gazebo/WORLD``.
+        world: the world's name.
+    """
+    full = "/" + name.replace("~", f"{SHOWN_SPACE}/{world}", 1).strip("/")
+    legal = re.sub(r"[^A-Za-z0-9_/]", lambda found: f"_x{ord(found[0]):x}_", full)
+    return _TRANSPORT + legal
+
+
+def shown_transport_name(name: str) -> str:
+    """Return what Gazebo calls a `hidden_transport_name`; empty for any other name."""
+    if not name.startswith(f"{_TRANSPORT}/"):
+        return ""
+    full = name.removeprefix(_TRANSPORT)
+    return re.sub(r"_x([0-9a-f]+)_", lambda found: chr(int(found[1], 16)), full)
 
 
 def offered_name(graph: Graph, name: str, wait_s: float | None = None) -> str:

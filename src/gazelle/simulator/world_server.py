@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from gazelle.description.model import CameraSpec, Model, PluginTag, World
+from gazelle.description.model import CameraSpec, ContactSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose, announcing
@@ -18,6 +18,7 @@ from gazelle.simulator.pace import Mode, Pace
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
+from gazelle.simulator.plugins.transport import publish_contact_sensor
 from gazelle.simulator.ports import NodePort
 from gazelle.simulator.scheduler import Scheduler
 from gazelle.simulator.sensor_checks import check_sensor
@@ -324,8 +325,12 @@ class WorldServer:
                 self._warm_cameras()
             for plugin in place.sensor.plugins:
                 load(plugin, place)
-            if readable and not place.sensor.plugins and is_gz_world(self.engine.world):
-                stand_in = PluginTag(place.sensor.name, "", Tag("plugin", _NOWHERE))
-                publish_sensor(PluginContext(self, model, stand_in, resources, place))
+            is_gz = is_gz_world(self.engine.world)
+            stand_in = PluginTag(place.sensor.name, "", Tag("plugin", _NOWHERE))
+            own = PluginContext(self, model, stand_in, resources, place)
+            if readable and not place.sensor.plugins and is_gz:
+                publish_sensor(own)
+            elif readable and isinstance(place.sensor.spec, ContactSpec) and not is_gz:
+                publish_contact_sensor(own)
         for plugin in model.plugins:
             load(plugin, None)

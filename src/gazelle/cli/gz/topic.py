@@ -10,6 +10,12 @@ from typing import Any
 
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, seconds
 from gazelle.cli.gz.protobuf_text import protobuf_text
+from gazelle.cli.gz.transport import (
+    contacts_fields,
+    gazebo_name,
+    gazebo_type,
+    transport_topics,
+)
 from gazelle.cli.gz.world_link import WorldLink, world_link
 from gazelle.cli.processes import Processes
 from gazelle.cli.ros_types import topic_class
@@ -22,8 +28,8 @@ __all__ = ["COMMAND", "find_topic", "message_fields", "run"]
 
 COMMAND = GzCommand(
     "topic",
-    "List all topics, or show what goes over one. Gazelle has the topics of ROS;\n\tGazebo's own "
-    "(~/world_stats and its kin) are not there.",
+    "List all topics, or show what goes over one. Gazelle has the topics of ROS\n\tand of Gazebo's "
+    "own those of contacts; ~/world_stats and its kin are not there.",
     (
         GzOption("world-name", "w", "World name; Gazelle has one world.", takes=True),
         GzOption("list", "l", "List all topics."),
@@ -69,10 +75,16 @@ def run(options: Mapping[str, str]) -> int:
         raise GzError("nothing to do; see gz help topic")
     with world_link() as link:
         if way is None:
-            print("\n".join(sorted(one.name for one in link.graph.topics())))
+            print("\n".join(sorted(_listed(link))))
         else:
             ways[way](link, find_topic(link, options[way]), duration_s)
     return 0
+
+
+def _listed(link: WorldLink) -> list[str]:
+    known = link.graph.topics(include_hidden=True)
+    shown = [one.name for one in link.graph.topics()]
+    return [*shown, *transport_topics(known)]
 
 
 def message_fields(message: Any) -> Any:
@@ -95,7 +107,8 @@ def find_topic(link: WorldLink, word: str) -> TopicInfo:
     Raises:
         GzError: no topic or several are meant.
     """
-    topics = {one.name: one for one in link.graph.topics(include_hidden=True)}
+    known = link.graph.topics(include_hidden=True)
+    topics = {gazebo_name(one): one for one in known}
     word = word.removeprefix("~")
     ends = [name for name in topics if name.endswith("/" + word.strip("/"))]
     found = [word] if word in topics else ends
@@ -109,7 +122,7 @@ def find_topic(link: WorldLink, word: str) -> TopicInfo:
 
 def _info(link: WorldLink, topic: TopicInfo, _duration_s: float | None) -> None:
     processes = Processes(link.graph)
-    print(f"Type: {topic.type_name}\n")
+    print(f"Type: {gazebo_type(topic)}\n")
     for title, names in (("Publishers", topic.publishers), ("Subscribers", topic.subscriptions)):
         print(f"{title}:")
         for node in names:
@@ -118,8 +131,12 @@ def _info(link: WorldLink, topic: TopicInfo, _duration_s: float | None) -> None:
 
 
 def _echo(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
+    name = gazebo_name(topic)
+    is_own = name != topic.name
+
     def show(message: Any) -> None:
-        print(protobuf_text(message_fields(message)), flush=True)
+        fields = contacts_fields(message, name) if is_own else message_fields(message)
+        print(protobuf_text(fields), flush=True)
 
     link.node.create_subscription(topic.name, topic_class(topic.type_name), show)
     link.ended.wait(duration_s)

@@ -17,6 +17,7 @@ from gazelle.simulator.gazebo_ros.spawn_services import SpawnServices
 from gazelle.simulator.gazebo_ros.states import offer_states
 from gazelle.simulator.gazebo_ros.world_services import WorldServices
 from gazelle.simulator.plugins.context import join_names
+from gazelle.simulator.plugins.transport import offer_world_contacts
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources
@@ -82,6 +83,8 @@ def offer_gazebo_ros(
         for row in group.ros2_rows():
             if _PLUGIN_OF[row.name] in ros2:
                 resources.service(join_names("/", row.name), row.type, row.handler)
+    if not is_gz:
+        offer_world_contacts(server, resources)
     if space == SHOWN_SPACE:
         _listen(server, resources, models, links)
 

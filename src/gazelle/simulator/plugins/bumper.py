@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,9 +20,12 @@ from gazelle.simulator.plugins.stream import (
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
 
 if TYPE_CHECKING:
-    from gazelle.engine import Contact
+    from gazelle.engine import Contact, Engine
 
-__all__ = ["TABLE", "gz_contacts_message", "load"]
+__all__ = ["TABLE", "gz_contacts_message", "load", "transport_contacts_message"]
+
+# On the first and on the second body, a pair for each point.
+Wrenches = list[tuple[Any, Any]]
 
 TABLE = PluginTable(
     family="bumper",
@@ -112,18 +117,55 @@ def gz_contacts_message(context: PluginContext, place: SensorPlace, time_ns: int
     contacts = context.host.sensors.measurements.contacts(place).contacts
     if not contacts:
         return None
+    zero = np.zeros(3)
+
+    def wrenches(contact: Contact) -> Wrenches:
+        return [(_wrench(force, zero), _wrench(-force, zero)) for force in contact.forces_n]
+
+    frame = place.sensor.frame_id or place.name.replace("::", "/")
+    return _contacts(contacts, time_ns, frame, wrenches)
+
+
+def transport_contacts_message(
+    engine: Engine, contacts: Iterable[Contact], time_ns: int, frame: str
+) -> Any:
+    """Return contacts as Gazebo Classic tells them on its own topics.
+
+    Each wrench acts on its link, in the link's own axes and about its centre of mass.
+    """
+
+    def side(contact: Contact, name: str) -> list[Any]:
+        from gazelle.sensors import link_wrenches
+
+        link = engine.link(name.rsplit("::", 1)[0])
+        forces, torques = link_wrenches(contact, link.T_world_link(), link.com_world())
+        return [_wrench(force, torque) for force, torque in zip(forces, torques, strict=True)]
+
+    def wrenches(contact: Contact) -> Wrenches:
+        back = replace(contact, forces_n=-contact.forces_n, torques_nm=-contact.torques_nm)
+        first, second = side(contact, contact.collision1), side(back, contact.collision2)
+        return list(zip(first, second, strict=True))
+
+    return _contacts(contacts, time_ns, frame, wrenches)
+
+
+def _contacts(
+    contacts: Iterable[Contact],
+    time_ns: int,
+    frame: str,
+    wrenches: Callable[[Contact], Wrenches],
+) -> Any:
     return message_class("ros_gz_interfaces/Contacts")(
-        header=header(time_ns, place.sensor.frame_id or place.name.replace("::", "/")),
-        contacts=[_gz_contact(contact, time_ns) for contact in contacts],
+        header=header(time_ns, frame),
+        contacts=[_contact(contact, time_ns, wrenches(contact)) for contact in contacts],
     )
 
 
-def _gz_contact(contact: Contact, time_ns: int) -> Any:
+def _contact(contact: Contact, time_ns: int, wrenches: Wrenches) -> Any:
     entity, joint_wrench = (
         message_class(f"ros_gz_interfaces/{name}") for name in ("Entity", "JointWrench")
     )
-    text, zero = message_class("std_msgs/String"), np.zeros(3)
-    collision = entity.COLLISION
+    text, collision = message_class("std_msgs/String"), entity.COLLISION
     bodies = [name.rsplit("::", 1)[0] for name in (contact.collision1, contact.collision2)]
     return message_class("ros_gz_interfaces/Contact")(
         collision1=entity(name=contact.collision1, type=collision),
@@ -136,10 +178,10 @@ def _gz_contact(contact: Contact, time_ns: int) -> Any:
                 header=header(time_ns, ""),
                 body_1_name=text(data=bodies[0]),
                 body_2_name=text(data=bodies[1]),
-                body_1_wrench=_wrench(force, zero),
-                body_2_wrench=_wrench(-force, zero),
+                body_1_wrench=first,
+                body_2_wrench=second,
             )
-            for force in contact.forces_n
+            for first, second in wrenches
         ],
     )
 
