@@ -146,9 +146,8 @@ REFUSED: tuple[Refusal, ...] = tuple(
                 *("tf2_kdl", "tf_conversions.posemath"),
             ),
             *_rows(
-                "is not among what Gazelle has; publish diagnostic_msgs/DiagnosticArray on"
-                " /diagnostics",
-                "diagnostic_updater",
+                "is a program that shows diagnostic_updater's use; its classes are there",
+                "diagnostic_updater.example",
             ),
             *_rows("is not among what Gazelle has; exchange a topic of your own", "bondpy"),
             *_rows(
