@@ -7,7 +7,14 @@ from typing import Any
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, IllegalNameError, Level, ServiceCallError, offer_loggers
+from gazelle.graph import (
+    Graph,
+    IllegalNameError,
+    Level,
+    ServiceCallError,
+    ServiceUnavailableError,
+    offer_loggers,
+)
 from gazelle.interfaces import (
     message_type,
     ros1_message_type,
@@ -135,3 +142,24 @@ def test_loggers_are_read_and_set_by_services(graph: Graph, other: Graph, eventu
     assert node.log_level is Level.DEBUG
     with pytest.raises(ServiceCallError, match="'loud' is no level; there are debug, info, warn"):
         tell.call(put._request_class("ros", "loud"))
+
+
+def test_what_a_node_that_outlives_its_shutdown_makes_reaches_nobody(
+    graph: Graph, other: Graph
+) -> None:
+    node = graph.create_node("n")
+    node.outlives = True
+    before = node.create_publisher("x", String)
+    node.shutdown()
+    before.publish(String(data="late"))
+    after = node.create_publisher("x", String, latch=True)
+    after.publish(String(data="late"))
+    node.create_subscription("x", String, print)
+    server = node.create_service("s", Empty, print)
+    client = node.create_client("s", Empty)
+    with pytest.raises(ServiceUnavailableError, match="this client was closed"):
+        client.call(Empty.Request())
+    for one in (after, server, client):
+        one.unregister()
+    assert not after.matched
+    assert "/x" not in dict(other.topic_names_and_types()) and not other.services()

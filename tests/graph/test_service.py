@@ -169,3 +169,33 @@ def test_unregistered_service_is_gone(
 def test_request_of_another_class_is_refused(caller: Node) -> None:
     with pytest.raises(GraphError, match="the request is a str"):
         caller.create_client("set", SetBool).call("x")
+
+
+def test_client_that_is_given_up_ends_its_call(server: Node, caller: Node) -> None:
+    under_way, held = threading.Event(), threading.Event()
+
+    def hold(_request: Any) -> Any:
+        under_way.set()
+        held.wait()
+        return Trigger.Response()
+
+    server.create_service("hold", Trigger, hold)
+    client = caller.create_client("hold", Trigger)
+    assert client.wait_for_service(10)
+    failed: list[Exception] = []
+
+    def call() -> None:
+        try:
+            client.call(Trigger.Request())
+        except GraphError as error:
+            failed.append(error)
+
+    calling = threading.Thread(target=call)
+    calling.start()
+    assert under_way.wait(30)
+    client.unregister()
+    calling.join(30)
+    assert not calling.is_alive()
+    held.set()
+    assert [type(one) for one in failed] == [ServiceUnavailableError]
+    assert str(failed[0]) == "service [/hold]: this client was closed"

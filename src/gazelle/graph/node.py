@@ -46,6 +46,8 @@ class Node:
         log_level: what is less than this is not logged.
         console: writes what is logged, see `Graph.console`.
         log_path: file that keeps all of it, empty for none.
+        outlives: what is created or published after `shutdown` reaches nobody, as in rospy,
+            instead of being an error.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class Node:
         self.log_level = Level.INFO
         self.console: Callable[..., None] = graph.console
         self.log_path = ""
+        self.outlives = False
         self.parameters = ParameterStore(graph.parameter_share, self.resolve_name, name)
         self._remappings = remap(remappings, namespace, node=name)
         self._created: list[_Closable] = []
@@ -126,7 +129,12 @@ class Node:
         told = qos or Qos(reliable, latch, queue_size)
         entity = self._entity(Kind.PUBLISHER, topic, wire.type_name_of(message_class), qos=told)
         made = Publisher(
-            self.graph, entity, message_class, copy_local=copy_local, reliable=reliable
+            self.graph,
+            entity,
+            message_class,
+            copy_local=copy_local,
+            reliable=reliable,
+            is_mute=self._is_mute,
         )
         return self._keep(made)
 
@@ -176,6 +184,7 @@ class Node:
                 takes_latched=qos is None or qos.latched,
                 on_error=self._on_error,
                 on_warning=self._on_warning,
+                is_mute=self._is_mute(),
             )
         )
 
@@ -205,13 +214,15 @@ class Node:
             handler,
             with_caller=with_caller,
             on_error=self._on_error,
+            is_mute=self._is_mute(),
         )
         return self._keep(made)
 
     def create_client(self, name: str, service_type: Any) -> ServiceClient:
         """Prepare calls of a service."""
         entity = self._entity(Kind.CLIENT, name, wire.service_name_of(service_type))
-        return self._keep(ServiceClient(self.graph, entity, service_type))
+        made = ServiceClient(self.graph, entity, service_type, is_mute=self._is_mute())
+        return self._keep(made)
 
     def log(
         self,
@@ -272,7 +283,7 @@ class Node:
         self.graph.forget(self)
 
     def _entity(self, kind: Kind, name: str, type_name: str, *, qos: Qos = DEFAULT_QOS) -> Entity:
-        if self._closed:
+        if self._closed and not self.outlives:
             raise GraphError(f"node {self.name} is shut down; it cannot create {name}")
         return Entity(
             self.graph.zid,
@@ -286,8 +297,12 @@ class Node:
             qos,
         )
 
+    def _is_mute(self) -> bool:
+        return self._closed and self.outlives
+
     def _keep(self, one: _T) -> _T:
-        self._created.append(one)
+        if not self._closed:
+            self._created.append(one)
         return one
 
     def drop(self, one: object) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
@@ -39,6 +40,7 @@ class Publisher:
         *,
         copy_local: bool,
         reliable: bool,
+        is_mute: Callable[[], bool],
     ) -> None:
         """Declare the topic; use `Node.create_publisher`."""
         self.topic = entity.name
@@ -47,7 +49,8 @@ class Publisher:
         self.entity = entity
         self._graph = graph
         self._copy_local = copy_local
-        self._closed = False
+        self._is_mute = is_mute
+        self._closed = is_mute()
         # zenoh refuses to undeclare what another thread is just using.
         self._transport = threading.Lock()
         self._last: Any = None
@@ -57,8 +60,10 @@ class Publisher:
         text = token(graph.domain, entity)
         self.gid = entity_gid(text)
         key = topic_key(graph.domain, self.topic, entity.type_name, entity.type_hash)
-        graph.local.gids.add(self.gid)
         self._local = graph.local.topic(self.topic)
+        if self._closed:
+            return
+        graph.local.gids.add(self.gid)
         self._matcher, self._sender = _declare(
             graph.session, key, reliable=reliable, latched=self.latch
         )
@@ -83,8 +88,8 @@ class Publisher:
         Raises:
             GraphError: the publisher was unregistered, or the message is of another class.
         """
-        if self._closed:
-            raise GraphError(f"publish() to a closed topic: {self.topic} was unregistered")
+        if self._is_over():
+            return
         if not isinstance(message, self.message_class):
             raise GraphError(
                 f"publish() on {self.topic}: this is a {type(message).__module__}."
@@ -107,8 +112,8 @@ class Publisher:
             GraphError: the publisher was unregistered.
             InterfaceError: somebody listens in this process, and the bytes are not of the type.
         """
-        if self._closed:
-            raise GraphError(f"publish() to a closed topic: {self.topic} was unregistered")
+        if self._is_over():
+            return
         if self.latch or self._local.subscriptions:
             self.publish(wire.decode(self.message_class, data))
             return
@@ -133,6 +138,11 @@ class Publisher:
         """Give the last latched message to a new subscription of this process."""
         if self._last is not None:
             subscription.take_local(self._last, self._attachment())
+
+    def _is_over(self) -> bool:
+        if self._closed and not self._is_mute():
+            raise GraphError(f"publish() to a closed topic: {self.topic} was unregistered")
+        return self._closed
 
     def _publish_latched(self, message: Any) -> None:
         with self._local.lock:

@@ -59,6 +59,7 @@ class ServiceServer:
         *,
         with_caller: bool,
         on_error: Callable[[str], None],
+        is_mute: bool,
     ) -> None:
         """Offer the service; use `Node.create_service`."""
         import zenoh
@@ -70,11 +71,13 @@ class ServiceServer:
         self._handler = handler
         self._with_caller = with_caller
         self._on_error = on_error
-        self._closed = False
+        self._closed = is_mute
         self._repeats = Repeats()
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
         self._key = service_key(graph.domain, self.name, entity.type_name, entity.type_hash)
+        if is_mute:
+            return
         callback = zenoh.handlers.Callback(self._on_query, None, indirect=False)
         self._queryable: Any = graph.session.declare_queryable(self._key, callback, complete=True)
         self._token: Any = graph.session.liveliness().declare_token(text)
@@ -143,19 +146,22 @@ class ServiceServer:
 class ServiceClient:
     """Calls one service."""
 
-    def __init__(self, graph: Graph, entity: Entity, service_class: Any) -> None:
+    def __init__(self, graph: Graph, entity: Entity, service_class: Any, *, is_mute: bool) -> None:
         """Prepare calls; use `Node.create_client`."""
         self.name = entity.name
         self.service_class = service_class
         self.entity = entity
         self._graph = graph
-        self._closed = False
+        self._closed = is_mute
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
         self._key = service_key(graph.domain, self.name, entity.type_name, "*")
         self._selector = service_selector(graph.domain, self.name, entity.type_name)
         self._numbers = itertools.count(1)
         self._seen_s = -_FOR_EVER_S
+        self._asking: set[Any] = set()
+        if is_mute:
+            return
         self._token: Any = graph.session.liveliness().declare_token(text)
 
     @property
@@ -243,20 +249,34 @@ class ServiceClient:
         return settles(lambda known: self._is_offered(known) or time.monotonic() > deadline_s)
 
     def unregister(self) -> None:
-        """Give the client up; calling it twice does nothing."""
+        """Give the client up, and the calls under way; calling it twice does nothing."""
         if not self._closed:
             self._closed = True
+            for asking in tuple(self._asking):
+                asking.cancel()
             self._token.undeclare()
             self._graph.forget(self)
 
     def _ask(self, payload: bytes, attachment: bytes, timeout_s: float) -> Any:
-        if self._closed:
-            raise ServiceUnavailableError(f"service [{self.name}]: this client was closed")
-        replies: Iterable[Any] = self._graph.session.get(
-            self._key, payload=payload, attachment=attachment, timeout=timeout_s
-        )
-        with self._graph.calls.waiting():
-            return next(iter(replies), None)
+        import zenoh
+
+        asking = zenoh.CancellationToken()
+        self._asking.add(asking)
+        try:
+            # Looked at behind the line before: what is given up between them ends here.
+            if self._closed:
+                raise ServiceUnavailableError(f"service [{self.name}]: this client was closed")
+            replies: Iterable[Any] = self._graph.session.get(
+                self._key,
+                payload=payload,
+                attachment=attachment,
+                timeout=timeout_s,
+                cancellation_token=asking,
+            )
+            with self._graph.calls.waiting():
+                return next(iter(replies), None)
+        finally:
+            self._asking.discard(asking)
 
     def _read(self, reply: Any, timeout_s: float | None) -> Any:
         if reply.ok is not None:

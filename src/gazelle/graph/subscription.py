@@ -68,6 +68,7 @@ class Subscription:
         takes_latched: bool,
         on_error: Callable[[str], None],
         on_warning: Callable[[str], None],
+        is_mute: bool,
     ) -> None:
         """Declare the interest; use `Node.create_subscription`."""
         self.topic = entity.name
@@ -83,10 +84,12 @@ class Subscription:
         self._count_seq = wire.is_ros1_view(message_class)
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
-        self._closed = False
+        self._closed = is_mute
         self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
         self._take = self._handle if inline else self._mailbox.put
         self._local = graph.local.topic(self.topic)
+        if is_mute:
+            return
         self._local.add_subscription(self, latched=takes_latched)
         declare = _declare if takes_latched else _declare_plain
         selector = topic_selector(graph.domain, self.topic)

@@ -46,6 +46,7 @@ class Client:
 
         Raises:
             ROSException: the server is not there in time.
+            ROSInterruptException: the node was shut down meanwhile.
         """
         self.name = name
         self.config: Config | None = None
@@ -63,10 +64,12 @@ class Client:
         service = f"{self._impl.name}/set_parameters"
         if self._until(lambda: self._impl.wait_for_server(0.0), timeout or _FIRST_S):
             return
+        STATE.check_running()
         if timeout:
             raise ROSException(f"timeout exceeded while waiting for service {service}")
         sys.stderr.write(f"Waiting for service {service}...\n")
         self._until(lambda: self._impl.wait_for_server(0.0), None)
+        STATE.check_running()
 
     def get_configuration(self, timeout: float | None = None) -> Config | None:
         """Return the values, None if they did not come in time."""

@@ -93,7 +93,7 @@ def is_initialized() -> bool:
 
 def is_shutdown() -> bool:
     """Return whether the node is shut down."""
-    return STATE.stopping.is_set()
+    return STATE.is_over()
 
 
 def is_shutdown_requested() -> bool:
@@ -129,6 +129,7 @@ def spin() -> None:
             continue
     except KeyboardInterrupt:
         STATE.shut_down("keyboard interrupt")
+    STATE.is_over()
 
 
 def myargv(argv: Sequence[str] | None = None) -> list[str]:

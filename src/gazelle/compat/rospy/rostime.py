@@ -94,19 +94,24 @@ def wallsleep(duration: float) -> None:
 def sleep(duration: float | _Duration) -> None:
     """Sleep on the node's clock; a negative duration returns at once.
 
+    As in rospy only a sleep in simulated time tells of the shutdown. One in wall time is cut short
+    by it, and what a program does after its loop may sleep.
+
     Raises:
-        ROSInterruptException: the node was shut down meanwhile.
+        ROSInterruptException: the node was shut down meanwhile, or before.
         ROSTimeMovedBackwardsException: simulated time jumped back.
     """
     seconds_ns = duration.to_nsec() if isinstance(duration, _Duration) else int(duration * 1e9)
     node = STATE.require("rospy.sleep")
-    STATE.check_running()
     if seconds_ns <= 0:
         return
     if not node.clock.use_sim_time:
-        if STATE.stopping.wait(seconds_ns / 1e9):
-            raise ROSInterruptException("ROS shutdown request")
+        if STATE.stopping.is_set():
+            wall_time.sleep(seconds_ns / 1e9)
+        else:
+            STATE.stopping.wait(seconds_ns / 1e9)
         return
+    STATE.check_running()
     try:
         done = node.clock.sleep(seconds_ns)
     except TimeJumpError as error:

@@ -57,6 +57,7 @@ class Service:
         """Wait until the node is shut down."""
         while not STATE.stopping.wait(0.5):
             continue
+        STATE.is_over()
 
     def _answer(self, request: Any, caller: str) -> Any:
         request._connection_header = {
@@ -133,18 +134,19 @@ class ServiceProxy:
 
         Raises:
             TypeError: the arguments make no request.
-            ServiceException: there is no such service, or it failed.
+            ServiceException: there is no such service, it failed, or the node is shut down.
             ROSInterruptException: the node was shut down meanwhile.
         """
-        STATE.check_running()
         request = self._request(args, kwds)
+        if STATE.stopping.is_set():
+            raise ServiceException(f"service [{self.resolved_name}] returned no response")
         try:
             return self._connected().call(request)
-        except ServiceUnavailableError as error:
-            raise ServiceException(f"service [{self.resolved_name}] unavailable") from error
         except GazelleError as error:
-            if STATE.stopping.is_set():
+            if STATE.is_over():
                 raise ROSInterruptException("node shutdown interrupted service call") from error
+            if isinstance(error, ServiceUnavailableError):
+                raise ServiceException(f"service [{self.resolved_name}] unavailable") from error
             raise ServiceException(str(error)) from error
 
     def wait_for_service(self, timeout: float | None = None) -> None:
@@ -185,19 +187,22 @@ def wait_for_service(service: str, timeout: Any = None) -> None:
         timeout: seconds, or a Duration; None waits for ever.
 
     Raises:
+        ValueError: the timeout is zero.
         ROSException: time is up.
         ROSInterruptException: the node was shut down meanwhile.
     """
     seconds = timeout.to_sec() if hasattr(timeout, "to_sec") else timeout
+    if seconds == 0.0:
+        raise ValueError("timeout must be non-zero")
     name = STATE.resolved(service)
     graph = STATE.open_graph()
     waited_s = 0.0
     while seconds is None or waited_s < seconds:
+        STATE.check_running()
         slice_s = 0.5 if seconds is None else min(0.5, seconds - waited_s)
         if graph.wait_for_service(name, slice_s):
             return
-        if STATE.stopping.is_set():
-            raise ROSInterruptException("rospy shutdown")
         waited_s += slice_s
+    STATE.check_running()
     if not graph.has_service(name):
         raise ROSException(f"timeout exceeded while waiting for service {name}")

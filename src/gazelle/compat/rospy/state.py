@@ -7,8 +7,10 @@ import os
 import signal
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable, Sequence
+from types import CodeType, FrameType
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
@@ -21,6 +23,11 @@ from gazelle.nodes.log_file import keep_log
 __all__ = ["STATE", "NodeState"]
 
 _LAST_CHANCE_S = 2.0
+# So long a program may go on after Ctrl-C without asking whether the node is shut down. A loop that
+# never asks, or a wait that nothing ends, must not outlive its launch.
+_PATIENCE_S = 3.0
+# Where Python waits for threads when a program is done.
+_JOINING: CodeType = threading._shutdown.__code__  # type: ignore[attr-defined]
 _PLAIN_HANDLERS = (
     signal.default_int_handler,
     raise_or_end,
@@ -41,6 +48,7 @@ class NodeState:
         self.argv: Sequence[str] | None = None
         self.requested = threading.Event()
         self.stopping = threading.Event()
+        self._aware: set[int] = set()
         self._finished = threading.Event()
         self.reason = ""
         self._hooks: list[Callable[[], Any]] = []
@@ -108,6 +116,7 @@ class NodeState:
                 )
             except GazelleError as error:
                 raise ROSException(str(error)) from error
+            self.node.outlives = True
         keep_log(self.node, self.line.special.get("__log", ""))
         self.node.log_level = _LEVELS.get(log_level or 2, Level.INFO)
         offer_loggers(self.node, "rosout")
@@ -182,13 +191,20 @@ class NodeState:
             return self.node.resolve_name(name)
         return resolve(name, self.line.namespace or "/")
 
+    def is_over(self) -> bool:
+        """Tell a program whether the node is shut down; one that knows is left to its end."""
+        over = self.stopping.is_set()
+        if over:
+            self._aware.add(threading.get_ident())
+        return over
+
     def check_running(self) -> None:
         """Raise when the node is shut down.
 
         Raises:
             ROSInterruptException: it is.
         """
-        if self.stopping.is_set():
+        if self.is_over():
             raise ROSInterruptException("rospy shutdown")
 
     def _check_again(self, name: str) -> None:
@@ -213,7 +229,12 @@ class NodeState:
         signal.signal(signal.SIGINT, self._on_signal)
         signal.signal(signal.SIGTERM, self._on_signal)
 
-    def _on_signal(self, number: int, frame: Any) -> None:
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        if number == signal.SIGINT and self.stopping.is_set():
+            # Who asks once more does not want to wait.
+            signal.default_int_handler(number, frame)
+        if number == signal.SIGINT:
+            threading.Thread(target=self._end_what_waits, daemon=True).start()
         # Hooks publish and wait; that must not happen inside the handler of a held lock.
         thread = threading.Thread(target=self.shut_down, args=(f"signal-{number}",), daemon=True)
         thread.start()
@@ -225,6 +246,24 @@ class NodeState:
             last.start()
         elif self._previous_sigint not in _PLAIN_HANDLERS and callable(self._previous_sigint):
             self._previous_sigint(number, frame)
+
+    def _end_what_waits(self) -> None:
+        """Interrupt the main thread, or leave the others, if they do not know of the shutdown.
+
+        Python goes on waiting when a signal comes, so a program may wait for ever.
+        """
+        self.stopping.wait()
+        time.sleep(_PATIENCE_S)
+        main = threading.main_thread().ident
+        assert main is not None
+        if not _has_code(sys._current_frames().get(main), _JOINING):
+            if main not in self._aware:
+                signal.pthread_kill(main, signal.SIGINT)
+            return
+        others = [one for one in threading.enumerate() if one.ident != main and not one.daemon]
+        if any(one.ident not in self._aware for one in others):
+            sys.stdout.flush()
+            os._exit(128 + signal.SIGINT)
 
     def _on_node_shutdown(self, reason: str) -> None:
         if not self.stopping.is_set():
@@ -239,6 +278,12 @@ class NodeState:
                 if self.node.clock.now_ns():
                     return
                 deadline.wait(0.01)
+
+
+def _has_code(frame: FrameType | None, code: CodeType) -> bool:
+    while frame is not None and frame.f_code is not code:
+        frame = frame.f_back
+    return frame is not None
 
 
 STATE = NodeState()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 import traceback
 import warnings
 from collections.abc import Callable, Mapping
@@ -29,6 +30,8 @@ from gazelle.interfaces import (
 )
 
 __all__ = ["Publisher", "SubscribeListener", "Subscriber", "Topic", "wait_for_message"]
+
+_SLICE_S = 0.1
 
 
 class SubscribeListener:
@@ -72,7 +75,7 @@ class Topic:
 
     def get_num_connections(self) -> int:
         """Return how many subscribers a publisher has, or publishers a subscriber."""
-        if self.impl is None:
+        if self.impl is None or STATE.stopping.is_set():
             return 0
         is_publisher = isinstance(self.impl, _Publisher)
         return int(self.impl.subscription_count if is_publisher else self.impl.publisher_count)
@@ -133,8 +136,7 @@ class Publisher(Topic):
 
         Raises:
             TypeError: the arguments make no message of the topic's type.
-            ROSException: `init_node` was not called yet, the topic was unregistered or the node
-                is shut down.
+            ROSException: `init_node` was not called yet, or the topic was unregistered.
             ROSSerializationException: a field's value does not fit its type.
         """
         if self._is_unregistered:
@@ -143,8 +145,6 @@ class Publisher(Topic):
             raise ROSException(
                 "ROS node has not been initialized yet. Please call init_node() first"
             )
-        if STATE.stopping.is_set() and (STATE.node is None or STATE.node.closed):
-            raise ROSException("publish() to a closed topic")
         message = message_of(self.data_class, args, kwds)
         try:
             self.impl.publish(message)
@@ -314,12 +314,17 @@ def wait_for_message(topic: str, topic_type: type[Ros1Message], timeout: Any = N
 
     STATE.require("wait_for_message")
     subscriber = Subscriber(topic, topic_type, take)
-    STATE.add_early_hook(lambda _reason: arrived.set())
+    deadline_s = None if seconds is None else time.monotonic() + seconds
     try:
-        if not arrived.wait(seconds):
-            raise ROSException(f"timeout exceeded while waiting for message on topic {topic}")
-        if not got:
-            raise ROSInterruptException("rospy shutdown")
-        return got[0]
+        while not STATE.stopping.is_set():
+            left_s = _SLICE_S
+            if deadline_s is not None:
+                left_s = min(_SLICE_S, max(0.0, deadline_s - time.monotonic()))
+            if arrived.wait(left_s) or left_s < _SLICE_S:
+                break
     finally:
         subscriber.unregister()
+    STATE.check_running()
+    if not got:
+        raise ROSException(f"timeout exceeded while waiting for message on topic {topic}")
+    return got[0]
