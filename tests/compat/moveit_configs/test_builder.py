@@ -318,3 +318,16 @@ def test_urdf_that_is_not_there_comes_by_topic(
     MoveItConfigsBuilder("arm").robot_description("config/arn.urdf.xacro")
     assert "did you mean 'arm.urdf.xacro'?" in caplog.text
     assert "will be loaded from /robot_description topic" in caplog.text
+
+
+def test_what_xacro_says_reaches_standard_error_once(
+    config: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _write(config, "start.yaml", "j: 0.5\n")
+    text = "${load_yaml('" + str(config / "start.yaml") + "')['j']}"
+    _write(config, "arm.urdf.xacro", _URDF.replace("$(arg tip)", text))
+    assert '<link name="0.5"/>' in MoveItConfigsBuilder("arm").to_moveit_configs().to_dict()[
+        "robot_description"
+    ]  # fmt: skip
+    said = "Using load_yaml() directly is deprecated. Use xacro.load_yaml() instead."
+    assert capsys.readouterr().err.count(said) == 1

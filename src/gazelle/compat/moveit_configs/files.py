@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -114,9 +115,14 @@ def load_xacro(file_path: Path, mappings: Mapping[str, Any] | None = None) -> st
     if expanded is None:
         raise UserFileError(tuple(diagnostics))
     remember(expanded)
-    with run_session(workspace, arguments=arguments) as (library, session):
+    # What the library says goes where the original lets it: on standard error of the launch.
+    with run_session(workspace, arguments=arguments, console=_to_stderr) as (library, session):
         document: Any = library.process_file(str(file_path), mappings=session.arguments)
         return str(document.toxml())
+
+
+def _to_stderr(piece: str) -> None:
+    sys.stderr.write(piece)
 
 
 def get_path(package_name: str, file_path: str) -> str:
