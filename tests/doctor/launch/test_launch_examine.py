@@ -65,6 +65,18 @@ def test_spawner_that_ends_is_neither_required_nor_respawned(
     assert codes(launched(QUIET, ROBOT, SPAWN.format(f"{ARGS} -b", f' {word}="true"'))) == []
 
 
+def test_parameters_of_nodes_that_change_nothing_are_told_where_they_stand(
+    launched: Launch,
+) -> None:
+    node = (
+        '<node name="m" pkg="gmapping" type="slam_gmapping">\n<param name="particles" value="30"/>'
+    )
+    report = launched(f'{node}<param name="delta" value="0.1"/></node>')
+    (found,) = [item for item in report.findings if item.code == "navigation.idle-parameter"]
+    assert found.message.startswith("'/m': parameter 'particles' has no effect here: the map is")
+    assert found.span is not None and found.span.line == 2
+
+
 def test_paused_world_is_a_notice_unless_a_spawner_unpauses(launched: Launch) -> None:
     paused = WORLD.format('<arg name="paused" value="true"/>')
     assert "doctor.paused" in codes(launched(paused, ROBOT, SPAWN.format(ARGS, "")), "info")

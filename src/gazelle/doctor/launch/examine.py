@@ -15,7 +15,11 @@ from gazelle.doctor.launch.frame_checks import check_frames, frames_section
 from gazelle.doctor.launch.frames import frames_of
 from gazelle.doctor.launch.launched import Launched, Role, launched_from
 from gazelle.doctor.launch.name_checks import check_descriptions, check_remaps, check_topics
-from gazelle.doctor.launch.node_checks import check_nodes, nodes_section
+from gazelle.doctor.launch.node_checks import (
+    check_idle_parameters,
+    check_nodes,
+    nodes_section,
+)
 from gazelle.doctor.launch.node_topics import topics_of
 from gazelle.doctor.launch.parameter_places import placed
 from gazelle.doctor.launch.plan import start_plan
@@ -154,6 +158,7 @@ def _check(launched: Launched, starts: dict[str, DryStart], examination: Examina
     topics = topics_of(launched, starts)
     check_descriptions(launched, diagnostics)
     check_nodes(launched, diagnostics)
+    check_idle_parameters(launched, diagnostics)
     check_clock(launched, starts, diagnostics)
     check_remaps(launched, topics, diagnostics)
     check_topics(launched, topics, diagnostics)

@@ -7,8 +7,9 @@ import shlex
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
+from gazelle.nodes.idle_parameters import idle_parameters
 
-__all__ = ["check_nodes", "nodes_section"]
+__all__ = ["check_idle_parameters", "check_nodes", "nodes_section"]
 
 _ENDS = frozenset({Role.MODEL_SPAWNER})
 _BOND = "-b"
@@ -36,6 +37,24 @@ def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
             text = f"'{node.full_name}' is started again after it has spawned its model, and fails "
             text += "for ever since the model is there already"
             diagnostics.report("doctor.respawn-ends", text, node.spec.span)
+
+
+def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report parameters of built-in nodes that are known and change nothing here."""
+    for node in launched.nodes:
+        builtin = node.executable.builtin if node.executable is not None else None
+        values = launched.parameters.get(node.full_name) if _has_own(launched, node) else {}
+        if builtin is None or not isinstance(values, dict):
+            continue
+        for item in idle_parameters(f"{builtin.package}/{builtin.type}", values, 1):
+            text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
+            name = f"{node.full_name}/{item.key.replace('.', '/')}"
+            span = launched.places.get(name, node.spec.span)
+            diagnostics.report("navigation.idle-parameter", text, span)
+
+
+def _has_own(launched: Launched, node: LaunchedNode) -> bool:
+    return launched.parameters.has(node.full_name)
 
 
 def nodes_section(launched: Launched) -> Section:

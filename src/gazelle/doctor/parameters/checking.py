@@ -11,6 +11,7 @@ from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import check_controllers, controllers_in
 from gazelle.doctor.parameters.description_text import check_description_text
 from gazelle.doctor.parameters.document import read_document
+from gazelle.doctor.parameters.idle import check_idle
 from gazelle.doctor.parameters.layouts import Layout, check_layout, layout_of
 from gazelle.doctor.parameters.names import NameFiles, check_names, read_name_files
 from gazelle.doctor.parameters.robots import robots_for, whole_robots
@@ -54,6 +55,8 @@ def check_parameter_file(
     loader = 1 if layout is Layout.MOVEIT else reader
     check_values(document, layout, loader, diagnostics, joints=joints)
     check_controllers(controllers_in(document, layout), diagnostics)
+    if layout is Layout.ROS2 and reader == 2:
+        check_idle(document, diagnostics)
 
 
 def check_package_parameters(

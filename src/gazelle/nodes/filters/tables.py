@@ -14,7 +14,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.table import Row, Table, refused
 
-__all__ = ["POSE_EKF", "ekf_table", "report_ekf", "report_pose_ekf", "threshold_owners"]
+__all__ = ["POSE_EKF", "SWITCHES", "ekf_table", "report_ekf", "report_pose_ekf", "threshold_owners"]
 
 _INPUT = re.compile(r"(odom|pose|twist|imu)\d+")
 _INSIDE = "what the original tells of its inside; its state is on the topic"
@@ -23,7 +23,7 @@ _LATEST = "the latest transform is taken"
 _COMMANDS = "commands do not count; odometry and IMU do"
 _QUEUES = "as many messages wait as the node needs"
 # They ask for nothing while they are false.
-_SWITCHES = frozenset(
+SWITCHES = frozenset(
     {
         "debug", "disabled_at_startup", "dynamic_process_noise_covariance", "gps_used",
         "permit_corrected_publication", "predict_to_current_time", "print_diagnostics",
@@ -111,7 +111,7 @@ def threshold_owners(name: str) -> dict[str, str]:
 
 
 def _report(table: Table, tree: Mapping[str, Any], name: str, diagnostics: Diagnostics) -> None:
-    asked = {key: value for key, value in tree.items() if value or key not in _SWITCHES}
+    asked = {key: value for key, value in tree.items() if value or key not in SWITCHES}
     Settings(table, asked, name, diagnostics).report_unknown()
 
 

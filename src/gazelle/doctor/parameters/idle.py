@@ -1,0 +1,57 @@
+"""Parameters of nodes in a file of ROS 2 that are known and change nothing here."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import yaml
+
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.doctor.parameters.document import Document, plain
+from gazelle.doctor.parameters.layouts import MARK
+from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
+
+__all__ = ["check_idle"]
+
+
+def check_idle(document: Document, diagnostics: Diagnostics) -> None:
+    """Report what the nodes of a file read and do not use, each at its line.
+
+    Args:
+        document: a file of ROS 2: names of nodes, ``ros__parameters``, parameters.
+        diagnostics: receives ``navigation.idle-parameter``.
+    """
+    for path, values in _nodes(document.root, ()):
+        node = node_of_name(path[-1])
+        found = plain(values)
+        if not node or not isinstance(found, dict):
+            continue
+        for item in idle_parameters(node, found, 2):
+            text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
+            diagnostics.report("navigation.idle-parameter", text, _span(document, values, item.key))
+
+
+def _nodes(
+    node: yaml.MappingNode, above: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], yaml.Node]]:
+    for key, value in node.value:
+        if key.value == MARK and above:
+            yield above, value
+        elif isinstance(value, yaml.MappingNode):
+            yield from _nodes(value, (*above, str(key.value).strip("/")))
+
+
+def _span(document: Document, node: yaml.Node, name: str) -> SourceSpan:
+    """Return the place of a key; levels may be written as mappings or with dots."""
+    place = node
+    words = name.split(".")
+    while words and isinstance(node, yaml.MappingNode):
+        for count in range(len(words), 0, -1):
+            key = ".".join(words[:count])
+            pair = next((pair for pair in node.value if pair[0].value == key), None)
+            if pair is not None:
+                place, node, words = pair[0], pair[1], words[count:]
+                break
+        else:
+            break
+    return document.span(place)

@@ -1,0 +1,152 @@
+"""Which parameters of a node of navigation, localisation or SLAM are known and change nothing.
+
+Nodes tell it themselves when they start; this tells it of files that nobody has started.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import Any, Literal, NamedTuple
+
+from gazelle.navigation.controllers import CONTROLLERS
+from gazelle.navigation.costmap.options import (
+    InflationOptions,
+    ObstacleOptions,
+    StaticOptions,
+    VoxelOptions,
+)
+from gazelle.navigation.planners import PLANNERS
+from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.filters.tables import POSE_EKF, SWITCHES, ekf_table
+from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
+from gazelle.nodes.move_base.local import local_planner_tables
+from gazelle.nodes.move_base.planner import planner_tables
+from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
+from gazelle.nodes.nav2 import tables as nav2
+from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
+from gazelle.nodes.navigation.assembling import costmap_table, layer_table
+from gazelle.nodes.navigation.settings import flat, nested
+from gazelle.nodes.navigation.table import Table
+from gazelle.nodes.slam.explore import EXPLORE
+from gazelle.nodes.slam.flavours import FLAVOURS
+
+__all__ = ["IdleParameter", "idle_parameters", "node_of_name"]
+
+Generation = Literal[1, 2]
+
+_COSTMAPS = ("local_costmap", "global_costmap")
+_LAYERS = (StaticOptions, ObstacleOptions, VoxelOptions, InflationOptions)
+# What launch files of ROS 2 call nodes whose executable has another name.
+_NAMES = {
+    "ekf_filter_node": "robot_localization/ekf_node",
+    "lifecycle_manager_localization": "nav2_lifecycle_manager/lifecycle_manager",
+    "lifecycle_manager_navigation": "nav2_lifecycle_manager/lifecycle_manager",
+    "slam_toolbox": "slam_toolbox/async_slam_toolbox_node",
+}
+
+
+class IdleParameter(NamedTuple):
+    """A parameter without effect: its name with dots, and why it has none."""
+
+    key: str
+    reason: str
+
+
+def idle_parameters(
+    node: str, values: Mapping[str, Any], generation: Generation
+) -> tuple[IdleParameter, ...]:
+    """Return the parameters of a node that are known and have no effect here.
+
+    Args:
+        node: ``package/type``, or ``costmap`` for the node of a costmap in ROS 2.
+        values: its parameters by their names below the node.
+        generation: of ROS.
+    """
+    tree = nested(values)
+    if node in _EKF:
+        table: Table | None = ekf_table(tree)
+    else:
+        table = costmap_table(generation) if node == "costmap" else _tables(generation).get(node)
+    return () if table is None else tuple(_walk(table, tree, "", generation))
+
+
+def node_of_name(name: str) -> str:
+    """Return what is meant by the name of a node in a file of ROS 2, empty when it is not known."""
+    own = name.strip("/").rpartition("/")[2]
+    if own in _COSTMAPS:
+        return "costmap"
+    if own in _NAMES:
+        return _NAMES[own]
+    return next((node for node in _tables(2) if node.rpartition("/")[2] == own), "")
+
+
+def _walk(
+    table: Table, tree: Mapping[str, Any], prefix: str, generation: Generation
+) -> Iterator[IdleParameter]:
+    kinds = _kinds(tree)
+    for key, value in tree.items():
+        if isinstance(value, Mapping):
+            below = _below(key, value, kinds, generation)
+            if below is not None:
+                yield from _walk(below, value, f"{prefix}{key}.", generation)
+                continue
+        for name, leaf in flat({key: value}):
+            row = table.row_for(name)
+            if row is not None and row.kind == "refused" and (leaf or name not in SWITCHES):
+                yield IdleParameter(f"{prefix}{name}", row.meaning)
+
+
+def _below(
+    key: str, value: Mapping[str, Any], kinds: Mapping[str, str], generation: Generation
+) -> Table | None:
+    if key in _COSTMAPS:
+        return costmap_table(generation)
+    return _plugins(generation).get(_plain(str(value.get("plugin", kinds.get(key, "")))))
+
+
+def _kinds(tree: Mapping[str, Any]) -> dict[str, str]:
+    """Return the types of plug-ins by their names: of ROS 1's lists, else the type's last word."""
+    kinds = {}
+    for value in tree.values():
+        if isinstance(value, str) and "/" in value:
+            kinds[value.rpartition("/")[2]] = value
+        for item in value if isinstance(value, list) else ():
+            if isinstance(item, Mapping) and {"name", "type"} <= set(item):
+                kinds[str(item["name"])] = str(item["type"])
+    return kinds
+
+
+def _plain(plugin: str) -> str:
+    return plugin.replace("/", "::")
+
+
+@cache
+def _tables(generation: Generation) -> dict[str, Table]:
+    """Return the tables of nodes by ``package/type``."""
+    slam = [flavour.table for flavour in FLAVOURS.values()]
+    if generation == 1:
+        tables = [*slam, amcl_table(1), MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, ekf_table({})]
+    else:
+        tables = [
+            *slam, amcl_table(2), EXPLORE, ekf_table({}), COLLISION_MONITOR, nav2.PLANNER_SERVER,
+            nav2.CONTROLLER_SERVER, nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR, nav2.SMOOTHER_SERVER,
+            nav2.WAYPOINT_FOLLOWER, nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
+        ]  # fmt: skip
+    return {name: table for table in tables for name in table.types}
+
+
+@cache
+def _plugins(generation: Generation) -> dict[str, Table]:
+    """Return the tables of plug-ins by their types."""
+    tables = [layer_table(options, generation) for options in _LAYERS]
+    if generation == 1:
+        tables += [*planner_tables(), *local_planner_tables(), CLEAR, ROTATE, SLOW]
+    else:
+        tables += [nav2.planner_table(name) for name in PLANNERS if "::" in name]
+        tables += [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]
+        tables += [*nav2.GOAL_CHECKERS.values(), *nav2.PROGRESS_CHECKERS.values(), nav2.SMOOTHER]
+    return {_plain(name): table for table in tables for name in table.types}
+
+
+_EKF = frozenset(ekf_table({}).types)

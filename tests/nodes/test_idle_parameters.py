@@ -1,0 +1,37 @@
+"""Parameters without effect are known before a node is started."""
+
+from __future__ import annotations
+
+from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
+
+
+def test_slam_and_localisation_by_their_names() -> None:
+    (one,) = idle_parameters("gmapping/slam_gmapping", {"particles": 30, "delta": 0.05}, 1)
+    assert one == ("particles", "the map is a graph of poses, not a filter with particles")
+    values = {"odom0": "/o", "odom0_queue_size": 2, "use_control": False, "debug": True}
+    found = idle_parameters("robot_localization/ekf_node", values, 2)
+    assert [item.key for item in found] == ["odom0_queue_size", "debug"]
+    assert idle_parameters("my_robot/driver", {"particles": 1}, 1) == ()
+
+
+def test_plug_ins_and_layers_are_looked_through() -> None:
+    values = {
+        "base_local_planner": "dwa_local_planner/DWAPlannerROS",
+        "DWAPlannerROS": {"max_vel_x": 1.0, "publish_traj_pc": True},
+        "global_costmap/plugins": [{"name": "still", "type": "costmap_2d::StaticLayer"}],
+        "global_costmap/still/map_topic": "/map",
+        "local_costmap": {"resolution": 0.05, "always_send_full_costmap": True},
+    }
+    found = idle_parameters("move_base/move_base", values, 1)
+    assert [item.key for item in found] == ["DWAPlannerROS.publish_traj_pc"]
+    values = {"static_layer": {"plugin": "nav2_costmap_2d::StaticLayer",
+                               "map_subscribe_transient_local": True}}  # fmt: skip
+    (one,) = idle_parameters("costmap", values, 2)
+    assert one.key == "static_layer.map_subscribe_transient_local"
+
+
+def test_nodes_by_the_names_that_files_use() -> None:
+    assert node_of_name("/robot1/controller_server") == "nav2_controller/controller_server"
+    assert node_of_name("local_costmap") == "costmap"
+    assert node_of_name("ekf_filter_node") == "robot_localization/ekf_node"
+    assert node_of_name("my_driver") == ""
