@@ -113,6 +113,76 @@ def test_missing_hardware_is_one_error_that_controllers_refer_to(
     assert "<ros2_control> block" not in text
 
 
+def _hardware(bench: Any) -> dict[str, Any]:
+    kind = "controller_manager_msgs/srv/ListHardwareComponents"
+    found = bench.call("/controller_manager/list_hardware_components", kind).component
+    return {one.name: one for one in found}
+
+
+def test_compiled_hardware_is_mocked_where_that_is_asked_for(
+    bench: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GAZELLE_MOCK_HARDWARE", "1")
+    _publish(bench, "shop_driver/ArmHardware")
+    bench.start(_NODE, "--ros-args")
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    arm = _hardware(bench)["arm"]
+    assert (arm.plugin_name, arm.state.label) == ("shop_driver/ArmHardware", "active")
+    assert [one.name for one in arm.command_interfaces] == ["j/position"]
+    assert bench.stop() == [0]
+    text = capsys.readouterr().err
+    assert (
+        "hardware 'arm' is mock_components/GenericSystem in the place of shop_driver/ArmHardware, "
+        "as GAZELLE_MOCK_HARDWARE asks for" in text
+    )
+    assert "[control.hardware-mocked]" in text
+
+
+def test_the_variable_is_offered_for_compiled_hardware(
+    bench: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _publish(bench, "shop_driver/ArmHardware")
+    bench.start(_NODE, "--ros-args")
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    assert not _hardware(bench)
+    assert bench.stop() == [0]
+    assert "or start with GAZELLE_MOCK_HARDWARE=1" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "label"),
+    [
+        (("hardware_components_initial_state.inactive:=[arm]",), "inactive"),
+        (("hardware_components_initial_state.unconfigured:=[arm]",), "unconfigured"),
+        (("activate_components_on_start:=[other]",), "unconfigured"),
+        ((), "active"),
+    ],
+)
+def test_hardware_begins_in_the_state_that_parameters_name(
+    bench: Any, words: tuple[str, ...], label: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", *(word for one in words for word in ("-p", one)))
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    assert _hardware(bench)["arm"].state.label == label
+    assert bench.stop() == [0]
+    captured = capsys.readouterr()
+    told = "Setting component 'arm' to '" in captured.out + captured.err
+    assert told is (label != "active")
+
+
+def test_unknown_hardware_of_the_initial_state_is_told(
+    bench: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", "-p", "hardware_components_initial_state.inactive:=[amr]")
+    bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
+    assert _hardware(bench)["arm"].state.label == "active"
+    assert bench.stop() == [0]
+    captured = capsys.readouterr()
+    assert "Hardware component 'amr' is unknown" in captured.out + captured.err
+
+
 def test_robot_that_is_none_ends_the_node(bench: Any) -> None:
     words = ["--ros-args", "-p", "robot_description:='<robot'"]
     bench.start(_NODE, *words)

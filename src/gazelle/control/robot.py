@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from gazelle.control.bank import InterfaceBank
+from gazelle.control.hardware_lifecycle import HardwareLifecycle
 from gazelle.description.model import Model
 
 __all__ = ["HardwareComponent", "JointLimits", "JointResource", "Robot"]
@@ -116,6 +117,7 @@ class Robot:
         sensor_frames: ``frame_id`` of each sensor.
         absent: hardware by the name of a joint, sensor or gpio that it would give if its class
             were here; that was reported, so nobody else is to blame.
+        lifecycle: states of the components.
     """
 
     generation: int
@@ -126,16 +128,19 @@ class Robot:
     sensors: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     sensor_frames: Mapping[str, str] = field(default_factory=dict)
     absent: Mapping[str, str] = field(default_factory=dict)
+    lifecycle: HardwareLifecycle = field(default_factory=HardwareLifecycle)
 
     def read(self, time_ns: int, period_ns: int) -> None:
         """Measure."""
         for component in self.components:
-            component.read(time_ns, period_ns)
+            if self.lifecycle.reads(component.name):
+                component.read(time_ns, period_ns)
 
     def write(self, time_ns: int, period_ns: int) -> None:
         """Act on the commands."""
         for component in self.components:
-            component.write(time_ns, period_ns)
+            if self.lifecycle.writes(component.name):
+                component.write(time_ns, period_ns)
 
     def check_switch(self, start: frozenset[str], stop: frozenset[str]) -> str:
         """Return why the interfaces cannot be claimed together, empty when they can."""

@@ -12,6 +12,7 @@ _LIDAR = _DRIVER.format("laser scanner", "a <sensor type='gpu_lidar'> or 'ray' p
 _BRIDGE = "a bridge to programs outside of ROS; `gazelle bridge` is one"
 _VIEW = "a window that is not here; `{rviz}` opens Studio, which shows the same topics"
 _PANEL = "a panel of rqt that is not here; `{topic}`, `{param}` and Studio show the same"
+_MANAGER_PANEL = "a panel of rqt that is not here; {controllers} show and do the same"
 _JOYSTICK = "for a joystick; `joy` and `teleop_twist_joy` are here, with the kernel's joysticks"
 _MARKER = "a marker in RViz that drives; Studio's teleop and `teleop_twist_keyboard` drive as well"
 _INDUSTRIAL = "the link to a real arm's controller; `move_group` and ros_control's are here"
@@ -40,7 +41,8 @@ _KNOWN = {
     **dict.fromkeys(("hls_lfcd_lds_driver", "ydlidar_ros2_driver", "ldlidar_stl_ros2"), _LIDAR),
     **dict.fromkeys(("rosbridge_server", "rosbridge_suite", "foxglove_bridge", "rosapi"), _BRIDGE),
     **dict.fromkeys(("ros1_bridge", "web_video_server"), _BRIDGE),
-    **dict.fromkeys(("rqt_joint_trajectory_controller", "rqt_controller_manager"), _PANEL),
+    "rqt_controller_manager": _MANAGER_PANEL,
+    "rqt_joint_trajectory_controller": _PANEL,
     **dict.fromkeys(("plotjuggler", "plotjuggler_ros", "mapviz", "rviz_visual_tools"), _VIEW),
     **dict.fromkeys(("joy_teleop", "spacenav", "spacenav_node", "ps3joy", "wiimote"), _JOYSTICK),
     **dict.fromkeys(("rtabmap_ros", "rtabmap_slam", "rtabmap_launch", "octomap_server"), _MAPPING),
@@ -71,11 +73,14 @@ _COMMANDS = {
         "topic": "rostopic",
         "param": "rosparam",
         "rviz": "rviz",
+        "controllers": "`controller_manager list`, `start` and `stop`",
     },
     2: {
         "topic": "ros2 topic",
         "param": "ros2 param",
         "rviz": "rviz2",
+        "controllers": "`ros2 control list_controllers`, `switch_controllers`, "
+        "`list_hardware_components` and `set_hardware_component_state`",
     },
 }
 
@@ -100,6 +105,8 @@ def missing_package(error: NotFoundError, ros_version: int) -> tuple[str, str]:
     A package of ROS whose work is done by something here cannot be put into a workspace: most are
     C++.
     """
-    known = "" if error.nearest else replacement_of(error.name, ros_version)
+    # A package of the workspace with nearly this name is meant, unless this one is known itself.
+    is_other = bool(error.nearest) and error.name not in _KNOWN
+    known = "" if is_other else replacement_of(error.name, ros_version)
     text = str(error)
     return (text.partition("\n")[0].partition(";")[0] if known else text), known

@@ -1,25 +1,37 @@
 """``controller_manager/ros2_control_node``: controllers without a simulation, on mock hardware.
 
 MoveIt's demo launch files start it. Of hardware it has ``mock_components/GenericSystem``; drivers
-of real robots are compiled code, and Gazebo's systems live in a world.
+of real robots are compiled code, whose place it takes where ``GAZELLE_MOCK_HARDWARE`` is 1, and
+Gazebo's systems live in a world.
 
-Parameters: ``update_rate`` (100 Hz), ``robot_description`` (else the topics ``robot_description``
-and ``~/robot_description``), and those of the controllers in the same files.
+| parameter | default | meaning |
+| --- | --- | --- |
+| update_rate | 100 | Hz |
+| robot_description | | else the topics ``robot_description`` and ``~/robot_description`` |
+| hardware_components_initial_state.unconfigured | | components that are only loaded |
+| hardware_components_initial_state.inactive | | components that are read, not written |
+| defaults.allow_controller_activation_with_inactive_hardware | false | they take commands |
+
+Those of the controllers are in the same files.
 """
 
 from __future__ import annotations
 
+import os
 import threading
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.hardware.gazebo_system import SystemOptions
-from gazelle.control.hardware.ros2_robot import build_ros2_robot
+from gazelle.control.hardware.ros2_robot import MOCK_VARIABLE, build_ros2_robot
+from gazelle.control.hardware_lifecycle import HardwareState, initial_states
+from gazelle.control.robot import Robot
 from gazelle.control.sources.files import FileSource
 from gazelle.description.model import Model
-from gazelle.diagnostics import Diagnostics, Severity, render
+from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, render
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -114,7 +126,8 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
         manager=name,
         overrides={name: given},
     )
-    options = SystemOptions(False, True, 0.0, rate_hz, has_world=False)
+    mocks = os.environ.get(MOCK_VARIABLE, "").strip().lower() not in ("", "0", "false")
+    options = SystemOptions(False, True, 0.0, rate_hz, has_world=False, mocks_compiled=mocks)
     robot = build_ros2_robot(host, model, options)
     manager = ControllerManager(
         robot,
@@ -129,12 +142,30 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
         clock=node.clock.now_ns,
     )
     resources = Resources(host)
+    _set_initial_states(node, robot, source.manager_tree())
     offer_manager(manager, host, resources, name=name)
     render([one for one in host.diagnostics if one.severity >= Severity.WARNING])
     node.log("info", f"update rate is {rate_hz:g} Hz")
     _loop(manager, host, 1.0 / rate_hz, stop)
     resources.close()
     return 0
+
+
+def _set_initial_states(node: Node, robot: Robot, tree: Mapping[str, Any]) -> None:
+    """Bring the components into the states that the manager's parameters name."""
+    defaults = tree.get("defaults")
+    if isinstance(defaults, Mapping):
+        allowed = defaults.get("allow_controller_activation_with_inactive_hardware")
+        robot.lifecycle.takes_inactive = allowed is True
+    for name, state in initial_states(tree, [one.name for one in robot.components]):
+        if state is None:
+            hint = did_you_mean(name, [one.name for one in robot.components])
+            text = f"Hardware component '{name}' is unknown, therefore its state is not set."
+            node.log("warn", f"{text} {hint}".rstrip())
+            continue
+        robot.lifecycle.set(name, state)
+        if state is not HardwareState.ACTIVE:
+            node.log("info", f"Setting component '{name}' to '{state.label}' state.")
 
 
 def _loop(manager: ControllerManager, host: Any, period_s: float, stop: threading.Event) -> None:

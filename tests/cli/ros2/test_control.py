@@ -153,7 +153,13 @@ def test_controllers_are_switched_together(manager, run):
         (("load_controller", "lefd"), "Failed loading controller lefd check controller_manager"),
         (("unload_controller", "lefd"), "Error unloading controller lefd, check controller_man"),
         (("reload_controller_libraries",), "Error reloading libraries, check controller_manager"),
-        (("set_hardware_component_state", "block", "inactive"), "Error setting hardware component"),
+        (("set_hardware_component_state", "block", "active"), "cannot activate block from its "
+         "current state active"),
+        (("set_hardware_component_state", "block", "unconfigured"), "cannot cleanup block from its "
+         "current state active; set it inactive first"),
+        (("set_hardware_component_state", "blok", "inactive"), "component blok does not seem to be "
+         "loaded; did you mean 'block'"),
+        (("cleanup_controller", "lefd"), "Error cleanup controllers, check controller_manager"),
     ],
 )  # fmt: skip
 def test_failures_have_exit_code_1_and_a_reason(manager, run, words, phrase):
@@ -161,6 +167,21 @@ def test_failures_have_exit_code_1_and_a_reason(manager, run, words, phrase):
     code, text = run(*words)
     assert code == 1
     assert phrase in text
+
+
+def test_hardware_goes_from_state_to_state(manager, run):
+    for label, number in (("inactive", 2), ("unconfigured", 1), ("inactive", 2), ("active", 3)):
+        code, text = run("set_hardware_component_state", "block", label)
+        wanted = f"lifecycle_msgs.msg.State(id={number}, label='{label}')"
+        assert (code, text) == (0, f"Successfully set block to state {wanted}\n")
+        assert f"state: id={number} label={label}" in run("list_hardware_components")[1]
+
+
+def test_an_inactive_controller_is_cleaned_up(manager, run):
+    manager.load("left")
+    manager.configure("left")
+    assert run("cleanup_controller", "left") == (0, "Successfully cleaned up controller left\n")
+    assert manager.controllers["left"].state == "unconfigured"
 
 
 def test_reload_with_force_unloads_everything(manager, run):

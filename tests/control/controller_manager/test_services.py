@@ -167,15 +167,55 @@ def test_ros2_lists_hardware_with_what_is_claimed(ros2):
     assert len(component.command_interfaces) == 6
 
 
-def test_ros2_hardware_stays_active(ros2):
-    _, ports, call = ros2
+def _state(number, label):
     state = service_type("controller_manager_msgs/SetHardwareComponentState").Request().target_state
-    state.id, state.label = 2, "inactive"
-    answer = call("set_hardware_component_state", name="block", target_state=state)
+    state.id, state.label = number, label
+    return state
+
+
+def test_ros2_hardware_is_read_but_not_written_while_inactive(ros2):
+    bench, _, call = ros2
+    answer = call("set_hardware_component_state", name="block", target_state=_state(2, ""))
+    assert (answer.ok, answer.state.id, answer.state.label) == (True, 2, "inactive")
+    bench.manager.update(1_000_000, 1_000_000)
+    assert bench.hardware.log == [("read", 1_000_000)]
+    assert call("set_hardware_component_state", name="block", target_state=_state(0, "active")).ok
+    bench.hardware.log.clear()
+    bench.manager.update(2_000_000, 1_000_000)
+    assert [word for word, _ in bench.hardware.log] == ["read", "write"]
+
+
+def test_ros2_hardware_that_is_unconfigured_has_no_interfaces(ros2):
+    bench, ports, call = ros2
+    robot = bench.manager.robot
+    names = (*robot.bank.command_index, *robot.bank.state_index)
+    robot.lifecycle.owners = dict.fromkeys(names, "block")
+    call("load_controller", name="a")
+    call("configure_controller", name="a")
+    call("set_hardware_component_state", name="block", target_state=_state(1, "unconfigured"))
+    (component,) = call("list_hardware_components").component
+    assert component.state.label == "unconfigured"
+    assert not any(one.is_available for one in component.command_interfaces)
+    answer = call("switch_controller", activate_controllers=["a"], strictness=2)
+    assert not answer.ok
+    assert (
+        "command interface with 'left/effort' is not available: hardware 'block' is unconfigured"
+        in answer.message
+    )
+    call("set_hardware_component_state", name="block", target_state=_state(3, "active"))
+    assert call("switch_controller", activate_controllers=["a"], strictness=2).ok
+    call("set_hardware_component_state", name="block", target_state=_state(2, "inactive"))
+    assert any("no longer active while controllers command it: a" in text
+               for level, text in ports.lines if level == "warn")  # fmt: skip
+
+
+def test_ros2_wrong_hardware_and_states_are_named(ros2):
+    _, ports, call = ros2
+    assert not call("set_hardware_component_state", name="blok", target_state=_state(2, "")).ok
+    assert "'blok' does not exist; did you mean 'block'" in ports.lines[-1][1]
+    answer = call("set_hardware_component_state", name="block", target_state=_state(0, "activ"))
     assert (answer.ok, answer.state.label) == (False, "active")
-    assert "stays active" in ports.lines[-1][1]
-    assert not call("set_hardware_component_state", name="blok", target_state=state).ok
-    assert "'blok' does not exist; there are: block" in ports.lines[-1][1]
+    assert "no state 'activ'; there are: unconfigured, inactive, active" in ports.lines[-1][1]
 
 
 def test_ros2_types_set_as_parameters_count_when_loading(ros2):

@@ -13,6 +13,7 @@ from gazelle.control.controllers.joint_state_broadcaster import JointStateBroadc
 from gazelle.control.controllers.joint_state_controller import JointStateController
 from gazelle.control.controllers.publish_rate import PublishRate
 from gazelle.control.errors import ControllerError
+from gazelle.control.hardware_lifecycle import HardwareState
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.diagnostics import Diagnostics
 
@@ -180,3 +181,15 @@ def test_broadcaster_publishes_chosen_interfaces_of_chosen_joints() -> None:
     with pytest.raises(ControllerError, match="'b' has position"):
         parameters["interfaces"] = ["velocity"]
         make_controller(JointStateBroadcaster, robot, parameters)
+
+
+def test_broadcaster_takes_what_is_configured_when_it_starts() -> None:
+    robot, _ = make_robot(ROWS)
+    robot.lifecycle.owners = {name: name.split("/")[0] for name in robot.bank.state_index}
+    robot.lifecycle.set("b", HardwareState.UNCONFIGURED)
+    controller, ports = make_controller(JointStateBroadcaster, robot, {})
+    for state, names in ((HardwareState.INACTIVE, ["a", "b"]), (HardwareState.UNCONFIGURED, ["a"])):
+        robot.lifecycle.set("b", state)
+        controller.start(0)
+        run(robot, controller, 1)
+        assert ports.publishers["joint_states"].messages[-1].name == names

@@ -167,6 +167,7 @@ class ControllerManager:
             strict=strict,
             generation=self.robot.generation,
             check=self.robot.check_switch,
+            refusal=self._refusal,
         )
         self._carry_out(plan)
         return tuple(plan.notes)
@@ -272,6 +273,12 @@ class ControllerManager:
         failed = [record.name for record in plan.start if not self._call(record, "start", now)]
         if failed:
             raise ControllerError(f"Unable to activate controllers: [ {' '.join(failed)} ]")
+
+    def _refusal(self, record: ControllerRecord) -> str:
+        """Return why a controller cannot be activated, empty when its hardware is ready."""
+        if record.controller is not None and record.controller.takes_all_states:
+            return self.robot.lifecycle.refusal(record.name, record.commands, ())
+        return self.robot.lifecycle.refusal(record.name, record.commands, record.states)
 
     def _make(self, record: ControllerRecord) -> None:
         self._maker.make(record)

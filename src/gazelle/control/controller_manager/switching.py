@@ -11,6 +11,7 @@ from gazelle.diagnostics import did_you_mean
 
 __all__ = ["SwitchPlan", "plan_switch"]
 
+Refusal = Callable[[ControllerRecord], str]
 Check = Callable[[frozenset[str], frozenset[str]], str]
 
 
@@ -47,6 +48,7 @@ def plan_switch(
     strict: bool,
     generation: int,
     check: Check,
+    refusal: Refusal = lambda record: "",
 ) -> SwitchPlan:
     """Return what to start and stop.
 
@@ -57,11 +59,12 @@ def plan_switch(
         strict: anything that cannot be done fails the whole switch; else it is left out.
         generation: 1 lets one controller at a time have a joint, 2 an interface of a joint.
         check: asks the hardware, with what is claimed and released.
+        refusal: why a controller cannot be activated now, empty when it can.
 
     Raises:
         ControllerError: the switch cannot be done; nothing has changed.
     """
-    planner = _Planner(records, strict=strict, generation=generation)
+    planner = _Planner(records, refusal, strict=strict, generation=generation)
     plan = planner.plan(tuple(dict.fromkeys(start)), tuple(dict.fromkeys(stop)))
     reason = check(plan.claims, plan.releases) if plan.start or plan.stop else ""
     if reason:
@@ -76,9 +79,14 @@ def plan_switch(
 
 class _Planner:
     def __init__(
-        self, records: Mapping[str, ControllerRecord], *, strict: bool, generation: int
+        self,
+        records: Mapping[str, ControllerRecord],
+        refusal: Refusal,
+        *,
+        strict: bool,
+        generation: int,
     ) -> None:
-        self._records = records
+        self._records, self._refusal = records, refusal
         self._strict = strict
         self._generation = generation
         self._verbs = ("start", "stop") if generation == 1 else ("activate", "deactivate")
@@ -112,6 +120,10 @@ class _Planner:
         if record.is_active and name not in stop:
             word = "running" if self._generation == 1 else "active"
             self._leave_out(f"Controller '{name}' is already {word}")
+            return None
+        reason = self._refusal(record)
+        if reason:
+            self._leave_out(reason)
             return None
         return record
 

@@ -115,9 +115,11 @@ class Controller:
         TABLE: what the documentation says.
         commands: command interfaces it claims while active.
         states: state interfaces it reads.
+        takes_all_states: it reads whatever is there, so none of them has to be.
     """
 
     TABLE: ClassVar[ControllerTable]
+    takes_all_states: bool = False
 
     def __init__(self, context: ControllerContext) -> None:
         """Keep the context; subclasses go on from here."""

@@ -68,24 +68,17 @@ class JointStateBroadcaster(Controller):
         """Look up the interfaces."""
         super().__init__(context)
         parameters = context.parameters
-        self.states = self._wanted()
-        if not self.states:
+        self._wishes = self._wanted()
+        # Whoever asks for everything takes what is there when it starts.
+        self.takes_all_states = self._wishes == tuple(self.robot.bank.state_index)
+        if not self._wishes:
             text = f"{context.name}: No state interfaces found to publish."
             if self.robot.absent:
                 names = "', '".join(dict.fromkeys(self.robot.absent.values()))
                 text += f" Hardware '{names}' was not loaded (see above)"
             raise ControllerError(text)
-        places = context.state_places(self.states)
-        mapping = self._mapping()
-        self._values: dict[str, dict[str, int]] = {}
-        for state, place in zip(self.states, places.tolist(), strict=True):
-            owner, _, interface = state.rpartition("/")
-            self._values.setdefault(owner, {})[mapping.get(interface, interface)] = place
-        self._extra = [
-            name for name in parameters.texts("extra_joints") if name not in self._values
-        ]
-        self._names = [*self._joint_names(), *self._extra]
-        self._columns = [self._column(field) for field in _FIELDS]
+        self._interface_names = self._mapping()
+        self._look_up()
         self._frame_id = parameters.text("frame_id")
         prefix = "~/" if parameters.flag("use_local_topics") else ""
         ports = context.ports
@@ -94,6 +87,26 @@ class JointStateBroadcaster(Controller):
         if parameters.flag("publish_dynamic_joint_states"):
             topic, kind = f"{prefix}dynamic_joint_states", "control_msgs/DynamicJointState"
             self._dynamic = ports.publisher(topic, kind)
+
+    def start(self, time_ns: int) -> None:
+        """Take the interfaces of the hardware that is configured by now."""
+        self._look_up()
+
+    def _look_up(self) -> None:
+        found = self._wishes
+        if self.takes_all_states:
+            found = self.robot.lifecycle.available(found)
+        self.states = found
+        places = self.context.state_places(found)
+        self._values: dict[str, dict[str, int]] = {}
+        for state, place in zip(found, places.tolist(), strict=True):
+            owner, _, interface = state.rpartition("/")
+            name = self._interface_names.get(interface, interface)
+            self._values.setdefault(owner, {})[name] = place
+        extra = self.context.parameters.texts("extra_joints")
+        self._extra = [name for name in extra if name not in self._values]
+        self._names = [*self._joint_names(), *self._extra]
+        self._columns = [self._column(field) for field in _FIELDS]
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Publish what somebody listens to."""

@@ -38,6 +38,7 @@ class SystemOptions(NamedTuple):
         position_proportional_gain: gz-sim's: share of the error made up for in a period.
         update_rate_hz: of the control loop.
         has_world: False where there is no simulation, and mock hardware is what is wanted.
+        mocks_compiled: mock hardware takes the place of classes that are not here.
     """
 
     is_gz: bool
@@ -45,6 +46,7 @@ class SystemOptions(NamedTuple):
     position_proportional_gain: float = 0.1
     update_rate_hz: float = 100.0
     has_world: bool = True
+    mocks_compiled: bool = False
 
 
 class GazeboSystem:

@@ -50,7 +50,6 @@ class GenericSystem:
         mimics: joints that follow others.
     """
 
-    type = "system"
     writes_every_step = False
 
     def __init__(
@@ -60,7 +59,7 @@ class GenericSystem:
         joints: Sequence[JointResource],
         mimics: Sequence[Ros2Mimic] = (),
     ) -> None:
-        self.name, self.plugin = tag.name, tag.plugin
+        self.name, self.type, self.plugin = tag.name, tag.type, tag.plugin
         self.joints = tuple(joints)
         self._bank = bank
         options = tag.parameters

@@ -12,11 +12,16 @@ from gazelle.control.hardware.host import HardwareHost
 from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, resource_of
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
+from gazelle.control.hardware_lifecycle import HardwareLifecycle
 from gazelle.control.robot import Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
 
-__all__ = ["build_ros2_robot"]
+__all__ = ["MOCK_VARIABLE", "build_ros2_robot"]
+
+MOCK_VARIABLE = "GAZELLE_MOCK_HARDWARE"
+"""Variable that has mock hardware in the place of compiled classes that are not here."""
+
 
 _CLASSIC = ("gazebo_ros2_control/GazeboSystem",)
 _GZ = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem")
@@ -68,10 +73,20 @@ class _Builder:
         self._interfaces: dict[str, tuple[str, ...]] = {}
         self._frames: dict[str, str] = {}
         self._absent: dict[str, str] = {}
+        self._owners: dict[str, str] = {}
 
     def add(self, tag: HardwareTag) -> None:
         """Make the hardware of a block; a block whose class is unknown is reported only."""
+        self._make(tag)
+        for name in (*self._bank.command_index, *self._bank.state_index):
+            self._owners.setdefault(name, tag.name)
+
+    def _make(self, tag: HardwareTag) -> None:
         plugin = tag.plugin.replace("::", "/")
+        if plugin not in self._known() and self._options.mocks_compiled:
+            self._report_mocked(tag)
+            self._add_mock(tag)
+            return
         if plugin not in self._known():
             self._absent.update({part.name: tag.name for part in tag.parts})
             self._report_unknown(tag)
@@ -101,6 +116,7 @@ class _Builder:
             self._interfaces,
             self._frames,
             {name: tag for name, tag in self._absent.items() if name not in held},
+            HardwareLifecycle(self._owners),
         )
 
     def _add_simulated(self, tag: HardwareTag, options: SystemOptions) -> None:
@@ -154,7 +170,15 @@ class _Builder:
             best = _MOCK[0]
         hint = did_you_mean(plugin, self._known())
         hint = hint or f"where the real robot is not, write <plugin>{best}</plugin>"
+        if not self._options.has_world and package and plugin not in _KNOWN:
+            hint += f", or start with {MOCK_VARIABLE}=1: commands come back as states"
         self._host.diagnostics.report("control.hardware-plugin", text, tag.span, fix=hint)
+
+    def _report_mocked(self, tag: HardwareTag) -> None:
+        text = f"hardware '{tag.name}' is {_MOCK[0]} in the place of {tag.plugin}, as "
+        text += f"{MOCK_VARIABLE} asks for: commands come back as states"
+        fix = f"unset {MOCK_VARIABLE} where the real robot is"
+        self._host.diagnostics.report("control.hardware-mocked", text, tag.span, fix=fix)
 
     def _report_elsewhere(self, tag: HardwareTag, what: str) -> None:
         best = _GZ[0] if self._options.is_gz else _CLASSIC[0]

@@ -165,6 +165,14 @@ _ROS2 = (
         idle=True,
     ),
     Entry(
+        "control.hardware-mocked",
+        "warning",
+        "Mock hardware takes the place of a compiled class",
+        "GAZELLE_MOCK_HARDWARE asks for it: commands come back as states, sensors measure nothing, "
+        "and parameters of the real hardware have no effect.",
+        "unset GAZELLE_MOCK_HARDWARE where the real robot is",
+    ),
+    Entry(
         "control.hardware-plugin",
         "error",
         "The hardware of a <ros2_control> block is not simulated",

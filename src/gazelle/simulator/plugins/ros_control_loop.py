@@ -85,7 +85,7 @@ class _Loop:
 
     def write(self) -> None:
         for component in self._robot.components:
-            if component.writes_every_step:
+            if component.writes_every_step and self._robot.lifecycle.writes(component.name):
                 component.write(self._engine.time_ns, self._engine.step_ns)
 
     def reset(self) -> None:

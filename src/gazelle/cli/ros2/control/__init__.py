@@ -61,6 +61,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     rows = (
+        ("cleanup_controller", "Cleanup a controller in a controller manager"),
         ("list_controller_types", "Output the available controller types and their base classes"),
         ("list_controllers", "Output the list of loaded controllers, their type and status"),
         ("list_hardware_components", "Output the list of available hardware components"),
@@ -104,7 +105,8 @@ def _add_changing(found: dict[str, argparse.ArgumentParser]) -> None:
     verb = found["set_hardware_component_state"]
     verb.add_argument("hardware_component_name")
     verb.add_argument("state", choices=states)
-    found["unload_controller"].add_argument("controller_name", help=_NAME)
+    for name in ("cleanup_controller", "unload_controller"):
+        found[name].add_argument("controller_name", help=_NAME)
     found["reload_controller_libraries"].add_argument("--force-kill", action="store_true")
     verb = found["switch_controllers"]
     verb.add_argument("--deactivate", "--stop", nargs="*", default=[])

@@ -12,6 +12,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
 
 __all__ = [
+    "cleanup_controller",
     "load_controller",
     "reload_controller_libraries",
     "set_controller_state",
@@ -108,17 +109,52 @@ def set_hardware_component_state(client: ManagerClient, options: argparse.Namesp
     """Set the state of a block of hardware."""
     from gazelle.interfaces import message_type
 
-    state = message_type("lifecycle_msgs/State")(id=_STATE_IDS[options.state], label=options.state)
+    name, wanted = options.hardware_component_name, options.state
+    found = client.call("list_hardware_components", "ListHardwareComponents").component
+    states = {one.name: one.state.label for one in found}
+    if name not in states:
+        hint = did_you_mean(name, states) or f"there are: {', '.join(states) or 'none'}"
+        raise ToolError(f"component {name} does not seem to be loaded; {hint}")
+    step = _HARDWARE_STEPS.get((states[name], wanted))
+    if step is None:
+        raise ToolError(_no_step(name, states[name], wanted))
+    state = message_type("lifecycle_msgs/State")(id=_STATE_IDS[wanted], label=wanted)
     answer = client.call(
         "set_hardware_component_state",
         "SetHardwareComponentState",
-        name=options.hardware_component_name,
+        name=name,
         target_state=state,
     )
     if not answer.ok:
-        raise ToolError(f"Error setting hardware component to {options.state}, {_LOGS}")
-    print(f"Successfully set {options.hardware_component_name} to state {answer.state}")
+        raise ToolError(f"Error {step} hardware component, {_LOGS}")
+    print(f"Successfully set {name} to state {answer.state}")
     return 0
+
+
+def cleanup_controller(client: ManagerClient, options: argparse.Namespace) -> int:
+    """Make an inactive controller unconfigured."""
+    name = options.controller_name
+    if not client.call("cleanup_controller", "CleanupController", name=name).ok:
+        raise ToolError(f"Error cleanup controllers, {_LOGS}")
+    print(f"Successfully cleaned up controller {name}")
+    return 0
+
+
+# What leads from one state of hardware to another; the original's command takes no other ways.
+_HARDWARE_STEPS = {
+    ("unconfigured", "inactive"): "configuring",
+    ("active", "inactive"): "stopping",
+    ("inactive", "active"): "activating",
+    ("inactive", "unconfigured"): "cleaning up",
+}
+_HARDWARE_VERBS = {"active": "activate", "unconfigured": "cleanup"}
+
+
+def _no_step(name: str, state: str, wanted: str) -> str:
+    verb = _HARDWARE_VERBS.get(wanted)
+    what = f"cannot {verb} {name}" if verb else f'cannot put {name} in "{wanted}" state'
+    text = f"{what} from its current state {state}"
+    return text if state in (wanted, "inactive") else f"{text}; set it inactive first"
 
 
 # What leads from one state to another: the verb, and the original's word when it is done.

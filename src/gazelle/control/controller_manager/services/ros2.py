@@ -8,14 +8,15 @@ from gazelle.control.controller_manager.controller_manager import ControllerMana
 from gazelle.control.controller_manager.records import ControllerRecord, OwnedPorts
 from gazelle.control.controller_manager.services.acting import Actor
 from gazelle.control.controllers.registry import known_types
+from gazelle.control.hardware_lifecycle import HardwareState
 from gazelle.control.parameters import flattened
 from gazelle.control.robot import HardwareComponent
+from gazelle.diagnostics import did_you_mean
 
 __all__ = ["offer_ros2"]
 
 _BASE_CLASS = "controller_interface::ControllerInterface"
 _STRICT = 2
-_ACTIVE = 3
 
 
 def offer_ros2(manager: ControllerManager, ports: OwnedPorts) -> None:
@@ -61,7 +62,7 @@ class _Services:
     def list_interfaces(self, request: Any, response: Any) -> None:
         bank = self._manager.robot.bank
         response.command_interfaces = self._interfaces(bank.command_index)
-        response.state_interfaces = [_interface(name, claimed=False) for name in bank.state_index]
+        response.state_interfaces = self._interfaces(bank.state_index, claimed=frozenset())
 
     def load(self, request: Any, response: Any) -> None:
         self._ports.log("info", f"Loading controller '{request.name}'")
@@ -100,20 +101,43 @@ class _Services:
         response.ok = self._actor.done(lambda: self._manager.unload_all(force=request.force_kill))
 
     def set_component(self, request: Any, response: Any) -> None:
-        """Simulated hardware is always active; other states are refused."""
+        """Bring a component of the hardware into a state."""
+        lifecycle = self._manager.robot.lifecycle
         names = [one.name for one in self._manager.robot.components]
-        wanted = request.target_state.label or request.target_state.id
-        response.state.id, response.state.label = _ACTIVE, "active"
+        wanted = _wanted_state(request.target_state)
+        response.ok = False
         if request.name not in names:
-            text = f"hardware component with name '{request.name}' does not exist; there are: "
-            self._ports.log("error", text + (", ".join(names) or "none"))
-            response.ok = False
-        elif wanted in ("active", _ACTIVE):
-            response.ok = True
+            hint = did_you_mean(request.name, names) or f"there are: {', '.join(names) or 'none'}"
+            text = f"hardware component with name '{request.name}' does not exist; {hint}"
+            self._ports.log("error", text)
+            return
+        if wanted is None:
+            known = ", ".join(state.label for state in HardwareState)
+            given = request.target_state.label or request.target_state.id
+            text = f"hardware component '{request.name}': no state '{given}'; there are: {known}"
+            self._ports.log("error", text)
         else:
-            text = f"hardware component '{request.name}' stays active: simulated hardware has no "
-            self._ports.log("error", f"{text}state '{wanted}'")
-            response.ok = False
+            self._warn_of_users(request.name, wanted)
+            response.ok = self._actor.done(lambda: lifecycle.set(request.name, wanted))
+        state = lifecycle.state(request.name)
+        response.state.id, response.state.label = int(state), state.label
+        if response.ok:
+            self._ports.log("info", f"Set component '{request.name}' to '{state.label}' state.")
+
+    def _warn_of_users(self, component: str, wanted: HardwareState) -> None:
+        """Say which running controllers lose their hardware, as its documentation warns of."""
+        if wanted is HardwareState.ACTIVE:
+            return
+        owners = self._manager.robot.lifecycle.owners
+        users = [
+            record.name
+            for record in self._manager.controllers.values()
+            if record.is_active and any(owners.get(name) == component for name in record.commands)
+        ]
+        if users:
+            text = f"hardware '{component}' is no longer active while controllers command it: "
+            text += f"{', '.join(users)}; nothing of what they send reaches it"
+            self._ports.log("warn", text)
 
     def set_parameters(self, values: dict[str, Any]) -> str:
         """Take types and parameter files of controllers that are to be loaded."""
@@ -127,20 +151,21 @@ class _Services:
         active = (one for one in self._manager.controllers.values() if one.is_active)
         return frozenset(name for record in active for name in record.commands)
 
-    def _interfaces(self, names: Any) -> list[Any]:
-        claimed = self._claimed()
-        return [_interface(name, claimed=name in claimed) for name in names]
+    def _interfaces(self, names: Any, *, claimed: frozenset[str] | None = None) -> list[Any]:
+        taken = self._claimed() if claimed is None else claimed
+        lifecycle = self._manager.robot.lifecycle
+        return [
+            _interface(name, claimed=name in taken, available=lifecycle.is_available(name))
+            for name in names
+        ]
 
     def _component(self, component: HardwareComponent) -> Any:
         robot = self._manager.robot
-        joints = {joint.name for joint in component.joints}
-        everywhere = {joint.name for one in robot.components for joint in one.joints}
-        # Sensors that stand in no block of their own belong to the first component.
-        is_first = component is robot.components[0]
+        first = robot.components[0].name
+        state = robot.lifecycle.state(component.name)
 
         def own(name: str) -> bool:
-            owner = name.rpartition("/")[0]
-            return owner in joints or (is_first and owner not in everywhere)
+            return robot.lifecycle.owners.get(name, first) == component.name
 
         message = _message("HardwareComponentState")(
             name=component.name,
@@ -149,11 +174,11 @@ class _Services:
             plugin_name=component.plugin,
             rw_rate=round(self._manager.update_rate_hz),
             command_interfaces=self._interfaces(filter(own, robot.bank.command_index)),
-            state_interfaces=[
-                _interface(name, claimed=False) for name in filter(own, robot.bank.state_index)
-            ],
+            state_interfaces=self._interfaces(
+                filter(own, robot.bank.state_index), claimed=frozenset()
+            ),
         )
-        message.state.id, message.state.label = _ACTIVE, "active"
+        message.state.id, message.state.label = int(state), state.label
         return message
 
 
@@ -184,9 +209,17 @@ def _state(record: ControllerRecord) -> Any:
     )
 
 
-def _interface(name: str, *, claimed: bool) -> Any:
+def _wanted_state(given: Any) -> HardwareState | None:
+    """Return the state that a request names by its label, else by its number."""
+    for state in HardwareState:
+        if given.label == state.label or (not given.label and given.id == state):
+            return state
+    return None
+
+
+def _interface(name: str, *, claimed: bool, available: bool) -> Any:
     return _message("HardwareInterface")(
-        name=name, data_type="double", is_available=True, is_claimed=claimed
+        name=name, data_type="double", is_available=available, is_claimed=claimed
     )
 
 
