@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from gazelle.errors import LaunchError
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import action_type, message_type
+from gazelle.nodes.host import run_node
 
 _NODE = "controller_manager/ros2_control_node"
 _ROBOT = """<robot name="r"><link name="a"/><link name="b"/>
@@ -169,6 +172,32 @@ def test_hardware_begins_in_the_state_that_parameters_name(
     captured = capsys.readouterr()
     told = "Setting component 'arm' to '" in captured.out + captured.err
     assert told is (label != "active")
+
+
+def test_hardware_spawner_configures_and_activates(
+    bench: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _publish(bench, "mock_components/GenericSystem")
+    words = ["-p", "hardware_components_initial_state.unconfigured:=[arm]"]
+    bench.start(_NODE, "--ros-args", *words)
+    spawner = "controller_manager/hardware_spawner"
+    for word, label in (("--configure", "inactive"), ("--activate", "active")):
+        bench.start(spawner, "arm", "amr", word, "--ros-args")
+        bench.eventually(lambda label=label: _hardware(bench)["arm"].state.label == label)
+    assert bench.stop() == [0, 0, 0]
+    captured = capsys.readouterr()
+    text = captured.out + captured.err
+    assert "activated component 'arm'. Hardware now in state: lifecycle_msgs.msg.State(id=3" in text
+    assert (
+        "Hardware Component 'amr' is not loaded - state can not be changed. did you mean 'arm'"
+        in text
+    )
+
+
+def test_hardware_spawner_needs_to_know_what_for(bench: Any) -> None:
+    request = {"node": "controller_manager/hardware_spawner", "argv": ["arm", "--ros-args"]}
+    with pytest.raises(LaunchError, match="one of the arguments --activate --configure is requir"):
+        run_node(request, bench.graph, threading.Event())
 
 
 def test_unknown_hardware_of_the_initial_state_is_told(

@@ -17,13 +17,27 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import ManagerClient
 from gazelle.nodes.parameters import start_node
 
-__all__ = ["run", "run_unspawner", "spawn", "spawner_options", "unspawn"]
+__all__ = [
+    "LATE_S",
+    "SpawnerParser",
+    "manager_teller",
+    "own_words",
+    "run",
+    "run_unspawner",
+    "spawn",
+    "spawner_options",
+    "unspawn",
+]
 
-_LATE_S = 10.0
+LATE_S = 10.0
+"""Time after which a manager that is not there is told of."""
 
 
-class _Parser(ArgumentParser):
+class SpawnerParser(ArgumentParser):
+    """Reads words; wrong ones end the node with one error."""
+
     def error(self, message: str) -> NoReturn:
+        """Raise what argparse would print."""
         raise LaunchError(f"{self.format_usage()}{self.prog}: error: {message}")
 
 
@@ -87,14 +101,14 @@ def spawn(node: Node, arguments: NodeArguments, stop: threading.Event) -> int:
 
 def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
     """Do what ros2_control's unspawner does, over a node that is there."""
-    parser = _Parser(prog="unspawner")
+    parser = SpawnerParser(prog="unspawner")
     parser.add_argument("controller_names", nargs="+")
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
     parser.add_argument("--switch-timeout", type=float, default=5.0)
-    options = parser.parse_args(_own_words(words))
+    options = parser.parse_args(own_words(words))
     client = ManagerClient(node, options.controller_manager, stop, generation=2)
-    late = _teller(node, client, "switch_controller")
-    if not client.wait("switch_controller", late=late, late_s=_LATE_S):
+    late = manager_teller(node, client, "switch_controller")
+    if not client.wait("switch_controller", late=late, late_s=LATE_S):
         return 1
     answer = client.switch(
         stop=options.controller_names, asap=True, switch_timeout_s=options.switch_timeout
@@ -116,11 +130,11 @@ def spawner_options(words: Sequence[str]) -> Namespace:
     Raises:
         LaunchError: they are wrong.
     """
-    return _spawner_parser().parse_args(_own_words(words))
+    return _spawner_parser().parse_args(own_words(words))
 
 
-def _spawner_parser() -> _Parser:
-    parser = _Parser(prog="spawner")
+def _spawner_parser() -> SpawnerParser:
+    parser = SpawnerParser(prog="spawner")
     add = parser.add_argument
     add("controller_names", nargs="+")
     add("-c", "--controller-manager", default="controller_manager")
@@ -139,7 +153,7 @@ def _spawner_parser() -> _Parser:
     return parser
 
 
-def _own_words(words: Sequence[str]) -> list[str]:
+def own_words(words: Sequence[str]) -> list[str]:
     """Return the words that are not ROS's: those between ``--ros-args`` and ``--`` are."""
     own: list[str] = []
     ros = False
@@ -220,8 +234,8 @@ class _Spawner:
         service = f"{self._client.name}/list_controllers"
         self._say("info", f"waiting for service {service} to become available...")
         timeout_s = self._options.controller_manager_timeout or None
-        late = _teller(self._node, self._client, "list_controllers", self._arguments.ready)
-        if not self._client.wait("list_controllers", timeout_s, late=late, late_s=_LATE_S):
+        late = manager_teller(self._node, self._client, "list_controllers", self._arguments.ready)
+        if not self._client.wait("list_controllers", timeout_s, late=late, late_s=LATE_S):
             text = f"Could not contact service {service}; {self._client.elsewhere()}"
             self._check(False, text, level="fatal")
 
@@ -268,7 +282,7 @@ class _Spawner:
         self._node.log(level, text)
 
 
-def _teller(node: Node, client: ManagerClient, service: str, ready: Any = None) -> Any:
+def manager_teller(node: Node, client: ManagerClient, service: str, ready: Any = None) -> Any:
     """Return what to do while a manager is not there yet."""
 
     def tell() -> None:

@@ -153,6 +153,13 @@ _NODES = (
     ),
     BuiltinNode(
         "controller_manager",
+        "hardware_spawner",
+        "gazelle.nodes.hardware_spawner:run",
+        light=True,
+        help="configures or activates hardware of ros2_control",
+    ),
+    BuiltinNode(
+        "controller_manager",
         "unspawner.py",
         "gazelle.nodes.controller_spawner_ros2:run_unspawner",
         light=True,

@@ -53,6 +53,7 @@ def test_nodes_that_do_not_come_are_told_to_the_others(run: Run, package: Path) 
         ("usb_cam", "the driver of a real camera"),
         ("rosbridge_server", "rosbridge_server is a bridge to programs outside of ROS"),
         ("rqt_xyz", "rqt_xyz is a panel of rqt"),
+        ("rqt_controller_manager", "`ros2 control list_controllers`, `switch_controllers`"),
         ("nav2_minimal_tb3_sim", "put its folder into the workspace's src"),
         ("some_robot", "put the package's sources into the workspace's src"),
     ],
