@@ -383,3 +383,33 @@ def test_only_joints_whose_velocity_changes_get_a_new_command(build, monkeypatch
     group.set_velocity(np.array([np.nan, np.nan, 0.4]), np.full(3, 50.0))
     group.set_velocity(np.array([0.1, 0.3, 0.4]), np.full(3, 50.0))
     assert sent == [0.3, 0.4]
+
+
+def test_feedback_is_a_damper_about_its_effort_on_light_and_heavy_joints(build):
+    for inertia in (1e-9, 1e-6, 1e-2):
+        engine = build.engine(build.wheel(inertia=inertia))
+        group = engine.joint_group(["wheel::joint"])
+        one = np.ones(1)
+        group.set_feedback([0], 2.0 * one, 0.5 * one, -10.0 * one, 10.0 * one)
+        engine.step(1)
+        own = max(inertia, 0.5 * 1e-3 / 9000.0)
+        assert engine.joint("wheel::joint").velocity == pytest.approx(
+            2.0 / (own / 1e-3 + 0.5), rel=1e-3
+        )
+        engine.step(20)
+        group.end_feedback([0])
+        speed = engine.joint("wheel::joint").velocity
+        engine.step(5)
+        assert engine.joint("wheel::joint").velocity == pytest.approx(speed, rel=1e-3)
+
+
+def test_feedback_stays_within_its_own_bounds(build):
+    engine = build.engine(build.wheel(inertia=1e-2))
+    group = engine.joint_group(["wheel::joint"])
+    one = np.ones(1)
+    group.set_feedback([0], 500.0 * one, 0.5 * one, -3.0 * one, 1.0 * one)
+    engine.step(10)
+    assert engine.joint("wheel::joint").velocity == pytest.approx(10e-3 * 1.0 / 1e-2, rel=1e-3)
+    effort = np.empty(1)
+    group.effort(effort)
+    assert effort[0] == pytest.approx(1.0, rel=1e-6)

@@ -24,6 +24,8 @@ class InterfaceBank:
         states: what hardware measured (S,), in the unit of each interface; NaN before the first
             reading.
         commands: what controllers want (C,); NaN for nothing yet.
+        stiffness: what a command loses per motion of its own joint (C,), 0 where it does not look.
+        damping: what it loses per velocity.
         state_index: place of each state interface.
         command_index: place of each command interface.
         looked_up: places of states that somebody reads; hardware may leave the costly others out.
@@ -32,6 +34,8 @@ class InterfaceBank:
     def __init__(self) -> None:
         self.states: Array = np.empty(0)
         self.commands: Array = np.empty(0)
+        self.stiffness: Array = np.empty(0)
+        self.damping: Array = np.empty(0)
         self.state_index: dict[str, int] = {}
         self.command_index: dict[str, int] = {}
         self.looked_up: set[int] = set()
@@ -59,6 +63,7 @@ class InterfaceBank:
         """Allocate the arrays; nothing can be registered afterwards."""
         self.states = np.array(self._initial_states, dtype=np.float64)
         self.commands = np.array(self._initial_commands, dtype=np.float64)
+        self.stiffness, self.damping = np.zeros((2, len(self.commands)))
         self._frozen = True
 
     def state_places(self, names: Iterable[str]) -> Indices:
@@ -78,6 +83,15 @@ class InterfaceBank:
             KeyError: there is no such interface.
         """
         return np.array([self.command_index[name] for name in names], dtype=np.intp)
+
+    def answer(
+        self, places: Indices | int, stiffness: Array | float, damping: Array | float
+    ) -> None:
+        """Tell how efforts answer to their joints, at every update of a feedback.
+
+        Hardware that has the physics at hand lets light joints feel it within a step.
+        """
+        self.stiffness[places], self.damping[places] = stiffness, damping
 
     def _add(self, index: dict[str, int], initial: list[float], name: str, value: float) -> int:
         if self._frozen:

@@ -112,6 +112,11 @@ class EffortLimits:
 
     def enforce(self, command: Array, position: Array, velocity: Array, period_s: float) -> Array:
         """Return the commands that are allowed; NaN stays NaN."""
+        low, high = self.bounds(position, velocity)
+        return _saturate(command, low, high)
+
+    def bounds(self, position: Array, velocity: Array) -> tuple[Array, Array]:
+        """Return the smallest and largest efforts that are allowed."""
         bounds = self._bounds
         too_low = (position < bounds.lower) | (velocity < -bounds.velocity)
         too_high = (position > bounds.upper) | (velocity > bounds.velocity)
@@ -119,7 +124,7 @@ class EffortLimits:
         high = np.where(too_high, 0.0, bounds.effort)
         if self._any_soft:
             low, high = self._soft(position, velocity, low, high)
-        return _saturate(command, low, high)
+        return low, high
 
     def reset(self) -> None:
         """Do nothing: these limits remember nothing."""

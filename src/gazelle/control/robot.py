@@ -149,5 +149,9 @@ class Robot:
 
     def switch(self, start: frozenset[str], stop: frozenset[str]) -> None:
         """Tell the hardware what is claimed and released."""
+        places = self.bank.command_places(
+            [name for name in start | stop if name in self.bank.command_index]
+        )
+        self.bank.stiffness[places] = self.bank.damping[places] = 0.0
         for component in self.components:
             component.switch(start, stop)

@@ -238,6 +238,11 @@ class EngineCore:
         if self.motors.command(element, command):
             self._must_compile = True
 
+    def steer_motor(self, element: str, command: MotorCommand) -> None:
+        """Command a motor at every step; see `command_motor`."""
+        if self.motors.steer(element, command):
+            self._must_compile = True
+
     def install_locks(self, elements: Sequence[str]) -> None:
         """Build the locks of joints, all at once; those that are there stay."""
         if self.locks.install(elements):

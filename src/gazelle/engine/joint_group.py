@@ -22,6 +22,9 @@ __all__ = ["JointGroup"]
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+_LIGHT = 2.0
+"""Feedback shakes a joint when h (h stiffness + 2 damping) / inertia is 4; poses change that."""
+
 
 class JointGroup:
     """Joints of a running world in a fixed order; stays valid while the joints exist.
@@ -103,6 +106,52 @@ class JointGroup:
         chosen = ~np.isnan(clamped)
         self._check_finite(clamped[chosen], chosen)
         self._applied[self._dofs[chosen]] = clamped[chosen]
+
+    def is_light(self, stiffness: Array, damping: Array, period_s: float) -> NDArray[np.bool_]:
+        """Return which joints (N,) a feedback computed every period would shake, as a mask.
+
+        Args:
+            stiffness: effort per position, of the feedback (N,).
+            damping: effort per velocity.
+            period_s: between two computations.
+        """
+        self._index()
+        inverse = self._engine.model.dof_invweight0[self._dofs]
+        share = period_s * inverse * (period_s * stiffness + 2.0 * damping)
+        light: NDArray[np.bool_] = share > _LIGHT
+        return light
+
+    def set_feedback(
+        self, places: Sequence[int], efforts: Array, slopes: Array, low: Array, high: Array
+    ) -> None:
+        """Apply efforts that a joint's motion lessens within each step: effort − slope · speed.
+
+        The speed is that at the end of the step, which no inertia is too small for. Lasts until
+        the joint is commanded anew, like a motor's command.
+
+        Args:
+            places: which of the joints.
+            efforts: on the joint at rest, for each place.
+            slopes: what they lose per speed, positive.
+            low: smallest effort; the joint's own limit counts as well.
+            high: largest effort.
+        """
+        self._index()
+        self._resting_effort = None
+        for place, effort, slope, least, most in zip(
+            places, efforts.tolist(), slopes.tolist(), low.tolist(), high.tolist(), strict=True
+        ):
+            limit = min(float(self._effort_limits[place]), UNLIMITED_EFFORT)
+            least, most = max(least, -limit), min(most, limit)
+            middle = (least + most) / 2.0
+            command = MotorCommand("effort", effort - middle, (most - least) / 2.0, slope=slope)
+            self._applied[self._dofs[place]] = middle
+            self._engine.steer_motor(self._elements[place], command)
+
+    def end_feedback(self, places: Sequence[int]) -> None:
+        """Let joints go that `set_feedback` drives."""
+        self._index()
+        self._release_motors(np.asarray(places, dtype=np.intp))
 
     def lock_position(self, values: Array, *, steps: int = 1) -> None:
         """Hold joints at positions whatever acts on them, as Gazebo's ``SetPosition``.

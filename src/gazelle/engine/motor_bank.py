@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.engine.compiler import SLEEP_TOLERANCE_M_S, Compiled
 from gazelle.engine.library import mujoco
-from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
+from gazelle.engine.motors import TIGHT, UNLIMITED_EFFORT, MotorCommand, clutch_impedance
 from gazelle.engine.names import rotor_joint, tendon
 
 __all__ = ["POSITION_STEPS", "MotorBank"]
@@ -23,6 +23,10 @@ _CLOSE_ENOUGH = 1e-6
 """A position motor this near its target, rad or m, stands still, so that a robot can sleep."""
 
 
+_SOFTEST = 9000.0
+"""Largest slope · step / inertia of a clutch, where its impedance is nearly 1."""
+
+
 @dataclass(slots=True)
 class _Slot:
     dof: int
@@ -31,6 +35,9 @@ class _Slot:
     tendon: int
     creep: float
     """Speeds below it let a robot fall asleep again at once: they do not wake one."""
+    weight: float
+    """Inverse inertia that the clutch sees."""
+    impedance: float = TIGHT
 
 
 @dataclass(slots=True)
@@ -67,6 +74,13 @@ class MotorBank:
         self.installed.append(joint)
         return True
 
+    def steer(self, joint: str, command: MotorCommand) -> bool:
+        """Set a motor like `command`, at every step: nobody else looks at what it is told."""
+        if joint not in self.commands or command.max_effort <= 0:
+            return self.command(joint, command)
+        self.commands[joint] = command
+        return False
+
     def release(self) -> None:
         """End all commands; the motors stay installed."""
         self.commands.clear()
@@ -90,8 +104,10 @@ class MotorBank:
                 dof,
                 int(model.jnt_qposadr[index]),
                 rotor,
-                int(model.tendon(tendon(joint)).id),
+                place := int(model.tendon(tendon(joint)).id),
                 SLEEP_TOLERANCE_M_S / float(model.dof_length[[dof, rotor]].max()),
+                max(float(model.tendon_invweight0[place]), 1e-12),
+                float(model.tendon_solimp_fri[place, 0]),
             )
         self._changed = True
 
@@ -113,6 +129,13 @@ class MotorBank:
                     self._release(model, data, slot)
                 continue
             speed = command.target
+            if command.slope * step_s * slot.weight > _SOFTEST and command.mode == "effort":
+                _weigh_down(model, slot, command.slope * step_s / _SOFTEST)
+            impedance = clutch_impedance(command.slope, slot.weight, step_s)
+            if impedance != slot.impedance:
+                _soften(model, slot, impedance, step_s)
+            if command.mode == "effort":
+                speed *= step_s * slot.weight * (1.0 - impedance) / impedance
             if command.mode == "position":
                 gap = command.target - float(data.qpos[slot.qpos])
                 speed = 0.0 if abs(gap) < _CLOSE_ENOUGH else gap / (max(steps, 2) * step_s)
@@ -141,6 +164,21 @@ class MotorBank:
             model.tendon_frictionloss[slot.tendon] = 0.0
             data.qvel[slot.rotor] = 0.0
             _wake(data, slot)
+
+
+def _weigh_down(model: Any, slot: _Slot, inertia: float) -> None:
+    """Give a joint the least inertia with which a clutch of the wanted slope can be solved."""
+    model.dof_armature[slot.dof] += inertia - 1.0 / slot.weight
+    slot.weight = 1.0 / inertia
+    model.tendon_invweight0[slot.tendon] = slot.weight
+    model.dof_invweight0[slot.dof] = min(float(model.dof_invweight0[slot.dof]), slot.weight)
+
+
+def _soften(model: Any, slot: _Slot, impedance: float, step_s: float) -> None:
+    """Change how much a clutch slips; its damping stays 1/h."""
+    slot.impedance = impedance
+    model.tendon_solimp_fri[slot.tendon, :2] = impedance
+    model.tendon_solref_fri[slot.tendon, 0] = 2.0 * step_s * (TIGHT / impedance)
 
 
 def _wake(data: Any, slot: _Slot) -> None:

@@ -113,7 +113,8 @@ def _check_gains(
     if factor < 1.0:
         text = f"controller '{controller.name}': gains p {gains.p:g}, d {gains.d:g} of joint "
         text += f"'{gains.joint}' are unstable: it has an inertia of {inertia:.3g} and efforts "
-        text += f"change every {step_s * period_steps * 1e3:g} ms; it will shake or fly away"
+        text += f"change every {step_s * period_steps * 1e3:g} ms. Gazebo shakes such a joint or "
+        text += "throws it; here its feedback acts within each step"
         fix = f"use at most p {gains.p * factor:.3g}, d {gains.d * factor:.3g}, or a smaller step"
         if factor < _ALL_UNSTABLE:
             fix = (

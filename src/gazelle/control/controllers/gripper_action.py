@@ -104,6 +104,7 @@ class GripperActionController(Controller):
         effort = self._pid.compute_with_rate(error, -velocity, period_ns * _SECONDS)
         self._effort = min(max(effort, -self._max_effort), self._max_effort)
         bank.commands[self._command] = self._effort
+        bank.answer(self._command, self._pid.gains.p, self._pid.gains.d)
 
     def stop(self, time_ns: int) -> None:
         """End a goal."""

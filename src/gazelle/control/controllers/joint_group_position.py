@@ -90,6 +90,7 @@ class JointGroupPositionController(Controller):
             if abs(errors.item(k)) >= np.pi:
                 errors[k] = self._ranges[k].error(positions.item(k), self._command.item(k))
         bank.commands[self._places] = self.pids.compute(errors, period_ns * 1e-9)
+        bank.answer(self._places, *self.pids.stiffness_and_damping)
 
     def _take(self, message: Any) -> None:
         values = np.array(message.data, dtype=np.float64)

@@ -61,6 +61,8 @@ class JointPositionController(PidJointController):
         command = self._range.clip(self.command)
         error = self._range.error(position, command)
         bank.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
+        gains = self.pid.gains
+        bank.answer(self._place, gains.p, gains.d)
         self._tell(time_ns, period_ns, process_value=position, error=error, command=command)
 
     def _fill(self, message: Any) -> None:

@@ -49,4 +49,5 @@ class JointVelocityController(PidJointController):
         velocity = bank.states.item(self._velocity_place)
         error = self.command - velocity
         bank.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
+        bank.answer(self._place, 0.0, self.pid.gains.p)
         self._tell(time_ns, period_ns, process_value=velocity, error=error, command=self.command)

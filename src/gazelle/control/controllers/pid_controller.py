@@ -34,6 +34,7 @@ class PidController(Controller):
         interfaces = parameters.texts("reference_and_state_interfaces")
         self._check(interfaces)
         self._has_rates = len(interfaces) == 2
+        self._interface = interfaces[0]
         self._is_external = parameters.flag("use_external_measured_states")
         command = parameters.text("command_interface")
         self.commands = tuple(f"{dof}/{command}" for dof in self._dofs)
@@ -138,9 +139,18 @@ class PidController(Controller):
         if self._is_fed_forward:
             lead = self._reference.item(len(self.pids) + k) if self._has_rates else reference
             command += lead * self._feedforward[k] if math.isfinite(lead) else 0.0
-        self.robot.bank.commands[self._places[k]] = command
+        bank = self.robot.bank
+        bank.commands[self._places[k]] = command
+        if not self._is_external:
+            bank.answer(int(self._places[k]), *self._answers(pid.gains))
         if k in self._pid_states:
             self._pid_states[k].publish(pid, time_ns, period_ns)
+
+    def _answers(self, gains: PidGains) -> tuple[float, float]:
+        """Return what a command loses per position and per velocity of its joint."""
+        if self._interface == "position":
+            return gains.p, gains.d
+        return (0.0, gains.p) if self._interface == "velocity" else (0.0, 0.0)
 
     def _error(self, k: int) -> float:
         reference, measured = self._reference.item(k), self._measured.item(k)

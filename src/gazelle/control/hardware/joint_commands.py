@@ -4,16 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.control.bank import Array
+from gazelle.control.pid import PidBank
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine, JointGroup
 
-__all__ = ["JointWriter", "effort_writer", "position_writer", "velocity_writer"]
+__all__ = [
+    "EffortWriter",
+    "FeedbackLaw",
+    "JointWriter",
+    "effort_writer",
+    "pid_law",
+    "position_writer",
+    "velocity_writer",
+]
 
 
 class JointWriter:
@@ -79,10 +89,104 @@ class JointWriter:
         self._last = b""
 
 
-def effort_writer(engine: Engine, names: Sequence[str]) -> JointWriter:
+class FeedbackLaw(NamedTuple):
+    """How efforts answer to the motion of their joints; (N,) each.
+
+    Attributes:
+        efforts: wanted, before they are limited.
+        velocity: of the joints, as it was when they were computed.
+        stiffness: what an effort loses per motion since.
+        damping: what it loses per change of velocity since.
+        low: smallest effort that is allowed.
+        high: largest one.
+    """
+
+    efforts: Array
+    velocity: Array
+    stiffness: Array
+    damping: Array
+    low: Array
+    high: Array
+
+
+class EffortWriter(JointWriter):
+    """Sends efforts; those of a feedback that would shake light joints as a law.
+
+    A joint of 10⁻⁶ kg·m² under a PID with d = 10 N·m·s/rad turns by radians within a millisecond,
+    and no effort that stays for a step stops it. The engine solves the feedback of such joints
+    together with their motion, so that it holds at the end of the step.
+    """
+
+    def __init__(self, group: JointGroup) -> None:
+        super().__init__(group, lambda values, steps: group.set_effort(values))
+        self._fed_back = np.zeros(len(group.names), dtype=bool)
+
+    def write(self, values: Array, steps: int = 1) -> None:
+        """Command efforts as they are; see `JointWriter.write`."""
+        self._end_feedback(self._fed_back)
+        super().write(values, steps)
+
+    def write_law(self, values: Array, law: FeedbackLaw, period_s: float, steps: int = 1) -> None:
+        """Command efforts, light joints by the law that they come from.
+
+        Args:
+            values: limited efforts; NaN leaves a joint as it is.
+            law: where they come from.
+            period_s: until the next command.
+            steps: the same in steps.
+        """
+        light = self.group.is_light(law.stiffness, law.damping, period_s)
+        light &= ~self.held & np.isfinite(law.efforts)
+        if self._leaving:
+            light[self._leaving] = False
+        self._end_feedback(self._fed_back & ~light)
+        if not light.any():
+            super().write(values, steps)
+            return
+        super().write(np.where(light, math.nan, values), steps)
+        self._fed_back |= light
+        self.group.set_feedback(
+            np.flatnonzero(light).tolist(),
+            (law.efforts + law.damping * law.velocity)[light],
+            (period_s * law.stiffness + law.damping)[light],
+            law.low[light],
+            law.high[light],
+        )
+
+    def hold(self, places: Sequence[int], positions: Array) -> None:
+        """Lock joints where they are until `free`."""
+        self._fed_back[list(places)] = False
+        super().hold(places, positions)
+
+    def release(self, places: Sequence[int]) -> None:
+        """Let joints go at once."""
+        self._fed_back[list(places)] = False
+        super().release(places)
+
+    def forget(self) -> None:
+        """Start over: the engine was reset."""
+        self._fed_back[:] = False
+        super().forget()
+
+    def _end_feedback(self, leaving: NDArray[np.bool_]) -> None:
+        if leaving.any():
+            self.group.end_feedback(np.flatnonzero(leaving).tolist())
+            self._fed_back &= ~leaving
+            self._last = b""
+
+
+def pid_law(
+    pids: PidBank, efforts: Array, velocity: Array, max_effort: Array, *, is_position: bool
+) -> FeedbackLaw:
+    """Return the law of efforts that PIDs of positions, or else of velocities, want."""
+    p, d = pids.stiffness_and_damping
+    stiffness, damping = (p, d) if is_position else (np.zeros(len(p)), p)
+    return FeedbackLaw(efforts, velocity, stiffness, damping, -max_effort, max_effort)
+
+
+def effort_writer(engine: Engine, names: Sequence[str]) -> EffortWriter:
     """Return the writer of efforts, N·m or N; the engine clamps them at each joint's limit."""
-    group = engine.joint_group(names)
-    return JointWriter(group, lambda values, steps: group.set_effort(values))
+    return EffortWriter(engine.joint_group(names))
 
 
 def position_writer(engine: Engine, names: Sequence[str]) -> JointWriter:

@@ -14,8 +14,11 @@ from gazelle.control.hardware.angle_error import (
     shortest_angular_distance_with_limits,
 )
 from gazelle.control.hardware.joint_commands import (
+    EffortWriter,
+    FeedbackLaw,
     JointWriter,
     effort_writer,
+    pid_law,
     position_writer,
     velocity_writer,
 )
@@ -76,7 +79,7 @@ class Ros1Section:
         # A position that is allowed once is allowed again: the joints' state does not matter.
         is_soft = any(item.has_soft_limits for item in limits)
         self._can_settle = self._interface == "position" and pids is None and not is_soft
-        self._settled = b""
+        self._settled = self._enforced = b""
         self.writer = self._writer(engine, [f"{model}::{name}" for name in self.names])
 
     def write(self, states: JointStates, step_s: float, steps: int, *, is_new: bool) -> None:
@@ -94,6 +97,7 @@ class Ros1Section:
         before = commands.tobytes()
         if before == self._settled:
             return
+        wanted = commands.copy()
         position, velocity = states.position[self._places], states.velocity[self._places]
         commands[:] = self._limits.enforce(commands, position, velocity, step_s)
         settles = self._can_settle and commands.tobytes() == before
@@ -103,8 +107,31 @@ class Ros1Section:
                 self._run_pids(self.pids, commands, position, velocity, step_s)
         elif self._stopped and self._interface != "position":
             self.writer.write(np.zeros(len(commands)), steps)
+        elif isinstance(self._limits, EffortLimits) and isinstance(self.writer, EffortWriter):
+            bounds = self._limits.bounds(position, velocity)
+            self._write_efforts(self.writer, wanted, commands, velocity, bounds, step_s, steps)
         else:
             self.writer.write(commands, steps)
+
+    def _write_efforts(
+        self,
+        writer: EffortWriter,
+        wanted: Array,
+        commands: Array,
+        velocity: Array,
+        bounds: tuple[Array, Array],
+        step_s: float,
+        steps: int,
+    ) -> None:
+        stiffness = self._bank.stiffness[self._commands]
+        damping = self._bank.damping[self._commands]
+        if not (stiffness.any() or damping.any()):
+            writer.write(commands, steps)
+        elif wanted.tobytes() != self._enforced:
+            # What was enforced before is no new command of a controller.
+            law = FeedbackLaw(wanted, velocity, stiffness, damping, *bounds)
+            writer.write_law(commands, law, step_s * steps, steps)
+        self._enforced = commands.tobytes()
 
     def hold(self, names: Collection[str], position: Array) -> None:
         """Keep joints where they are, of all positions (N,) of the hardware, until `free`."""
@@ -156,8 +183,12 @@ class Ros1Section:
             errors = (0.0 if self._stopped else commands) - velocity
         idle = np.isnan(errors) | self.writer.held
         efforts = pids.compute(np.where(idle, 0.0, errors), step_s, None)
-        efforts = np.minimum(np.maximum(efforts, -self._max_effort), self._max_effort)
-        self.writer.write(np.where(idle, math.nan, efforts))
+        limited = np.minimum(np.maximum(efforts, -self._max_effort), self._max_effort)
+        values = np.where(idle, math.nan, limited)
+        is_position = self._interface == "position"
+        if isinstance(self.writer, EffortWriter):
+            law = pid_law(pids, efforts, velocity, self._max_effort, is_position=is_position)
+            self.writer.write_law(values, law, step_s)
 
     def _position_errors(self, commands: Array, position: Array) -> Array:
         errors = commands - position

@@ -10,8 +10,11 @@ import numpy as np
 
 from gazelle.control.bank import Array, Indices, InterfaceBank
 from gazelle.control.hardware.joint_commands import (
+    EffortWriter,
+    FeedbackLaw,
     JointWriter,
     effort_writer,
+    pid_law,
     position_writer,
     velocity_writer,
 )
@@ -74,6 +77,7 @@ class Ros2Section:
         self._writer = _WRITERS.get(method, _effort)(engine, names, max_effort)
         # An effort would do nothing to a joint that is still locked.
         self._waiting = np.ones(len(mine), dtype=bool)
+        self._unlimited, self._given = np.full(len(mine), math.inf), b""
         self._must_release = method == "effort" or self.pids is not None
 
     def write(self, states: JointStates, step_s: float, steps: int, *, is_new: bool) -> None:
@@ -93,14 +97,33 @@ class Ros2Section:
         if self.method == "servo":
             error = commands - states.position[self._places]
             self._writer.write(self._servo_gain_1_s * error, steps)
+        elif self.pids is None and isinstance(self._writer, EffortWriter):
+            self._write_efforts(self._writer, commands, states, step_s, steps)
         elif self.pids is None:
             self._writer.write(commands, steps)
         elif is_new:
             self._run_pids(self.pids, commands, states, step_s)
 
+    def _write_efforts(
+        self, writer: EffortWriter, commands: Array, states: JointStates, step_s: float, steps: int
+    ) -> None:
+        stiffness = self._bank.stiffness[self._commands]
+        damping = self._bank.damping[self._commands]
+        if not (stiffness.any() or damping.any()):
+            writer.write(commands, steps)
+            return
+        raw = commands.tobytes()
+        if raw == self._given:
+            return
+        self._given = raw
+        velocity = states.velocity[self._places]
+        law = FeedbackLaw(commands, velocity, stiffness, damping, -self._unlimited, self._unlimited)
+        writer.write_law(commands, law, step_s * steps, steps)
+
     def forget(self) -> None:
         """Send everything again: the engine was reset."""
         self._writer.forget()
+        self._given = b""
         self._waiting[:] = True
         if self.pids is not None:
             self.pids.reset()
@@ -117,7 +140,11 @@ class Ros2Section:
         errors = commands - measured
         idle = np.isnan(errors)
         efforts = pids.compute(np.where(idle, 0.0, errors), step_s)
-        self._writer.write(np.where(idle, math.nan, efforts))
+        values = np.where(idle, math.nan, efforts)
+        if isinstance(self._writer, EffortWriter):
+            velocity = states.velocity[self._places]
+            law = pid_law(pids, efforts, velocity, self._unlimited, is_position=is_position)
+            self._writer.write_law(values, law, step_s)
 
 
 def _position(engine: Engine, names: Sequence[str], max_effort: Array) -> JointWriter:

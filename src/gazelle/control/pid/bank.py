@@ -56,6 +56,11 @@ class PidBank:
             added[place] = pid.terms[1]
         return self._p * self._errors, added, self._d * self._rates
 
+    @property
+    def stiffness_and_damping(self) -> tuple[Array, Array]:
+        """The gains p and d, (N,) each."""
+        return self._p, self._d
+
     def set_gains(self, place: int, gains: PidGains) -> None:
         """Change the gains of one; errors and integral are kept."""
         self.gains = (*self.gains[:place], gains, *self.gains[place + 1 :])

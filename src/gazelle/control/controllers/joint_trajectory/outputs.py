@@ -175,7 +175,9 @@ class PidOutput:
             command += desired[1] * self._feed_forward
         if effort is not None:
             command += effort
-        self._bank.commands[self._places[self._interface]] = command
+        places = self._places[self._interface]
+        self._bank.commands[places] = command
+        self._bank.answer(places, *self._pids.stiffness_and_damping)
 
     def stop(self) -> None:
         """Command 0."""
