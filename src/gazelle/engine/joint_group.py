@@ -122,7 +122,7 @@ class JointGroup:
         return light
 
     def set_feedback(
-        self, places: Sequence[int], efforts: Array, slopes: Array, low: Array, high: Array
+        self, places: list[int], efforts: Array, slopes: Array, low: Array, high: Array
     ) -> None:
         """Apply efforts that a joint's motion lessens within each step: effort − slope · speed.
 
@@ -138,13 +138,13 @@ class JointGroup:
         """
         self._index()
         self._resting_effort = None
-        for place, effort, slope, least, most in zip(
-            places, efforts.tolist(), slopes.tolist(), low.tolist(), high.tolist(), strict=True
+        limits = np.minimum(self._effort_limits[places], UNLIMITED_EFFORT)
+        least, most = np.maximum(low, -limits), np.minimum(high, limits)
+        middles, ranges = ((least + most) / 2.0).tolist(), ((most - least) / 2.0).tolist()
+        for place, effort, slope, middle, limit in zip(
+            places, efforts.tolist(), slopes.tolist(), middles, ranges, strict=True
         ):
-            limit = min(float(self._effort_limits[place]), UNLIMITED_EFFORT)
-            least, most = max(least, -limit), min(most, limit)
-            middle = (least + most) / 2.0
-            command = MotorCommand("effort", effort - middle, (most - least) / 2.0, slope=slope)
+            command = MotorCommand("effort", effort - middle, limit, slope=slope)
             self._applied[self._dofs[place]] = middle
             self._engine.steer_motor(self._elements[place], command)
 
