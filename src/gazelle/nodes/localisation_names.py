@@ -49,6 +49,13 @@ LOCALISATION = (
     ),
     LocalisationNode("amcl", "amcl", "amcl.node:run", False, "finds the robot in a map"),
     LocalisationNode(
+        "fake_localization",
+        "fake_localization",
+        "fake_localization:run",
+        True,
+        "gives the simulator's true pose in the place of amcl's",
+    ),
+    LocalisationNode(
         "nav2_amcl",
         "amcl",
         "amcl.node:run_ros2",

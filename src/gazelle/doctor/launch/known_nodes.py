@@ -47,6 +47,10 @@ _QUIET_FAMILY = "rqt_"
 # What a localiser's transform connects: parameters of the two frames, with their defaults.
 _LOCALISERS = {
     ("amcl", "amcl"): (("global_frame_id", "map"), ("odom_frame_id", "odom")),
+    ("fake_localization", "fake_localization"): (
+        ("global_frame_id", "map"),
+        ("odom_frame_id", "odom"),
+    ),
     ("gmapping", "slam_gmapping"): (("map_frame", "map"), ("odom_frame", "odom")),
     ("slam_gmapping", "slam_gmapping"): (("map_frame", "map"), ("odom_frame", "odom")),
     ("slam_karto", "slam_karto"): (("map_frame", "map"), ("odom_frame", "odom")),

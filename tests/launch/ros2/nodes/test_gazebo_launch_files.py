@@ -48,9 +48,11 @@ def test_classic_world_takes_entities(gazelle: Callable[..., Any], tmp_path: Pat
     file = _file(tmp_path, "gazebo_ros", "gazebo.launch.py", node, pause="true", seed="3")
     world = gazelle("ros2", "launch", file, "verbose:=true")
     world.wait_for_line(r"Spawn status: SpawnEntity: Successfully spawned entity \[crate\]")
-    assert "server plug-in 'libgazebo_ros_init.so' is part of Gazelle" in world.text
-    assert "'libgazebo_ros_factory.so'" in world.text
-    assert "libgazebo_ros_state.so" not in world.text
+    logs = "".join(path.read_text() for path in tmp_path.rglob("*.log"))
+    assert "server plug-in 'libgazebo_ros_init.so' is part of Gazelle" in logs
+    assert "'libgazebo_ros_factory.so'" in logs
+    assert "libgazebo_ros_state.so" not in logs
+    assert "part of Gazelle" not in world.text
     assert world.wait_for_line(r"^\[gzclient-\d\] \[INFO\] .*no window opens")
     listed = world.call("/get_model_list", "gazebo_msgs/srv/GetModelList")
     assert list(listed.model_names) == ["ground_plane", "crate"]
@@ -112,6 +114,22 @@ def test_world_and_bridge_are_nodes_without_containers(
     world = gazelle("ros2", "launch", file)
     world.wait_for_line(r"Entity creation successful\.")
     assert set(_model_names(world)) == {"box", "007"}
+    assert world.messages({"/ticks": 1})["/ticks"]
+    assert "/ticker" in world.graph.node_names()
+    assert world.stop() == 0
+
+
+def test_world_and_bridge_of_one_file(gazelle: Callable[..., Any], tmp_path: Path) -> None:
+    (tmp_path / "b.yaml").write_text(
+        "- {ros_topic_name: /ticks, gz_topic_name: /clock, direction: GZ_TO_ROS,"
+        " ros_type_name: rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock}"
+    )
+    (tmp_path / "w.sdf").write_text(
+        f'<sdf version="1.6"><world name="w">{_BOX[19:-6]}</world></sdf>'
+    )
+    words = ("bridge_name:=ticker", f"config_file:={tmp_path / 'b.yaml'}")
+    file = f"world_sdf_file:={tmp_path / 'w.sdf'}"
+    world = gazelle("ros2", "launch", "ros_gz_sim", "ros_gz_sim.launch.py", *words, file)
     assert world.messages({"/ticks": 1})["/ticks"]
     assert "/ticker" in world.graph.node_names()
     assert world.stop() == 0

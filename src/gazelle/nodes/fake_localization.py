@@ -1,0 +1,119 @@
+"""``fake_localization``: a simulator's true pose in the place of amcl's (ROS 1 noetic).
+
+| parameter | default | meaning |
+| --- | --- | --- |
+| odom_frame_id, base_frame_id, global_frame_id | odom, base_link, /map | frames |
+| delta_x, delta_y, delta_yaw | 0 | where the map's origin lies in the simulator's world (m, rad) |
+| transform_tolerance | 0.1 | the transform is dated so far ahead (s) |
+
+Listens to ``base_pose_ground_truth`` and ``initialpose``; publishes ``amcl_pose``,
+``particlecloud`` with one pose, and the transform from map to odometry. A message waits until the
+robot's odometry at its time is known.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+from gazelle.geometry import Pose
+from gazelle.graph import Graph, Node
+from gazelle.graph.tf import StampedPose, TransformBroadcaster
+from gazelle.interfaces import message_type
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.navigation.frames import Frames, fill_pose, pose_of_message, stamp_ns_of
+from gazelle.nodes.parameters import private, private_number, start_node
+
+__all__ = ["run"]
+
+_POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+_WAITING = 100
+_NANO = 1_000_000_000
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Place the robot until told to stop."""
+    node = start_node(arguments, graph)
+    _FakeLocalization(node, arguments)
+    arguments.ready()
+    stop.wait()
+    node.shutdown()
+    return 0
+
+
+class _FakeLocalization:
+    def __init__(self, node: Node, arguments: NodeArguments) -> None:
+        def frame(name: str, default: str) -> str:
+            return str(private(node, arguments, name, default))
+
+        def number(name: str, default: float = 0.0) -> float:
+            return private_number(node, arguments, name, default)
+
+        self._shown_frame = frame("global_frame_id", "/map")
+        self._map = self._shown_frame.removeprefix("/")
+        self._odom = frame("odom_frame_id", "odom").removeprefix("/")
+        self._base = frame("base_frame_id", "base_link").removeprefix("/")
+        self._ahead_ns = round(number("transform_tolerance", 0.1) * _NANO)
+        # As in the original: turned back and moved back, without one turning the other.
+        self._T_map_world = Pose.from_xyz_rpy(
+            (-number("delta_x"), -number("delta_y"), 0.0), (0.0, 0.0, -number("delta_yaw"))
+        )
+        self._frames = Frames(node)
+        self._tf = TransformBroadcaster(node)
+        self._lock = threading.Lock()
+        self._waiting: deque[Any] = deque(maxlen=_WAITING)
+        self._poses = node.create_publisher("amcl_pose", message_type(_POSE), latch=True)
+        cloud = message_type("geometry_msgs/msg/PoseArray")
+        self._cloud = node.create_publisher("particlecloud", cloud, latch=True)
+        odometry = "nav_msgs/msg/Odometry"
+        node.create_subscription(
+            "base_pose_ground_truth", odometry, self._on_truth, queue_size=_WAITING
+        )
+        node.create_subscription("initialpose", _POSE, self._on_initial_pose, queue_size=1)
+
+    def _on_truth(self, message: Any) -> None:
+        with self._lock:
+            self._waiting.append(message)
+            found = [(one, self._odometry_at(stamp_ns_of(one))) for one in self._waiting]
+            self._waiting.clear()
+            for one, T_odom_base in found:
+                if isinstance(T_odom_base, str):
+                    self._waiting.append(one)
+                    self._tell_of_waiting(T_odom_base)
+                else:
+                    self._publish(one, T_odom_base)
+
+    def _odometry_at(self, stamp_ns: int) -> Pose | str:
+        return self._frames.between(self._odom, self._base, stamp_ns)
+
+    def _tell_of_waiting(self, why: str) -> None:
+        if len(self._waiting) == _WAITING:
+            text = f"Failed to transform to {self._odom} from {self._base}: {why}"
+            self._frames.say("error", text, key="odometry")
+
+    def _publish(self, message: Any, T_odom_base: Pose) -> None:
+        T_map_base = self._T_map_world @ pose_of_message(message.pose.pose)
+        stamp_ns = stamp_ns_of(message) + self._ahead_ns
+        T_map_odom = T_map_base @ T_odom_base.inverse()
+        self._tf.send(StampedPose(self._map, self._odom, stamp_ns, T_map_odom))
+        pose: Any = message_type(_POSE)()
+        pose.header.stamp, pose.header.frame_id = message.header.stamp, self._shown_frame
+        fill_pose(pose.pose.pose, T_map_base)
+        self._poses.publish(pose)
+        cloud: Any = message_type("geometry_msgs/msg/PoseArray")()
+        cloud.header, cloud.poses = pose.header, [pose.pose.pose]
+        self._cloud.publish(cloud)
+
+    def _on_initial_pose(self, message: Any) -> None:
+        frame = str(message.header.frame_id)
+        if frame.removeprefix("/") != self._map:
+            text = f'Frame ID of "initialpose" ({frame}) is different from the global frame '
+            self._frames.say("warn", f"{text}{self._shown_frame}")
+        T_base_map = self._frames.between(self._base, self._map)
+        if isinstance(T_base_map, str):
+            self._frames.say("warn", f"Failed to lookup transform! ({T_base_map})")
+            return
+        with self._lock:
+            moved = pose_of_message(message.pose.pose) @ T_base_map
+            self._T_map_world = moved @ self._T_map_world
