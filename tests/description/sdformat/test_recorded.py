@@ -28,6 +28,10 @@ RECORDED = Path(__file__).with_name("recorded")
 NAMES = sorted(path.stem for path in RECORDED.glob("*.urdf"))
 
 
+# sdformat 14 could not be run where these were made.
+_RECORDED = (Release.V9, Release.V12)
+
+
 def _printed(text: str, release: Release) -> str:
     root = read_document(text, release=release, file="r.urdf", find=lambda _word: None).root
     assert root is not None
@@ -35,7 +39,7 @@ def _printed(text: str, release: Release) -> str:
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("release", Release, ids=lambda item: f"v{item.value}")
+@pytest.mark.parametrize("release", _RECORDED, ids=lambda item: f"v{item.value}")
 @pytest.mark.parametrize("name", NAMES)
 def test_recorded_robots(name: str, release: Release) -> None:
     text = (RECORDED / f"{name}.urdf").read_text(encoding="utf-8")
@@ -44,7 +48,7 @@ def test_recorded_robots(name: str, release: Release) -> None:
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("release", Release, ids=lambda item: f"v{item.value}")
+@pytest.mark.parametrize("release", _RECORDED, ids=lambda item: f"v{item.value}")
 @pytest.mark.parametrize("name", NAMES)
 def test_recorded_remarks(name: str, release: Release) -> None:
     file = RECORDED / f"{name}.urdf"

@@ -105,11 +105,13 @@ def main(argv: list[str]) -> int:
         return 0
     if name == "sdf":
         words, version = without_version(argv[1:])
-        is_new = bool(version) or sdformat_release(words, os.environ) is Release.V12
-        return run_new_sdf(words, "gz") if is_new else _run_sdf(words)
+        release = sdformat_release(words, os.environ)
+        if version and not release.is_new:
+            release = Release.V12
+        return run_new_sdf(words, "gz", release) if release.is_new else _run_sdf(words)
     if name == "help" and argv[1:] == ["sdf"]:
         if _is_new_in_use():
-            print(usage("gz"))
+            print(usage("gz", sdformat_release((), os.environ)))
         else:
             say([_SDF_HELP])
         return 0
@@ -134,7 +136,7 @@ def main(argv: list[str]) -> int:
 
 
 def _is_new_in_use() -> bool:
-    return sdformat_release((), os.environ) is Release.V12
+    return sdformat_release((), os.environ).is_new
 
 
 def _run_sdf(words: list[str]) -> int:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from gazelle.cli.gz.new import front
-from gazelle.cli.sdf.ign_sdf import VERSION, run_sdf, usage
+from gazelle.cli.sdf.ign_sdf import run_sdf, usage, version_of
 from gazelle.cli.sdf.other_commands import IGN_INSTEAD
 from gazelle.cli.sdf.sdf_file import say
+from gazelle.description.sdformat.release import Release
 
 __all__ = ["main", "without_version"]
 
 _FAILED = 255
+# Only Gazebo Fortress and older call their command so.
+_VERSION = version_of(Release.V12)
 _OF_WORLD = {"gazebo": "sim", "model": "model", "service": "service", "topic": "topic"}
 _HELP = """The 'ign' command provides a command line interface to the ignition tools.
 
@@ -35,7 +38,7 @@ Use 'ign help <command>' to print help for a command."""
 def main(argv: list[str]) -> int:
     """Run a command of ``ign``; the exit code is the original's, 255 for what it refuses."""
     words, version = without_version(argv)
-    if version is not None and not VERSION.startswith(version):
+    if version is not None and not _VERSION.startswith(version):
         print(f"Version error: I cannot find this command in version [{version}].")
         return _FAILED
     name = words[0] if words else ""
@@ -52,7 +55,7 @@ def main(argv: list[str]) -> int:
         print("\n".join(sorted([*_OF_WORLD, "sdf"])))
         return 0
     if name == "--versions" or (name == "sdf" and "--versions" in words):
-        print(VERSION)
+        print(_VERSION)
         return 0
     if name == "sdf":
         return run_sdf(words[1:])

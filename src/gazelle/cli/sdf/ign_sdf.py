@@ -1,9 +1,9 @@
-"""``ign sdf``, and ``gz sdf`` of the new Gazebo: options and output of sdformat 12's program."""
+"""``ign sdf``, and ``gz sdf`` of the new Gazebo: options and output of sdformat 12 and 14."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from gazelle.description.sdformat.document import Document, to_text
 from gazelle.description.sdformat.document.checking import load, name_problems
 from gazelle.description.sdformat.document.checking.attached import attached_graph
 from gazelle.description.sdformat.document.checking.relative import relative_graph
-from gazelle.description.sdformat.document.console import Code, SdfError
+from gazelle.description.sdformat.document.console import Code, SdfError, error_line
 from gazelle.description.sdformat.document.describing import described_specification
 from gazelle.description.sdformat.document.inertial_stats import inertial_stats
 from gazelle.description.sdformat.document.rewriting import (
@@ -23,11 +23,10 @@ from gazelle.description.sdformat.document.rewriting import (
 from gazelle.description.sdformat.document.specification import specification
 from gazelle.description.sdformat.release import Release
 
-__all__ = ["VERSION", "run_sdf", "usage"]
+__all__ = ["run_sdf", "usage", "version_of"]
 
-VERSION = "12.3.0"
+_VERSIONS = {Release.V12: "12.3.0", Release.V14: "14.8.0"}
 _FAILED = 255
-_NEW = Release.V12
 _SNAP_LIMIT_DEG = 360
 _USAGE = """Utilities for SDF files.
 
@@ -60,7 +59,12 @@ _LONG = [
 _NAMES = {"-k": "check", "-d": "describe", "-p": "print", "-g": "graph", "-i": "preserve-includes"}
 
 
-def run_sdf(words: list[str], tool: str = "ign") -> int:
+def version_of(release: Release) -> str:
+    """Return the version that a release of the new Gazebo's sdformat tells."""
+    return _VERSIONS[release]
+
+
+def run_sdf(words: list[str], tool: str = "ign", release: Release = Release.V12) -> int:
     """Run ``ign sdf``, which gz calls ``gz sdf``, with the words behind ``sdf``.
 
     Returns:
@@ -68,37 +72,39 @@ def run_sdf(words: list[str], tool: str = "ign") -> int:
     """
     words, is_quiet = take_quiet(words)
     if "--versions" in words:
-        print(VERSION)
+        print(version_of(release))
         return 0
     try:
         pairs, rest = gnu_getopt(words, _SHORT, _LONG)
     except GetoptError:
-        return _usage(tool)
+        return _usage(tool, release)
     options = {_NAMES.get(name, name.lstrip("-")): value for name, value in pairs}
     if "h" in options or "help" in options:
-        print(usage(tool))
+        print(usage(tool, release))
         return 0
     if "check" in options:
-        return _told(_check, options["check"], is_quiet=is_quiet)
+        return _told(lambda word: _check(word, release), options["check"], is_quiet=is_quiet)
     if "inertial-stats" in options:
-        return _told(_print_stats, options["inertial-stats"], is_quiet=is_quiet)
+        file = options["inertial-stats"]
+        return _told(lambda word: _print_stats(word, release), file, is_quiet=is_quiet)
     if "describe" in options:
-        return _describe(rest[0] if rest else "1.9")
+        return _describe(rest[0] if rest else release.spec_text, tool, release)
     if "print" in options and rest:
-        return _print(rest[-1], options, is_quiet=is_quiet)
+        return _print(rest[-1], options, release, is_quiet=is_quiet)
     if "graph" in options and rest:
         kind = options["graph"]
-        return _told(lambda word: _print_graph(kind, word), rest[0], is_quiet=is_quiet)
-    return _usage(tool)
+        return _told(lambda word: _print_graph(kind, word, release), rest[0], is_quiet=is_quiet)
+    return _usage(tool, release)
 
 
-def usage(tool: str) -> str:
+def usage(tool: str, release: Release = Release.V12) -> str:
     """Return the options as ``ign help sdf`` or ``gz help sdf`` shows them."""
-    return _USAGE.replace("ign sdf", f"{tool} sdf")
+    text = _USAGE.replace("(1.9)", f"({release.spec_text})")
+    return text.replace("ign sdf", f"{tool} sdf")
 
 
-def _usage(tool: str) -> int:
-    print(usage(tool))
+def _usage(tool: str, release: Release) -> int:
+    print(usage(tool, release))
     return _FAILED
 
 
@@ -109,19 +115,19 @@ def _told(action: Callable[[str], int], word: str, *, is_quiet: bool) -> int:
     return code
 
 
-def _check(word: str) -> int:
+def _check(word: str, release: Release) -> int:
     path = str(Path(word).absolute())
-    document = read_for(path, _NEW)
+    document = read_for(path, release)
     say(document.console.lines)
     if document.root is None:
         unread = SdfError(Code.FILE_READ, f"Unable to read file:{path}")
-        say([*document.errors, unread])
+        _say([*document.errors, unread], release)
         return _FAILED
     loaded = load(document)
     say(loaded.console.lines)
     errors = [*document.errors, *loaded.errors]
     problems = [] if errors else name_problems(document)
-    say([*errors, *problems])
+    _say([*errors, *problems], release)
     if not errors:
         # The file is read a second time and says everything again.
         say(document.console.lines)
@@ -131,13 +137,13 @@ def _check(word: str) -> int:
     return 0
 
 
-def _print(word: str, options: dict[str, str], *, is_quiet: bool) -> int:
+def _print(word: str, options: dict[str, str], release: Release, *, is_quiet: bool) -> int:
     try:
         snap = _snap_of(options)
     except ValueError as error:
         print(error)
         return _FAILED
-    document = _existing(word)
+    document = _existing(word, release)
     if document is None:
         return _FAILED
     say(_said(document))
@@ -146,8 +152,8 @@ def _print(word: str, options: dict[str, str], *, is_quiet: bool) -> int:
         return _told(lambda _word: _FAILED, word, is_quiet=is_quiet)
     root = with_includes(document) if "preserve-includes" in options else document.root
     if snap is not None or "degrees" in options:
-        root = with_angles_in_degrees(root, specification(_NEW), snap)
-    sys.stdout.write(to_text(root, _NEW))
+        root = with_angles_in_degrees(root, specification(release), snap)
+    sys.stdout.write(to_text(root, release))
     return _told(lambda _word: 0, word, is_quiet=is_quiet)
 
 
@@ -179,26 +185,33 @@ def _number(text: str) -> float:
         return -1.0
 
 
-def _existing(word: str) -> Document | None:
+def _existing(word: str, release: Release) -> Document | None:
     path = Path(word).absolute()
     if not path.exists():
         say([f"Error: File [{path}] does not exist."])
         return None
-    return read_for(str(path), _NEW)
+    return read_for(str(path), release)
+
+
+def _say(lines: Iterable[str | SdfError], release: Release) -> None:
+    say(error_line(one, release) if isinstance(one, SdfError) else one for one in lines)
 
 
 def _said(document: Document) -> list[str]:
-    return [*document.console.lines, *map(str, document.errors)]
+    return [
+        *document.console.lines,
+        *(error_line(one, document.console.release) for one in document.errors),
+    ]
 
 
-def _print_graph(kind: str, word: str) -> int:
-    document = _existing(word)
+def _print_graph(kind: str, word: str, release: Release) -> int:
+    document = _existing(word, release)
     if document is None:
         return _FAILED
     say(document.console.lines)
     loaded = load(document) if document.root is not None else None
     if loaded is not None:
-        say([*loaded.console.lines, *document.errors, *loaded.errors])
+        _say([*loaded.console.lines, *document.errors, *loaded.errors], release)
     if kind not in ("pose", "frame"):
         say(['Only "pose" and "frame" graph types are supported'])
         return 0
@@ -209,18 +222,19 @@ def _print_graph(kind: str, word: str) -> int:
     errors: list[SdfError] = []
     build = relative_graph if kind == "pose" else attached_graph
     dot = build(subject, errors).graph.to_dot()
-    say(errors)
+    _say(errors, release)
     print(dot)
     return 0
 
 
-def _print_stats(word: str) -> int:
-    document = _existing(word)
+def _print_stats(word: str, release: Release) -> int:
+    document = _existing(word, release)
     if document is None or document.root is None:
         say([] if document is None else _said(document))
         return _FAILED
     loaded = load(document)
-    say([*document.console.lines, *loaded.console.lines, *document.errors, *loaded.errors])
+    found = [*document.console.lines, *loaded.console.lines, *document.errors, *loaded.errors]
+    _say(found, release)
     if loaded.worlds:
         say(["Error: Expected a model file but received a world file."])
         return _FAILED
@@ -231,9 +245,10 @@ def _print_stats(word: str) -> int:
     return 0
 
 
-def _describe(version: str) -> int:
-    if version != "1.9":
-        say([f"gazelle: ign sdf describes SDF 1.9 only, not {version}; gz sdf -d describes 1.7"])
+def _describe(version: str, tool: str, release: Release) -> int:
+    if version != release.spec_text:
+        text = f"gazelle: {tool} sdf describes SDF {release.spec_text} here, not {version}"
+        say([f"{text}; others: gz sdf -d with ROS_DISTRO=noetic (1.7), humble (1.9), jazzy (1.11)"])
         return _FAILED
-    sys.stdout.write(described_specification(_NEW))
+    sys.stdout.write(described_specification(release))
     return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -14,6 +15,7 @@ from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, render
+from gazelle.limits.names import exists
 from gazelle.workspace import Workspace
 
 __all__ = ["QUIET", "read_for", "report_findings", "say", "take_quiet"]
@@ -32,9 +34,17 @@ def read_for(word: str, release: Release) -> Document:
     folder = Path(word).resolve().parent
 
     def find(uri: str) -> Path | None:
-        return workspace.resolve(uri, base_dir=folder).path
+        return workspace.resolve(uri, base_dir=folder).path or _on_sdf_path(uri)
 
     return read_document_file(word, release=release, find=find)
+
+
+def _on_sdf_path(name: str) -> Path | None:
+    """Return what a bare name means in the folders of ``SDF_PATH``, None when it is nowhere."""
+    if "://" in name:
+        return None
+    folders = [one for one in os.environ.get("SDF_PATH", "").split(os.pathsep) if one]
+    return next((path for one in folders if exists(path := Path(one) / name)), None)
 
 
 def say(lines: Iterable[object]) -> None:

@@ -12,8 +12,22 @@ class Release(enum.Enum):
 
     V9 = 9
     V12 = 12
+    V14 = 14
 
     @property
     def spec(self) -> tuple[int, int]:
-        """The SDF version it prints: 1.7 for Gazebo 11's, 1.9 for Fortress's."""
-        return (1, 7) if self is Release.V9 else (1, 9)
+        """The SDF version it prints: 1.7 is Gazebo 11's, 1.9 Fortress's, 1.11 Harmonic's."""
+        return _SPECS[self]
+
+    @property
+    def spec_text(self) -> str:
+        """`spec` as files write it."""
+        return "{}.{}".format(*self.spec)
+
+    @property
+    def is_new(self) -> bool:
+        """Whether it belongs to the new Gazebo: errors have places, includes stay models."""
+        return self is not Release.V9
+
+
+_SPECS = {Release.V9: (1, 7), Release.V12: (1, 9), Release.V14: (1, 11)}

@@ -70,12 +70,20 @@ class SdfError(NamedTuple):
         )
 
 
+# Codes of release 12 whose number sdformat 14 gives to an error of its own.
+_NEW_IN_14 = (Code.URI_INVALID, 28)
+
+
 def error_line(error: SdfError, release: Release) -> str:
     """Return the line that a release prints for an error.
 
-    Release 9 prints no places, and its numbers have no `Code.ATTRIBUTE_INCORRECT_TYPE`.
+    Release 9 prints no places, and its numbers have no `Code.ATTRIBUTE_INCORRECT_TYPE`; 14 has two
+    more in between.
     """
-    if release is Release.V12:
+    if release is Release.V14:
+        more = sum(error.code >= first for first in _NEW_IN_14)
+        return str(error._replace(code=error.code + more))
+    if release.is_new:
         return str(error)
     number = error.code - (error.code > Code.ATTRIBUTE_INCORRECT_TYPE)
     return f"Error Code {number} Msg: {error.message}"
@@ -129,6 +137,8 @@ _PLACES: dict[str, tuple[str, int, int]] = {
     "no-spec": ("SDF.cc", 461, 443),
     "no-spec-element": ("parser.cc", 159, 437),
 }
+# So many lines further down stand those of Utils.cc in sdformat 14.
+_UTILS_MOVED = 3
 
 
 @dataclass(slots=True)
@@ -158,4 +168,6 @@ class Console:
     def _write(self, label: str, place: str, text: str) -> None:
         file, old, new = _PLACES[place]
         line = old if self.release is Release.V9 else new
+        if self.release is Release.V14 and file == "Utils.cc":
+            line += _UTILS_MOVED
         self.lines.append(f"\033[1;{label} [{file}:{line}]\033[0m {text}")

@@ -83,7 +83,7 @@ def normalised(element: SdfElement, release: Release) -> SdfElement | None:
 
 
 def _say_unfound(word: str, console: Console) -> None:
-    if console.release is Release.V12:
+    if console.release.is_new:
         console.error(
             "callback",
             "Tried to use callback in sdf::findFile(), but the callback is empty.  "
@@ -166,7 +166,7 @@ def _read_robot(tag: Tag, reading: Reading) -> Document:
 def _read_sdf(raw: SdfElement, file: str, reading: Reading) -> SdfElement | None:
     version = raw.attributes["version"]
     spec = reading.console.release.spec
-    if version != "{}.{}".format(*spec):
+    if version != reading.console.release.spec_text:
         upgrade(raw, spec, reading.console)
     if reading.is_new and not _accepts_top_pose(raw, file, reading):
         message = "Errors were found when checking the XML of element<sdf>."

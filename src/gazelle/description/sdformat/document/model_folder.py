@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from gazelle.description.sdformat.document.console import Console
-from gazelle.description.sdformat.release import Release
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.limits.names import exists
@@ -24,7 +23,7 @@ def model_file(folder: Path, console: Console) -> Path | None:
     if not exists(config):
         config = folder / "manifest.xml"
         if not exists(config):
-            where = f"in [{folder}]" if console.release is Release.V12 else "for the model"
+            where = f"in [{folder}]" if console.release.is_new else "for the model"
             console.error("no-config", f"Could not find model.config or manifest.xml {where}")
             return None
         message = "The manifest.xml for a model is deprecated. Please rename manifest.xml to "

@@ -90,7 +90,7 @@ class Reading:
     @property
     def is_new(self) -> bool:
         """Whether errors have places, as those of newer releases."""
-        return self.console.release is Release.V12
+        return self.console.release.is_new
 
     def fail(self, code: int, message: str, place: Place, line: int = 0) -> None:
         """Note an error."""
@@ -124,6 +124,8 @@ def read_element(
     if not _read_children(element, raw, definition, place, reading):
         return None
     unknown = [child for child in raw.children if child.name not in definition.children]
+    for child in unknown:
+        _warn_of_unknown_element(child, raw, place, reading)
     element.children += [_copied(child, reading) for child in unknown]
     return element if _complete(element, raw, definition, place, reading) else None
 
@@ -167,7 +169,7 @@ def set_text(element: SdfElement, parameter: Parameter, text: str, console: Cons
     text = text.strip()
     if not text and not _refuses_empty(parameter, console):
         element.text = default_text(parameter, console, as_typed=True)
-        if parameter.kind == "pose" and console.release is Release.V12:
+        if parameter.kind == "pose" and console.release.is_new:
             element.text = empty_pose(element.attributes)
         return True
     value = printed_value(parameter, text, element.attributes, console) if text else None
@@ -237,6 +239,22 @@ def _warn_of_unknown(name: str, raw: SdfElement, at: Place, reading: Reading) ->
         reading.console.warn("policy-line", f"{where}: {message}.")
     else:
         reading.console.warn("unknown-attribute", f"{message}, ignoring.")
+
+
+def _warn_of_unknown_element(
+    child: SdfElement, raw: SdfElement, place: Place, reading: Reading
+) -> None:
+    """Say what sdformat 14 says, whose predecessors only told it to their log file."""
+    named = child.name == "include" or ":" in child.name
+    if named or reading.console.release is not Release.V14:
+        return
+    at = place.child(child)
+    reading.console.warn(
+        "policy-line",
+        f"[{at.path}:{at.file}:L{child.line}]: XML Element[{child.name}], child of "
+        f"element[{raw.name}], not defined in SDF. Copying[{child.name}] as children of "
+        f"[{raw.name}].",
+    )
 
 
 def _check_reference(raw: SdfElement, name: str, at: Place, reading: Reading) -> None:

@@ -1,9 +1,9 @@
 """What a release's SDF specification knows: elements, attributes, types, defaults.
 
-``specification.txt`` holds the facts of SDF 1.7 and 1.9, one element or attribute in a line, what
-belongs to it below it with one more space of indentation::
+``specification.txt`` holds the facts of SDF 1.7, 1.9 and 1.11, one element or attribute in a line,
+what belongs to it below it with one more space of indentation::
 
-    == camera 1.9                      a file of the specification; without version for both
+    == camera 1.9                      a file of the specification, of these versions or of all
     camera ?                           element: ? optional, ! required once, + at least once, * any
      @name ? string=__default__        attribute with type and default
      near ! double[0.1,]=.1            least and largest value
@@ -94,12 +94,11 @@ class Definition:
 @cache
 def specification(release: Release) -> Definition:
     """Return the definition of ``<sdf>`` in a release."""
-    version = "{}.{}".format(*release.spec)
     book: dict[str, Definition] = {}
     for block in _text("specification.txt").split("== ")[1:]:
         title, *lines = block.splitlines()
         name, _, only = title.partition(" ")
-        if only in ("", version):
+        if not only or release.spec_text in only.split():
             book[name] = _definition(lines, 0, 0, book)
     return book["root"]
 

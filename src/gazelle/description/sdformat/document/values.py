@@ -63,7 +63,7 @@ def printed_value(
         attributes: of the element, which say how a pose is written.
         console: receives reasons; its release decides.
     """
-    if console.release is Release.V12:
+    if console.release.is_new:
         checked = _checked(parameter, text, attributes, console)
         return text if checked else None
     return _formatted(parameter, text, console)
@@ -78,7 +78,7 @@ def default_text(parameter: Parameter, console: Console, *, as_typed: bool = Fal
         as_typed: the element is there and empty: newer releases print the default's value, not
             its spelling.
     """
-    if console.release is Release.V12 and not as_typed:
+    if console.release.is_new and not as_typed:
         return parameter.default
     if console.release is Release.V9:
         return _formatted(parameter, parameter.default, console) or ""

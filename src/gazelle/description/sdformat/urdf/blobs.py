@@ -89,7 +89,7 @@ def _kept_pose(blob: Blob, T_link_reduced: Origin, console: Console) -> Origin |
 
 def _rename(blob: Blob, link: str, parent: str, console: Console) -> None:
     element = blob.element
-    if console.release is Release.V12:
+    if console.release.is_new:
         # It looks beside the element instead of inside: only a bare <projector> is ever found.
         if element.name == "projector":
             replaced = _renamed_projector(element, link, parent, console)

@@ -10,7 +10,8 @@ __all__ = ["Console"]
 
 _COLOURS = {"Warning": 33, "Error": 31}
 
-# Message → line of parser_urdf.cc in sdformat 9.3.0 and 12.3.0: people search for both.
+# Message → line of parser_urdf.cc in sdformat 9.3.0 and 12.3.0 (the last two in 14): people search
+# for them.
 _LINES = {
     "no vector": (283, 288),
     "collision twice": (357, 362),
@@ -25,6 +26,8 @@ _LINES = {
     "projector without pose": (0, 3497),
     "bad projector pose": (0, 3512),
     "no slash": (3579, 3719),
+    "massless": (0, 2774),
+    "left out": (0, 2777),
 }
 
 
@@ -49,6 +52,6 @@ class Console:
         self._add("Error", what, message)
 
     def _add(self, level: str, what: str, message: str) -> None:
-        line = _LINES[what][self.release is Release.V12]
+        line = _LINES[what][self.release.is_new]
         prefix = f"\033[1;{_COLOURS[level]}m{level} [parser_urdf.cc:{line}]\033[0m"
         self.remarks.append(f"{prefix} {message}")

@@ -34,7 +34,8 @@ def urdf_to_sdf(
     What is written down is sdformat 12.3.0's (Debian 12) and 9.3.0's (Gazebo 11 of Debian 11)
     behaviour, peculiarities included: sdformat 9 forgets the pose of a lumped link's sensor, both
     let everything disappear that hangs on a lumped link without inertia. Later releases of both
-    series differ in some of them.
+    series differ in some of them. Of sdformat 14 there is what a user meets: ``<mimic>``, frames in
+    place of lumped links, which need no mass, and ``<static>`` only where it is asked for.
 
     Args:
         root: the ``<robot>``, xacro already expanded.

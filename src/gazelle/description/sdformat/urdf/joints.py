@@ -10,7 +10,7 @@ from gazelle.description.sdformat.urdf.extensions import Extension, Extensions
 from gazelle.description.sdformat.urdf.lumping import is_lumped
 from gazelle.description.sdformat.urdf.numbers import exact_text
 from gazelle.description.sdformat.urdf.parts import pose_text
-from gazelle.description.sdformat.urdf.robot import Joint, Limits, Link
+from gazelle.description.sdformat.urdf.robot import Joint, Limits, Link, Mimic
 
 __all__ = ["add_joint"]
 
@@ -62,10 +62,19 @@ def _add_axis(owner: SdfElement, joint: Joint, console: Console) -> None:
     limit = axis.add("limit")
     if joint.limits is not None:
         _add_limits(limit, joint, joint.limits, console)
+    if joint.mimic is not None and console.release is Release.V14:
+        axis.children.insert(1, _mimic_of(joint.mimic))
     dynamics = axis.add("dynamics")
     if joint.dynamics is not None:
         dynamics.add("damping", exact_text(joint.dynamics[:1]))
         dynamics.add("friction", exact_text(joint.dynamics[1:]))
+
+
+def _mimic_of(mimic: Mimic) -> SdfElement:
+    element = SdfElement("mimic", {"joint": mimic.joint})
+    element.add("multiplier", exact_text([mimic.multiplier]))
+    element.add("offset", exact_text([mimic.offset]))
+    return element
 
 
 def _add_limits(owner: SdfElement, joint: Joint, limits: Limits, console: Console) -> None:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gazelle.description.sdformat.element import SdfElement
+from gazelle.description.sdformat.release import Release
 from gazelle.description.sdformat.urdf.blobs import move_extensions
 from gazelle.description.sdformat.urdf.console import Console
-from gazelle.description.sdformat.urdf.extensions import Extensions
+from gazelle.description.sdformat.urdf.extensions import Blob, Extension, Extensions
 from gazelle.description.sdformat.urdf.inertia import lump_inertia
+from gazelle.description.sdformat.urdf.parts import pose_text
 from gazelle.description.sdformat.urdf.poses import chained
 from gazelle.description.sdformat.urdf.robot import Joint, Link, Robot
 
@@ -80,12 +83,27 @@ def _bottom_up(robot: Robot, extensions: Extensions) -> Iterator[Link]:
 def _lump(link: Link, extensions: Extensions, console: Console) -> None:
     parent, joint = link.parent, link.joint_above
     assert parent is not None and joint is not None
+    if console.release is Release.V14:
+        _remember(link, parent, joint, extensions)
     move_extensions(link.name, parent.name, joint.T_parent_joint, extensions, console)
     lump_inertia(link, parent, joint.T_parent_joint)
     _move_parts(link, parent, "visual", console)
     _move_parts(link, parent, "collision", console)
     for child in link.children:
         _hang_higher(child, link, extensions)
+
+
+def _remember(link: Link, parent: Link, joint: Joint, extensions: Extensions) -> None:
+    """Leave frames of the joint's and the link's names, as sdformat does since 14."""
+    origin = joint.T_parent_joint
+    for name, holder, pose in (
+        (joint.name, parent.name, pose_text(origin)),
+        (link.name, joint.name, "0 0 0 0 0 0"),
+    ):
+        frame = SdfElement("frame", {"name": name, "attached_to": holder})
+        frame.add("pose", pose)
+        kept = Extension(blobs=[Blob(frame)])
+        extensions.by_reference.setdefault("", []).append(kept)
 
 
 def _move_parts(link: Link, parent: Link, kind: str, console: Console) -> None:

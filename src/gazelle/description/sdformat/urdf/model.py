@@ -13,6 +13,7 @@ from gazelle.description.sdformat.urdf.elements import copied, set_value
 from gazelle.description.sdformat.urdf.extensions import Extension, Extensions
 from gazelle.description.sdformat.urdf.joints import add_joint
 from gazelle.description.sdformat.urdf.lumping import is_reduced
+from gazelle.description.sdformat.urdf.massless import warn_of_massless
 from gazelle.description.sdformat.urdf.numbers import exact_text
 from gazelle.description.sdformat.urdf.parts import add_collisions, add_inertial, add_visuals
 from gazelle.description.sdformat.urdf.robot import Link, Robot
@@ -51,38 +52,44 @@ def model_of(robot: Robot, extensions: Extensions, console: Console) -> SdfEleme
         WorldCrashError: see there.
     """
     model = SdfElement("model", {"name": robot.name})
-    for link, fate in visits(robot, extensions):
+    for link, fate in visits(robot, extensions, console.release):
         if fate is Fate.MODELLED:
             _add_link(model, link, extensions, console)
+        elif fate is not Fate.LUMPED and console.release is Release.V14:
+            warn_of_massless(link, fate is Fate.WITHOUT_INERTIAL, console)
     for extension in extensions.by_reference.get("", ()):
         is_static = extension.switches.get("static", False)
-        set_value(model, "static", "true" if is_static else "false", console)
+        # sdformat 14 says it only where it is asked for.
+        if "static" in extension.switches or console.release is not Release.V14:
+            set_value(model, "static", "true" if is_static else "false", console)
         model.children += [copied(blob.element) for blob in extension.blobs]
     return model
 
 
-def visits(robot: Robot, extensions: Extensions) -> Iterator[Visit]:
+def visits(robot: Robot, extensions: Extensions, release: Release = Release.V12) -> Iterator[Visit]:
     """Yield the links from the root down, children in order of the joints' names."""
     is_world = robot.root.name == _WORLD
     waiting = robot.root.children[::-1] if is_world else [robot.root]
     while waiting:
         link = waiting.pop()
-        fate = _fate(link, extensions)
+        fate = _fate(link, extensions, release)
         yield Visit(link, fate)
         if fate in (Fate.MODELLED, Fate.LUMPED):
             waiting += link.children[::-1]
 
 
-def _fate(link: Link, extensions: Extensions) -> Fate:
-    if link.name != _WORLD:
+def _fate(link: Link, extensions: Extensions, release: Release) -> Fate:
+    hangs_on_world = link.parent is not None and link.parent.name == _WORLD
+    joint = None if hangs_on_world else link.joint_above
+    lumped = joint is not None and is_reduced(joint, extensions)
+    # Since sdformat 14 a lumped link needs no mass: it is no link any more.
+    if link.name != _WORLD and not (lumped and release is Release.V14):
         if link.inertial is None:
             return Fate.WITHOUT_INERTIAL
-        if abs(link.inertial.mass_kg) <= _NO_MASS_KG:
+        mass_kg = link.inertial.mass_kg
+        if mass_kg <= 0 if release is Release.V14 else abs(mass_kg) <= _NO_MASS_KG:
             return Fate.WITHOUT_MASS
-    hangs_on_world = link.parent is not None and link.parent.name == _WORLD
-    if hangs_on_world or link.joint_above is None:
-        return Fate.MODELLED
-    return Fate.LUMPED if is_reduced(link.joint_above, extensions) else Fate.MODELLED
+    return Fate.LUMPED if lumped else Fate.MODELLED
 
 
 def _add_link(model: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:

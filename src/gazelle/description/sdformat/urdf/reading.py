@@ -14,6 +14,7 @@ from gazelle.description.sdformat.urdf.robot import (
     Joint,
     Limits,
     Link,
+    Mimic,
     Part,
     Robot,
     Shape,
@@ -180,6 +181,10 @@ def _joint(tag: Element) -> Joint:
         joint.limits = Limits(*(_number(limit, word) for word in words))
     if dynamics is not None:
         joint.dynamics = (_number(dynamics, "damping"), _number(dynamics, "friction"))
+    mimic = tag.first("mimic")
+    if mimic is not None:
+        multiplier = _number(mimic, "multiplier") if "multiplier" in mimic.attributes else 1.0
+        joint.mimic = Mimic(mimic.attributes.get("joint", ""), multiplier, _number(mimic, "offset"))
     return joint
 
 

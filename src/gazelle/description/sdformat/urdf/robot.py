@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from gazelle.description.urdfdom.poses import Origin
 
-__all__ = ["Inertial", "Joint", "Limits", "Link", "Part", "Robot", "Shape"]
+__all__ = ["Inertial", "Joint", "Limits", "Link", "Mimic", "Part", "Robot", "Shape"]
 
 Vector3 = tuple[float, float, float]
 Colour = tuple[float, float, float, float]
@@ -58,6 +58,14 @@ class Limits:
     velocity: float = 0.0
 
 
+class Mimic(NamedTuple):
+    """The joint that another one follows."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
 @dataclass(slots=True, eq=False)
 class Joint:
     """A joint; lumping changes where it is and what it hangs on.
@@ -71,6 +79,7 @@ class Joint:
         axis: as written, not normalised.
         limits: None when there is no ``<limit>``.
         dynamics: damping and friction; None when there is no ``<dynamics>``.
+        mimic: what it follows; None when there is no ``<mimic>``.
     """
 
     name: str
@@ -81,6 +90,7 @@ class Joint:
     axis: Vector3
     limits: Limits | None = None
     dynamics: tuple[float, float] | None = None
+    mimic: Mimic | None = None
 
 
 @dataclass(slots=True, eq=False)
