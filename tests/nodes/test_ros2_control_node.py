@@ -97,7 +97,8 @@ def test_missing_hardware_is_one_error_that_controllers_refer_to(
     file = tmp_path / "controllers.yaml"
     file.write_text(_PARAMETERS)
     _publish(bench, "shop_driver/ArmHardware")
-    bench.start(_NODE, "--ros-args", "--params-file", str(file))
+    words = ["-p", "hardware_components_initial_state.inactive:=[arm]"]
+    bench.start(_NODE, "--ros-args", "--params-file", str(file), *words)
     bench.eventually(lambda: "/controller_manager" in bench.graph.node_names())
     refusals = {}
     for name in ("states", "arm"):
@@ -114,6 +115,7 @@ def test_missing_hardware_is_one_error_that_controllers_refer_to(
     assert "controller 'arm' cannot run without 'j': hardware 'arm', which has it, was not" in text
     assert "No state interfaces found to publish. Hardware 'arm' was not loaded" in text
     assert "<ros2_control> block" not in text
+    assert "is unknown" not in text
 
 
 def _hardware(bench: Any) -> dict[str, Any]:

@@ -158,6 +158,9 @@ def _set_initial_states(node: Node, robot: Robot, tree: Mapping[str, Any]) -> No
         allowed = defaults.get("allow_controller_activation_with_inactive_hardware")
         robot.lifecycle.takes_inactive = allowed is True
     for name, state in initial_states(tree, [one.name for one in robot.components]):
+        if state is None and name in robot.absent.values():
+            # Its class is not here, which is an error of its own.
+            continue
         if state is None:
             hint = did_you_mean(name, [one.name for one in robot.components])
             text = f"Hardware component '{name}' is unknown, therefore its state is not set."

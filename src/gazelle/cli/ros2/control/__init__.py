@@ -13,20 +13,21 @@ from gazelle.nodes.controller_manager_client import ManagerClient
 __all__ = ["main"]
 
 _NAME = "Name of the controller"
+_DIAGRAM = "controller_diagram.pdf"
 _MANAGER = "controller_manager"
 _PATIENCE_S = 10.0
 
 
 def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 control``."""
-    from gazelle.cli.ros2.control import listing, verbs
+    from gazelle.cli.ros2.control import chains, listing, verbs
 
     parser = _parser()
     options = parser.parse_args(_own_words(argv))
     if not options.verb:
         parser.print_help()
         return 0
-    module = listing if hasattr(listing, options.verb) else verbs
+    module = next(one for one in (listing, verbs, chains) if options.verb in one.__all__)
     try:
         with joined() as graph:
             node = graph.create_node("ros2control", anonymous=True, rosout=False)
@@ -72,6 +73,7 @@ def _parser() -> argparse.ArgumentParser:
         ("set_hardware_component_state", "Adjust the state of the hardware component"),
         ("switch_controllers", "Switch controllers in a controller manager"),
         ("unload_controller", "Unload a controller in a controller manager"),
+        ("view_controller_chains", "Generates a diagram of the loaded chained controllers"),
     )
     found = add_verbs(parser, dict(rows))
     _add_listing(found)
@@ -88,6 +90,9 @@ def _add_listing(found: dict[str, argparse.ArgumentParser]) -> None:
     verb = found["list_controllers"]
     for name in ("claimed", "required-state", "required-command", "chained", "exported"):
         verb.add_argument(f"--{name}-interfaces", action="store_true")
+    found["view_controller_chains"].add_argument(
+        "--save", action="store_true", help=f"save {_DIAGRAM} in the current directory"
+    )
     for name in ("list_controllers", "list_hardware_components", "list_hardware_interfaces"):
         found[name].add_argument("-v", "--verbose", action="store_true")
 
