@@ -298,3 +298,15 @@ def test_effort_that_is_not_finite_is_refused(build):
     engine = build.engine(build.wheel())
     with pytest.raises(EngineError, match="was given nan: a finite number is needed"):
         engine.joint("wheel::joint").set_effort(math.nan)
+
+
+@pytest.mark.parametrize("inertia", [1e-8, 1e-6, 1e-3])
+def test_friction_holds_a_joint_against_less_effort_whatever_its_inertia(build, inertia):
+    engine = build.engine(build.wheel(inertia=inertia, friction=10.0))
+    joint = engine.joint("wheel::joint")
+    joint.set_effort(9.0)
+    engine.step(1000)
+    assert abs(joint.position) < 1e-2
+    joint.set_effort(12.0)
+    engine.step(100)
+    assert joint.position > 0.05

@@ -42,6 +42,10 @@ FRICTION_RATIO = 1000.0
 """Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
 
 
+_STOPPED_AT_ONCE = 100.0
+"""Speed that friction at least takes from a joint in a step, rad/s or m/s."""
+
+
 @dataclass(frozen=True, slots=True)
 class Extras:
     """What commands have asked for on top of the world.
@@ -233,13 +237,26 @@ def _finish(
     for motor in motors:
         inertia = 1.0 / max(float(model.dof_invweight0[model.joint(motor).dofadr[0]]), 1e-12)
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
-    if motors or builder.decays:
+    if _steady_friction(model, builder.step_s) or motors or builder.decays:
         mujoco.mj_setConst(model, mujoco.MjData(model))
     correct_weights(model, [(name, link) for link, name in builder.tyres.items()])
     # MuJoCo weighs turning speeds with the size of the geometry that turns; a joint that carries
     # none would count as resting at any speed.
     np.maximum(model.dof_length, 1.0, out=model.dof_length)
     return Compiled(model, names, ids, tuple(collisions), pairs, motors)
+
+
+def _steady_friction(model: Any, step_s: float) -> bool:
+    """Give light joints the inertia with which their friction holds them; whether one got some.
+
+    MuJoCo's dry friction creeps at 10⁻⁴ of the speed that its limit would give the joint in a
+    step; here that is below 10⁻² rad/s. Friction stops such a joint from 100 rad/s in a step.
+    """
+    least = model.dof_frictionloss * step_s / _STOPPED_AT_ONCE
+    missing = least - 1.0 / np.maximum(model.dof_invweight0, 1e-12)
+    light = (model.dof_frictionloss > 0) & (missing > 0)
+    model.dof_armature[light] += missing[light]
+    return bool(light.any())
 
 
 def _apply_decay(model: Any, decay: VelocityDecay, step_s: float) -> None:

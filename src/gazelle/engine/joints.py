@@ -175,7 +175,7 @@ class _Adder:
         joint.stiffness = [max(axis.spring_stiffness, 0.0), 0.0, 0.0]
         joint.springref = axis.spring_reference
         joint.solref_friction = [2.0 * self._step_s, 1.0]
-        joint.solimp_friction = [0.999, 0.999, 0.001, 0.5, 2.0]
+        joint.solimp_friction = [0.9999, 0.9999, 0.001, 0.5, 2.0]
         self._limit(joint, axis, unlimited=unlimited)
 
     def _limit(self, joint: Any, axis: JointAxis, *, unlimited: bool) -> None:
