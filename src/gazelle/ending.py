@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import atexit
 import os
+import select
 import signal
+import stat
 import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 if TYPE_CHECKING:
     import socket
@@ -18,11 +20,13 @@ if TYPE_CHECKING:
 __all__ = [
     "StopEvent",
     "at_stop_signal",
+    "drop_output",
     "end_at_interrupts",
     "end_with",
     "interrupts_held",
     "raise_interrupts",
     "raise_or_end",
+    "when_nobody_reads",
 ]
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -149,6 +153,39 @@ def at_stop_signal(stop: Callable[[], object]) -> None:
     signal.set_wakeup_fd(far.fileno(), warn_on_full_buffer=False)
     # It must live as long as the process: so the thread holds both ends.
     threading.Thread(target=_listen, args=(near, far, stop), daemon=True).start()
+
+
+def when_nobody_reads(stream: TextIO, act: Callable[[], object]) -> None:
+    """Call something when the reader of a stream goes, as in ``roslaunch … | head -3``.
+
+    It is called in a thread; a stream that is no pipe always has a reader. Who seldom writes hears
+    nothing of it otherwise, and would run on for nobody.
+    """
+    try:
+        descriptor = stream.fileno()
+        is_pipe = stat.S_ISFIFO(os.fstat(descriptor).st_mode)
+    except (OSError, ValueError):
+        # A test's stand-in for the terminal, or a stream that is closed.
+        return
+    if is_pipe:
+        # One of its own: `drop_output` may put something else in its place meanwhile.
+        own = os.dup(descriptor)
+        threading.Thread(target=_await_end, args=(own, act), daemon=True).start()
+
+
+def drop_output(stream: TextIO) -> None:
+    """Let what is written from now on go nowhere."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream.fileno())
+    os.close(nowhere)
+
+
+def _await_end(descriptor: int, act: Callable[[], object]) -> None:
+    # Nothing is asked for: a poll tells of the other end's closing all the same.
+    other_end = select.poll()
+    other_end.register(descriptor, 0)
+    if other_end.poll():
+        act()
 
 
 def _listen(near: socket.socket, _far: socket.socket, stop: Callable[[], object]) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 
 from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
+from gazelle.ending import drop_output
 from gazelle.errors import GazelleError, UserFileError
 
 __all__ = ["main"]
@@ -28,14 +28,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return _main(words)
     except BrokenPipeError:
-        # The reader of our output has gone, as in `rostopic list | head`.
-        return _with_nobody_listening()
-
-
-def _with_nobody_listening() -> int:
-    """Let what is written from now on go nowhere; that nobody reads is no failure."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
+        # The reader of our output has gone, as in `rostopic list | head`, which is no failure.
+        drop_output(sys.stdout)
+        return 0
 
 
 def _main(words: list[str]) -> int:

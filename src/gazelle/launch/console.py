@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from datetime import datetime
 from typing import Any, TextIO
 
 import yaml
 
+from gazelle.ending import drop_output, when_nobody_reads
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.xml1.values import flatten
 
@@ -25,6 +26,14 @@ class Console:
         self._stream = stream or sys.stdout
         self._coloured = self._stream.isatty()
         self._log: TextIO | None = None
+        self._is_read = True
+
+    def when_nobody_reads(self, act: Callable[[], object]) -> None:
+        """Call something, in any thread, when the terminal's lines have lost their reader."""
+        if self._is_read:
+            when_nobody_reads(self._stream, act)
+        else:
+            act()
 
     def keep(self, log: TextIO | None) -> None:
         """Write every line to an open file too, from now on; None ends that."""
@@ -53,8 +62,12 @@ class Console:
             self._log.write(f"[roslaunch][{level}] {time_text}: {text}\n")
             self._log.flush()
         shown = f"{colour}{text}{_RESET}" if colour and self._coloured else text
-        self._stream.write(shown + "\n")
-        self._stream.flush()
+        try:
+            self._stream.write(shown + "\n")
+            self._stream.flush()
+        except BrokenPipeError:
+            self._is_read = False
+            drop_output(self._stream)
 
 
 def summary(config: LaunchConfig, params: Mapping[str, Any]) -> str:

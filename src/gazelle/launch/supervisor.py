@@ -161,7 +161,8 @@ class Supervisor:
     def run(self) -> int:
         """Handle events until every process has ended or a shutdown is asked for.
 
-        With nothing but core nodes from the start, it stays until it is told to end.
+        With nothing but core nodes from the start, it stays until it is told to end. That nobody
+        reads its lines any more ends it too, as in ``roslaunch … | head``.
 
         Returns:
             0 when all went well, 1 when a required process died or a start failed.
@@ -171,6 +172,7 @@ class Supervisor:
             for number in (signal.SIGINT, signal.SIGTERM)
         }
         try:
+            self._console.when_nobody_reads(lambda: self._events.put(_Shutdown()))
             only_core = self._count == len(self._core)
             while self._running or self._respawning:
                 if not only_core and not self._has_work():

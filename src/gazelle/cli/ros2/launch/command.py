@@ -14,6 +14,7 @@ from gazelle.cli.ros2.launch.surroundings import surround_launch_files
 from gazelle.cli.ros2.verbs import guarded
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import Severity, did_you_mean, render
+from gazelle.ending import when_nobody_reads
 from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
 
 __all__ = ["launch_arguments", "main"]
@@ -176,12 +177,15 @@ def _launch(
 ) -> int:
     from gazelle.launch.ros2 import LaunchDescription, LaunchService
     from gazelle.launch.ros2.actions import IncludeLaunchDescription
+    from gazelle.launch.ros2.events import Shutdown
     from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
 
     service = LaunchService(argv=words, noninteractive=options.noninteractive, debug=options.debug)
     source = AnyLaunchDescriptionSource(str(path))
     included = IncludeLaunchDescription(source, launch_arguments=arguments)
     service.include_launch_description(LaunchDescription([included]))
+    unread = Shutdown(reason="nobody reads the output any more")
+    when_nobody_reads(sys.stdout, lambda: service.emit_event(unread))
     code = service.run()
     # A node that could not be started is told when it is its turn, and the others go on.
     failed = any(one.severity >= Severity.ERROR for one in service.context.diagnostics)

@@ -7,6 +7,8 @@ import logging.handlers
 import sys
 from typing import Any, TextIO
 
+from gazelle.ending import drop_output
+
 __all__ = ["ScreenHandler", "with_per_logger_formatting"]
 
 _made: dict[str, type[logging.Handler]] = {}
@@ -66,6 +68,13 @@ class _Screen(logging.StreamHandler[TextIO]):
     def format(self, record: logging.LogRecord) -> str:
         encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
         return super().format(record).encode(encoding, "replace").decode(encoding, "replace")
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        if isinstance(sys.exception(), BrokenPipeError):
+            # The reader of the launch's output has gone, which ends the launch.
+            drop_output(sys.stdout)
+        else:
+            super().handleError(record)
 
 
 ScreenHandler = with_per_logger_formatting(_Screen)
