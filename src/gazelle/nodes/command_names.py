@@ -83,4 +83,12 @@ COMMANDS = (
         (("ros2_control_test_nodes", "publisher_joint_trajectory_controller"),),
         "publisher_position_trajectory_controller",
     ),
+    CommandNode(
+        "force_torque_sensor_broadcaster",
+        "wrench_transformer_node",
+        "filters.wrench_transformer:run",
+        True,
+        "turns wrenches into other frames",
+        name="fts_wrench_transformer",
+    ),
 )
