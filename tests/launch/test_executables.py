@@ -10,8 +10,10 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.elsewhere import missing_node
 from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.roslaunch import LaunchOptions, find_executables
+from gazelle.nodes.registry import builtin_nodes
 from gazelle.workspace import Workspace
 
 _SPAN = SourceSpan("a.launch", 3, 5)
@@ -123,6 +125,9 @@ def test_missing_package_is_named_with_its_place(package: Path) -> None:
     [
         ("velodyne_driver", "velodyne_driver is the driver of a real laser scanner"),
         ("plotjuggler", "plotjuggler is a window that is not here; `rviz` opens Studio"),
+        ("image_transport", "image_transport is the way of compressed pictures; cameras send"),
+        ("diagnostic_aggregator", "diagnostic_aggregator is the summary of /diagnostics"),
+        ("yocs_velocity_smoother", "yocs_velocity_smoother is compiled code that smooths"),
     ],
 )
 def test_missing_package_of_ros_is_told_with_what_does_its_work(
@@ -132,6 +137,31 @@ def test_missing_package_of_ros_is_told_with_what_does_its_work(
     (error,) = diagnostics
     assert error.message == f"package '{package_name}' not found"
     assert error.fix.startswith(fix)
+
+
+@pytest.mark.parametrize(
+    ("node", "fix"),
+    [
+        (("joy", "game_controller_node"), "game_controller_node is SDL's layout of game contr"),
+        (("robot_localization", "ukf_node"), "ukf_node is the unscented filter; `ekf_node` fuses"),
+    ],
+)
+def test_a_program_that_its_package_lacks_here_is_told_with_what_does_its_work(
+    package: Path, node: tuple[str, str], fix: str
+) -> None:
+    _, diagnostics = _find(*node, package)
+    (error,) = diagnostics
+    assert error.code == "launch.executable-missing"
+    assert error.fix.startswith(fix)
+
+
+def test_none_of_the_programs_that_are_told_as_missing_is_there() -> None:
+    there = [
+        (node.package, node.type)
+        for node in builtin_nodes()
+        if missing_node(node.package, node.type)
+    ]
+    assert there == []
 
 
 def test_missing_executable_lists_what_there_is(package: Path) -> None:

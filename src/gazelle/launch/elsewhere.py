@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.errors import NotFoundError
 
-__all__ = ["missing_package", "replacement_of"]
+__all__ = ["missing_node", "missing_package", "replacement_of"]
 
 _DRIVER = "the driver of a real {}, which a simulation does not need: {}"
 _CAMERA = _DRIVER.format("camera", "a <sensor type='camera'> publishes its topics")
@@ -26,6 +26,15 @@ _FIRMWARE = "the firmware's link of a real robot; a simulated one publishes thes
 _CONTROL = "compiled code of ros2_control; `controller_manager` and its spawner are here"
 _MOVEIT = "compiled code of MoveIt; `moveit_ros_move_group` and MotionPlanning in Studio are here"
 _NAV2 = "compiled code of Nav2; its planner, controller, amcl and map_server are here"
+_PICTURES = "the way of compressed pictures; cameras send `…/compressed` themselves where asked to"
+_HEALTH = "the summary of /diagnostics, which is published; `{topic} echo /diagnostics` shows it"
+_ODOMETRY = "compiled code that makes odometry of scans; the simulated base has odometry itself"
+_IMU = "compiled filters of an IMU; the simulated IMU has an orientation, an EKF fuses it"
+_LOCAL = "a compiled local planner; DWA, TrajectoryPlannerROS and Nav2's MPPI, DWB and RPP are here"
+_POSES = "compiled code that sends a robot's tf as a pose; `tf2_echo` shows it, tf2_ros looks it up"
+_KEYS = "for a keyboard or mouse; `teleop_twist_keyboard` and Studio's teleop drive as well"
+_STAMPED = "for stamped velocities; the simulated bases take Twist and TwistStamped"
+_BOOT = "for starting ROS with a real robot's computer; a simulation is started by hand"
 _MODELS = "a robot and worlds for examples of Nav2: put its folder into the workspace's src"
 
 _KNOWN = {
@@ -62,7 +71,52 @@ _KNOWN = {
     **dict.fromkeys(("moveit_servo", "moveit_setup_assistant", "moveit_hybrid_planning"), _MOVEIT),
     **dict.fromkeys(("nav2_route", "opennav_docking"), _NAV2),
     **dict.fromkeys(("nav2_loopback_sim", "nav2_smac_planner"), _NAV2),
+    **dict.fromkeys(("image_transport", "image_transport_plugins"), _PICTURES),
+    **dict.fromkeys(("diagnostic_aggregator", "diagnostic_common_diagnostics"), _HEALTH),
+    **dict.fromkeys(("laser_scan_matcher", "rf2o_laser_odometry"), _ODOMETRY),
+    **dict.fromkeys(("imu_filter_madgwick", "imu_complementary_filter", "imu_transformer"), _IMU),
+    **dict.fromkeys(("laser_assembler", "dual_laser_merger"), _SCANS),
+    **dict.fromkeys(("teb_local_planner", "eband_local_planner", "mpc_local_planner"), _LOCAL),
+    **dict.fromkeys(("robot_pose_publisher", "odom_to_tf_ros2"), _POSES),
+    **dict.fromkeys(("key_teleop", "mouse_teleop"), _KEYS),
+    **dict.fromkeys(("hector_trajectory_server", "hector_geotiff", "hector_map_server"), _MAPPING),
+    **dict.fromkeys(("cmd_vel_mux", "yocs_cmd_vel_mux", "yocs_velocity_smoother"), _VELOCITIES),
+    "twist_stamper": _STAMPED,
+    "robot_upstart": _BOOT,
     **dict.fromkeys(("nav2_minimal_tb3_sim", "nav2_minimal_tb4_sim"), _MODELS),
+}
+# Programs of packages that are stood in for, and what does their work; everything else of these
+# packages runs.
+_UKF = "the unscented filter; `{}` fuses the same inputs with the same parameters"
+_GPS = "for positions of satellites; robot_localization's pose0 takes poses"
+_NODES = {
+    ("joy", "game_controller_node"): "SDL's layout of game controllers; `joy_node` sends the same "
+    "topic in the kernel's order of axes and buttons",
+    ("robot_localization", "ukf_localization_node"): _UKF.format("ekf_localization_node"),
+    ("robot_localization", "ukf_node"): _UKF.format("ekf_node"),
+    ("robot_localization", "navsat_transform_node"): _GPS,
+    ("robot_localization", "robot_localization_listener_node"): "for poses at other times; tf2_ros "
+    "looks them up",
+    ("pointcloud_to_laserscan", "laserscan_to_pointcloud_node"): "for clouds of scans; "
+    "laser_geometry's Python module makes them",
+    ("laser_filters", "scan_to_cloud_filter_chain"): "for clouds of filtered scans; "
+    "`scan_to_scan_filter_chain` and laser_geometry's Python module do both steps",
+    ("laser_filters", "generic_laser_filter_node"): "an older name; `scan_to_scan_filter_chain` "
+    "filters scans",
+    ("slam_toolbox", "merge_maps_kinematic"): "for putting maps together by hand; one mapping "
+    "run over both places makes one map",
+    ("cartographer_ros", "cartographer_offline_node"): "for bags without time; `cartographer_node` "
+    "maps while `rosbag play` plays",
+    ("nav2_map_server", "costmap_filter_info_server"): "for keep-out masks; costmap filters are "
+    "not here, an obstacle in the map keeps robots out",
+    ("tf2_ros", "buffer_server"): "for look-ups by an action; nodes listen to /tf themselves",
+    ("topic_tools", "delay"): "for late copies of a topic; `relay` copies without a delay",
+    ("ros_gz_bridge", "static_bridge"): "for a single topic; `parameter_bridge` bridges any",
+    **{
+        ("image_view", name): "compiled code that works on images; `image_view` and "
+        "`rosbag record` show and keep them"
+        for name in ("extract_images", "image_saver", "stereo_view", "video_recorder")
+    },
 }
 _FAMILIES = {"rqt_": _PANEL, "yocs_": _VELOCITIES}
 
@@ -97,6 +151,15 @@ def replacement_of(package: str, ros_version: int = 2) -> str:
         known = next((text for start, text in _FAMILIES.items() if package.startswith(start)), "")
     known = known.format_map(_COMMANDS[ros_version])
     return f"{package} is {known}" if known.startswith(("the ", "a ", "compiled")) else known
+
+
+def missing_node(package: str, name: str) -> str:
+    """Return what a program is that its package has in ROS and not here, and what does its work.
+
+    Empty for programs that are not known: those are misspelt, or the user's.
+    """
+    known = _NODES.get((package, name), "")
+    return f"{name} is {known}" if known else ""
 
 
 def missing_package(error: NotFoundError, ros_version: int) -> tuple[str, str]:

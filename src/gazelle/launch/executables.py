@@ -11,7 +11,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
-from gazelle.launch.elsewhere import missing_package
+from gazelle.launch.elsewhere import missing_node, missing_package
 from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
@@ -177,7 +177,7 @@ def _report_missing(
         else "the package has no nodes"
     )
     message = f"Cannot locate node of type [{type_name}] in package [{package}]; {known}"
-    fix = did_you_mean(type_name, sorted(existing))
+    fix = missing_node(package, type_name) or did_you_mean(type_name, sorted(existing))
     diagnostics.report("launch.executable-missing", message, span, fix=fix)
 
 

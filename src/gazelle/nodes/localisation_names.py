@@ -108,6 +108,14 @@ LOCALISATION = (
         "ekf_filter_node",
     ),
     LocalisationNode(
+        "tf",
+        "tf_remap",
+        "tf_remap:run",
+        True,
+        "publishes transforms with other names of frames",
+        "tf_remapper",
+    ),
+    LocalisationNode(
         "robot_pose_ekf",
         "robot_pose_ekf",
         "filters.pose_ekf:run",

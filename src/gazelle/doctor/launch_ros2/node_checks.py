@@ -13,6 +13,7 @@ from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import controllers_in
 from gazelle.doctor.parameters.document import read_document
 from gazelle.doctor.parameters.layouts import layout_of
+from gazelle.launch.elsewhere import missing_node
 from gazelle.nodes.registry import builtin_types
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
@@ -106,12 +107,13 @@ def _nodes(files: Sequence[Followed]) -> Iterator[LaunchedNode]:
 def _check_builtin(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:
     known = [*builtin_types(package.name), *package.executable_names, *_ALSO.get(package.name, ())]
     name = node.executable or ""
-    if known and name not in known and nearest_names(name, known):
+    absent = missing_node(package.name, name)
+    if known and name not in known and (absent or nearest_names(name, known)):
         text = (
             f"package '{package.name}' has no executable '{name}' (executable '{name}' not found "
         )
         text += "on the libexec directory)"
-        hint = did_you_mean(name, known)
+        hint = absent or did_you_mean(name, known)
         diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
 
 

@@ -213,6 +213,19 @@ def test_missing_executables_are_told_with_what_there_is(run: Run, package: Path
     assert "Caught exception in launch (see debug for traceback): executable 'shwo'" in ran.text
 
 
+def test_a_program_that_is_not_here_does_not_end_the_launch(run: Run, package: Path) -> None:
+    absent = a.Node(package="robot_localization", executable="navsat_transform_node")
+    ran = run(absent, _show(name="n"))
+    (found,) = ran.context.diagnostics
+    assert ran.code == 0 and found.code == "ros2_launch.executable-missing"
+    assert "in package [robot_localization]; the others go on" in found.message
+    assert found.fix == (
+        "navsat_transform_node is for positions of satellites; robot_localization's pose0 takes "
+        "poses"
+    )
+    assert _words(ran) == [["--ros-args", "-r", "__node:=n"]]
+
+
 def test_missing_packages_are_told_with_the_nearest(run: Run, package: Path) -> None:
     errors: list[Any] = []
     ran = run(a.Node(package="dmeo", executable="show"))

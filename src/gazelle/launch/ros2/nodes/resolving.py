@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
-from gazelle.launch.elsewhere import replacement_of
+from gazelle.launch.elsewhere import missing_node, replacement_of
 from gazelle.launch.environment import command_folder
 from gazelle.launch.executables import Executable, find_executable, script_command
 from gazelle.launch.ros2.faults import with_diagnostic
@@ -86,7 +86,11 @@ def node_command(
     what = replacement_of(package)
     if missing.code == _NO_PACKAGE and what:
         # A package of ROS that is not here: everybody else has it, so the others go on.
-        _tell_of_package(context, missing, what)
+        _tell_of_absence(context, missing, "ros2_launch.package-missing", what)
+        return None
+    what = missing_node(package, executable)
+    if what:
+        _tell_of_absence(context, missing, "ros2_launch.executable-missing", what)
         return None
     if missing.code == _NO_PACKAGE:
         error: Exception = PackageNotFoundError(f"package '{package}' not found")
@@ -97,10 +101,10 @@ def node_command(
     raise with_diagnostic(error, code, missing.message, missing.span, fix=fix)
 
 
-def _tell_of_package(context: LaunchContext, missing: Diagnostic, what: str) -> None:
+def _tell_of_absence(context: LaunchContext, missing: Diagnostic, code: str, what: str) -> None:
     found = Diagnostics()
     message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
-    found.report("ros2_launch.package-missing", message, missing.span, fix=what)
+    found.report(code, message, missing.span, fix=what)
     context.tell(next(iter(found)))
 
 
