@@ -110,9 +110,9 @@ def test_empty_geometry_is_legal(shape, diagnostics):
     [
         ("", "without a shape"),
         ("<image/>", "extruded <image>"),
-        ("<sphere><radius>0</radius></sphere>", "<radius> is not positive (0)"),
+        ("<sphere><radius>-2</radius></sphere>", "<radius> is not positive (-2)"),
         ("<box><size>1 -1 1</size></box>", "<size> is not positive (-1)"),
-        ("<ellipsoid><radii>1 0 1</radii></ellipsoid>", "<radii> is not positive"),
+        ("<ellipsoid><radii>1 0 -1</radii></ellipsoid>", "<radii> is not positive"),
         ("<cylinder><radius>1</radius><length>-2</length></cylinder>", "<length> is not positive"),
     ],
 )
@@ -121,6 +121,24 @@ def test_unusable_geometry_is_reported(shape, diagnostics, text, words):
     (found,) = diagnostics.by_code("sdf.bad-geometry")
     assert "visual 'v'" in found.message
     assert words in found.message
+
+
+@pytest.mark.parametrize(
+    ("text", "used", "words"),
+    [
+        ("<box><size>5 5 0</size></box>", Box((5.0, 5.0, 1e-4)), "<box> whose <size> is 0"),
+        ("<sphere><radius>0</radius></sphere>", Sphere(1e-4), "<sphere> whose <radius> is 0"),
+        (
+            "<cylinder><radius>1</radius><length>0</length></cylinder>",
+            Cylinder(1.0, 1e-4),
+            "<cylinder> whose <length> is 0",
+        ),
+    ],
+)
+def test_a_length_of_0_is_as_thin_as_in_gazebo(shape, diagnostics, text, used, words):
+    assert shape(text) == used
+    (found,) = diagnostics.by_code("sdf.bad-geometry")
+    assert found.message == f"visual 'v' has a {words}; 0.0001 m is used, as in Gazebo"
 
 
 def test_missing_geometry_is_reported(tag, context, diagnostics):

@@ -38,7 +38,8 @@ def test_every_shape(text: str, shape: object, read_link) -> None:
         ("<mesh/>", "urdf.geometry-incomplete", "a mesh needs filename"),
         ("<spere radius='1'/>", "urdf.geometry-unknown", "did you mean 'sphere'"),
         ("", "urdf.geometry-missing", "has no shape in <geometry>"),
-        ("<sphere radius='0'/>", "urdf.bad-size", "a size (0) that is not positive"),
+        ("<sphere radius='-1'/>", "urdf.bad-size", "a size (-1) that is not positive; left out"),
+        ("<box size='1 0 -1'/>", "urdf.bad-size", "a size (1 0 -1) that is not positive"),
         ("<box size='1 1e30 1'/>", "urdf.bad-size", "that is too large to be metres"),
         ("<sphere radius='0,5'/>", "xml.bad-number", "a dot, not a comma"),
     ],
@@ -47,6 +48,22 @@ def test_unusable_shapes_are_left_out_and_said(text: str, code: str, words: str,
     found = read_link(_visual(text))
     assert words in found.message(code)
     assert found.robot.link("a").visuals == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "shape", "shown"),
+    [
+        ("<box size='5 5 0'/>", Box((5.0, 5.0, 1e-4)), "box of link 'a' has a size (5 5 0)"),
+        ("<sphere radius='0'/>", Sphere(1e-4), "sphere of link 'a' has a size (0)"),
+    ],
+)
+def test_a_length_of_0_is_as_thin_as_in_gazebo(
+    text: str, shape: object, shown: str, read_link
+) -> None:
+    found = read_link(_visual(text))
+    assert found.robot.link("a").visuals[0].shape == shape
+    words = f"the {shown} that is 0; 0.0001 m is used, as in Gazebo"
+    assert words in found.message("urdf.bad-size")
 
 
 def test_missing_visual_mesh_is_a_warning_and_the_visual_stays(read_link, tmp_path: Path) -> None:

@@ -233,8 +233,8 @@ def _print_stats(word: str, release: Release) -> int:
         say([] if document is None else _said(document))
         return _FAILED
     loaded = load(document)
-    found = [*document.console.lines, *loaded.console.lines, *document.errors, *loaded.errors]
-    _say(found, release)
+    _say([*document.console.lines, *loaded.console.lines], release)
+    _say([*document.errors, *loaded.errors], release)
     if loaded.worlds:
         say(["Error: Expected a model file but received a world file."])
         return _FAILED

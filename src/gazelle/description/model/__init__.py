@@ -57,6 +57,7 @@ from gazelle.description.model.shape import (
     Rgba,
     Shape,
     Sphere,
+    thickened,
 )
 from gazelle.description.model.world import (
     Frame,
@@ -120,4 +121,5 @@ __all__ = [
     "TransmissionTag",
     "Visual",
     "World",
+    "thickened",
 ]

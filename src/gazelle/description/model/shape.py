@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,10 +22,19 @@ __all__ = [
     "Rgba",
     "Shape",
     "Sphere",
+    "thickened",
 ]
 
 Rgba = tuple[float, float, float, float]
 Vector3 = tuple[float, float, float]
+# Gazebo takes lengths up to the first one for 0, and the second one in their place.
+_NOTHING_M = 1e-6
+_THIN_M = 1e-4
+
+
+def thickened(lengths_m: Iterable[float]) -> tuple[float, ...]:
+    """Return lengths of a shape with those of 0 as thin as Gazebo makes them; others as given."""
+    return tuple(_THIN_M if abs(one) <= _NOTHING_M else one for one in lengths_m)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
@@ -19,6 +20,7 @@ from gazelle.description.model import (
     Polyline,
     Shape,
     Sphere,
+    thickened,
 )
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3
 from gazelle.description.xml import Tag, floats_from
@@ -27,6 +29,14 @@ from gazelle.limits.names import is_folder
 __all__ = ["read_shape"]
 
 _ReadShape = Callable[[Tag, ReadContext], Shape | None]
+_LENGTHS: tuple[tuple[type, tuple[str, ...]], ...] = (
+    (Box, ("size_m",)),
+    (Ellipsoid, ("radii_m",)),
+    (Sphere, ("radius_m",)),
+    (Cylinder, ("radius_m", "length_m")),
+    (Capsule, ("radius_m", "length_m")),
+    (Cone, ("radius_m", "length_m")),
+)
 _ONE = (1.0, 1.0, 1.0)
 _ZERO = (0.0, 0.0, 0.0)
 
@@ -50,7 +60,7 @@ def read_shape(tag: Tag | None, context: ReadContext, *, owner: Tag) -> Shape | 
             return _polyline(tag, owner, context)
         if child.name in _READERS:
             shape = _READERS[child.name](child, context)
-            return shape if shape is None or _has_size(shape, child, owner, context) else None
+            return shape and _sized(shape, child, owner, context)
         if child.name == "image":
             _refuse(owner, "is an extruded <image>, which is not simulated", child, context)
             return None
@@ -65,23 +75,27 @@ def _refuse(owner: Tag, reason: str, place: Tag, context: ReadContext) -> None:
     context.diagnostics.report("sdf.bad-geometry", message, place.span)
 
 
-def _has_size(shape: Shape, tag: Tag, owner: Tag, context: ReadContext) -> bool:
-    """Tell whether every length is positive; report when not."""
-    lengths: dict[str, float] = {}
-    if isinstance(shape, Box):
-        lengths = {"size": min(shape.size_m)}
-    elif isinstance(shape, Ellipsoid):
-        lengths = {"radii": min(shape.radii_m)}
-    elif isinstance(shape, Sphere):
-        lengths = {"radius": shape.radius_m}
-    elif isinstance(shape, Cylinder | Capsule | Cone):
-        lengths = {"radius": shape.radius_m, "length": shape.length_m}
-    for name, value in lengths.items():
-        if value <= 0.0:
-            reason = f"has a <{tag.name}> whose <{name}> is not positive ({value:g})"
-            _refuse(owner, reason, tag.find(name) or tag, context)
-            return False
-    return True
+def _sized(shape: Shape, tag: Tag, owner: Tag, context: ReadContext) -> Shape | None:
+    """Return a shape whose lengths of 0 are as thin as in Gazebo; None, reported, for negative."""
+    fields = [name for kind, names in _LENGTHS for name in names if isinstance(shape, kind)]
+    changed: dict[str, Any] = {}
+    for field in fields:
+        value = getattr(shape, field)
+        lengths = value if isinstance(value, tuple) else (value,)
+        used = thickened(lengths)
+        name = field.removesuffix("_m")
+        place = tag.find(name) or tag
+        what = f"has a <{tag.name}> whose <{name}> is"
+        if min(used) <= 0.0:
+            _refuse(owner, f"{what} not positive ({min(lengths):g})", place, context)
+            return None
+        if used != lengths:
+            changed[field] = used if isinstance(value, tuple) else used[0]
+            thin_m = max(set(used) - set(lengths))
+            message = f"{owner.name} '{owner.attributes.get('name', '')}' {what} 0; {thin_m:g} m "
+            message += "is used, as in Gazebo"
+            context.diagnostics.report("sdf.bad-geometry", message, place.span)
+    return cast(Shape, replace(cast(Any, shape), **changed)) if changed else shape
 
 
 def _box(tag: Tag, context: ReadContext) -> Shape:

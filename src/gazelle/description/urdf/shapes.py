@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Box, Capsule, Cylinder, MeshShape, Shape, Sphere
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    MeshShape,
+    Shape,
+    Sphere,
+    thickened,
+)
 from gazelle.description.urdf.attributes import (
     check_vocabulary,
     number_attribute,
@@ -18,7 +26,6 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["read_geometry"]
 
 _ONES = (1.0, 1.0, 1.0)
-_SMALLEST_M = 1e-12
 _LARGEST_M = 1e9
 
 
@@ -53,7 +60,8 @@ def _box(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
         _incomplete(tag, owner, link, 'a box needs size="x y z"', context)
         return None
     size = vector_attribute(tag, "size", context.diagnostics)
-    return Box(size) if size and _positive(tag, size, link, context) else None
+    sizes = _usable(tag, size, link, context) if size else None
+    return Box((sizes[0], sizes[1], sizes[2])) if sizes else None
 
 
 def _sphere(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
@@ -112,17 +120,27 @@ def _numbers(
         return None
     values = tuple(number_attribute(tag, name, context.diagnostics) for name in names)
     good = tuple(value for value in values if value is not None)
-    return good if len(good) == len(names) and _positive(tag, good, link, context) else None
+    return _usable(tag, good, link, context) if len(good) == len(names) else None
 
 
-def _positive(tag: Tag, sizes: tuple[float, ...], link: str, context: ReadContext) -> bool:
-    if all(_SMALLEST_M < size < _LARGEST_M for size in sizes):
-        return True
+def _usable(
+    tag: Tag, sizes: tuple[float, ...], link: str, context: ReadContext
+) -> tuple[float, ...] | None:
+    """Return the sizes with those of 0 as thin as in Gazebo; None, reported, for others."""
+    used = thickened(sizes)
+    if used == sizes and all(0.0 < size < _LARGEST_M for size in sizes):
+        return sizes
+    is_bad = not all(0.0 < size < _LARGEST_M for size in used)
+    if is_bad:
+        limits = (
+            "not positive; left out" if min(used) <= 0.0 else "too large to be metres; left out"
+        )
+    else:
+        limits = f"0; {max(set(used) - set(sizes)):g} m is used, as in Gazebo"
     shown = " ".join(f"{size:g}" for size in sizes)
-    limits = "not positive" if min(sizes) <= _SMALLEST_M else "too large to be metres"
-    message = f"the {tag.name} of link '{link}' has a size ({shown}) that is {limits}; left out"
+    message = f"the {tag.name} of link '{link}' has a size ({shown}) that is {limits}"
     context.diagnostics.report("urdf.bad-size", message, tag.span)
-    return False
+    return None if is_bad else used
 
 
 def _incomplete(tag: Tag, owner: Tag, link: str, needs: str, context: ReadContext) -> None:

@@ -101,10 +101,10 @@ ENTRIES = (
         "sdf.bad-geometry",
         "warning",
         "A <geometry> cannot be used",
-        "The collision or visual is left out.",
+        "The collision or visual is left out; a length of 0 alone is 0.0001 m, as in Gazebo.",
         "give it one of box, sphere, cylinder, capsule, cone, ellipsoid, plane, mesh, polyline, "
         "heightmap",
-        "Invalid geometry / Unable to create geometry",
+        "Invalid geometry / Unable to create geometry / Setting box shape's z to zero",
     ),
     Entry(
         "sdf.duplicate-name",

@@ -42,8 +42,9 @@ _SHAPES = (
         "urdf.bad-size",
         "warning",
         "A shape's size is zero, negative or out of this world",
-        "It is left out; Gazebo's physics would abort on it.",
+        "A length of 0 is 0.0001 m, as in Gazebo. Others are left out, for physics would abort.",
         "write sizes greater than 0, in metres",
+        "Setting box shape's z to zero / Box shape does not support negative size",
     ),
     Entry(
         "urdf.mesh-missing",
