@@ -58,7 +58,7 @@ REFUSED: tuple[Refusal, ...] = tuple(
             ),
             *_rows(
                 _ROSPY,
-                *("rospy.impl", "rospy.logger_level_service_caller", "rospy.msproxy"),
+                *("rospy.impl", "rospy.logger_level_service_caller"),
                 *("rospy.rosconsole", "actionlib.handle_tracker_deleter"),
                 *("actionlib.status_tracker", "rosgraph.impl", "rosgraph.roslogging"),
                 *("rosgraph.xmlrpc", "ros_numpy.numpy_msg", "ros_numpy.registry"),
@@ -101,19 +101,19 @@ REFUSED: tuple[Refusal, ...] = tuple(
             *_rows(
                 _ROSLIB,
                 *("roslib.exceptions", "roslib.gentools", "roslib.launcher", "roslib.manifest"),
-                *("roslib.manifestlib", "roslib.msgs", "roslib.names", "roslib.network"),
+                *("roslib.manifestlib", "roslib.msgs", "roslib.network"),
                 *("roslib.resources", "roslib.rosenv", "roslib.rospack", "roslib.scriptutil"),
                 *("roslib.srvs", "roslib.stack_manifest", "roslib.stacks"),
             ),
             *_rows(
                 "is a module of rospkg's inside; everything public is in rospkg itself:"
                 " rospkg.RosPack, rospkg.get_ros_home",
-                *("rospkg.common", "rospkg.distro", "rospkg.environment", "rospkg.manifest"),
-                *("rospkg.os_detect", "rospkg.rospack", "rospkg.rosversion", "rospkg.stack"),
+                *("rospkg.distro", "rospkg.manifest"),
+                *("rospkg.os_detect", "rospkg.rosversion", "rospkg.stack"),
             ),
             *_rows(
                 "is genpy's inside; messages have serialize and deserialize, and genpy the rest",
-                *("genpy.base", "genpy.dynamic", "genpy.message"),
+                *("genpy.base", "genpy.dynamic"),
             ),
             *_rows(
                 _TESTS,
@@ -150,11 +150,6 @@ REFUSED: tuple[Refusal, ...] = tuple(
                 "diagnostic_updater.example",
             ),
             *_rows("is not among what Gazelle has; exchange a topic of your own", "bondpy"),
-            *_rows(
-                "calls Gazebo's services from Python; call /gazebo/spawn_urdf_model and its like"
-                " with rospy.ServiceProxy, or use spawn_model of gazebo_ros",
-                *("gazebo_ros", "gazebo_ros.gazebo_interface"),
-            ),
             *_rows(
                 "is one of Nav2's Python tools that are not here; nav2_simple_commander"
                 ".robot_navigator is",

@@ -314,12 +314,7 @@ ROS1_GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ),
     (
         _LIB,
-        (
-            "roslib: is_interactive set_interactive",
-            "roslib.packages: MANIFEST_FILE MultipleNodesException PACKAGE_FILE",
-            "roslib.packages: ROSPkgException ROS_PACKAGE_PATH ROS_ROOT SRC_DIR",
-            "roslib.packages: list_pkgs_by_path",
-        ),
+        ("roslib: is_interactive set_interactive",),
     ),
     (
         _PKG,
@@ -327,6 +322,10 @@ ROS1_GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
             "rospkg.Manifest: (filename) (is_catkin) (type_)",
             "rospkg: expand_to_packages get_stack_version_by_dir list_by_path",
             "rospkg: parse_manifest_file",
+            "rospkg.rospack: ManifestManager expand_to_packages get_stack_version_by_dir",
+            "rospkg.rospack: list_by_path",
+            "rospkg.rospack.RosPack: get_rosdeps",
+            "rospkg.rospack.RosStack: get_stack_version packages_of",
         ),
     ),
     (
@@ -439,6 +438,8 @@ ROS1_GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
         (
             "angles: shortest_angular_distance_with_large_limits",
             "genpy: struct_I",
+            "genpy.message: RosMsgUnicodeErrors check_type get_printable_message_args isstring",
+            "genpy.message: long struct_I",
         ),
     ),
 )

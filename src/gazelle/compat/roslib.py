@@ -12,7 +12,14 @@ from gazelle.interfaces import ros1_message_type, ros1_service_type
 from gazelle.workspace import Workspace
 
 __all__ = [
+    "MANIFEST_FILE",
+    "PACKAGE_FILE",
+    "ROS_PACKAGE_PATH",
+    "ROS_ROOT",
+    "SRC_DIR",
     "InvalidROSPkgException",
+    "MultipleNodesException",
+    "ROSPkgException",
     "find_node",
     "find_resource",
     "get_dir_pkg",
@@ -20,13 +27,29 @@ __all__ = [
     "get_pkg_dir",
     "get_pkg_subdir",
     "get_service_class",
+    "list_pkgs_by_path",
     "load_manifest",
     "resource_file",
 ]
 
 
-class InvalidROSPkgException(Exception):  # noqa: N818 - roslib's name
+MANIFEST_FILE = "manifest.xml"
+PACKAGE_FILE = "package.xml"
+SRC_DIR = "src"
+ROS_PACKAGE_PATH = "ROS_PACKAGE_PATH"
+ROS_ROOT = "ROS_ROOT"
+
+
+class ROSPkgException(Exception):  # noqa: N818 - roslib's name
+    """Something about a package is wrong."""
+
+
+class InvalidROSPkgException(ROSPkgException):
     """There is no such package."""
+
+
+class MultipleNodesException(ROSPkgException):
+    """A package has several programs of one name."""
 
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
@@ -112,6 +135,17 @@ def find_node(pkg: str, node_type: str, **_options: Any) -> list[str]:
     get_pkg_dir(pkg)
     package = Workspace.discover().package(pkg)
     return [str(file) for file in package.find_executables(node_type)]
+
+
+def list_pkgs_by_path(path: str, packages: list[str] | None = None, **_options: Any) -> list[str]:
+    """Return the names of the packages below a folder, after those given."""
+    found = [] if packages is None else packages
+    environ = {**os.environ, ROS_PACKAGE_PATH: os.path.realpath(path)}
+    root = Path(path).resolve()
+    for name, package in sorted(Workspace.discover(environ=environ).packages.items()):
+        if root in (package.path, *package.path.parents) and name not in found:
+            found.append(name)
+    return found
 
 
 def _class_of(name: str, make: Any) -> Any:

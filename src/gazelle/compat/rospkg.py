@@ -149,9 +149,9 @@ class RosPack:
         self.get_path(name)
         return [one for one in self.list() if name in self.get_depends(one, implicit)]
 
-    def stack_of(self, name: str) -> str | None:
+    def stack_of(self, package: str) -> str | None:
         """Return the stack of a package: there are none since catkin."""
-        self.get_path(name)
+        self.get_path(package)
         return None
 
     def list(self) -> list[str]:

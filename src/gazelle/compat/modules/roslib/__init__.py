@@ -2,6 +2,6 @@
 
 from gazelle.compat.roslib import load_manifest
 
-from . import message, packages
+from . import message, names, packages
 
-__all__ = ["load_manifest", "message", "packages"]
+__all__ = ["load_manifest", "message", "names", "packages"]

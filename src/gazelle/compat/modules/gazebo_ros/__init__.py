@@ -1,0 +1,1 @@
+"""gazebo_ros, by Gazelle."""

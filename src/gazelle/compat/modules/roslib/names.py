@@ -1,0 +1,4 @@
+"""roslib.names, by Gazelle."""
+
+from gazelle.compat.resource_names import *  # noqa: F403
+from gazelle.compat.rosgraph_names import *  # noqa: F403

@@ -1,0 +1,3 @@
+"""rospkg.rospack, by Gazelle."""
+
+from gazelle.compat.rospkg import *  # noqa: F403
