@@ -413,3 +413,20 @@ def test_feedback_stays_within_its_own_bounds(build):
     effort = np.empty(1)
     group.effort(effort)
     assert effort[0] == pytest.approx(1.0, rel=1e-6)
+
+
+def test_one_joint_takes_a_feedback_and_plain_efforts_in_turn(build):
+    engine = build.engine(build.wheel(inertia=1e-6))
+    joint = engine.joint("wheel::joint")
+    for _ in range(50):
+        joint.set_feedback(-100.0 * (joint.position - 0.3) - 10.0 * joint.velocity, 100.0, 10.0)
+        engine.step()
+    before = joint.position
+    joint.set_feedback(0.0, 0.0, 0.0)
+    engine.step(10)
+    assert 0.0 < before < 0.3
+    assert joint.effort == 0.0
+    joint.set_state(velocity=0.0)
+    joint.set_feedback(1e-6, 0.0, 0.0)
+    engine.step(10)
+    assert joint.velocity == pytest.approx(0.01, rel=1e-6)

@@ -123,6 +123,31 @@ class JointHandle:
         dof = self._driven()
         self._engine.data.qfrc_applied[dof] = self._clamped(effort)
 
+    def set_feedback(self, effort: float, stiffness: float, damping: float) -> None:
+        """Apply the effort of a feedback that is computed at every step.
+
+        On a joint that such efforts would shake it follows the motion within the step; see
+        `JointGroup.set_feedback`.
+
+        Args:
+            effort: as computed from the position and velocity of now.
+            stiffness: what it loses per position.
+            damping: what it loses per velocity.
+        """
+        self._driven()
+        group = self._own_group()
+        period_s, one = self._engine.step_ns * 1e-9, np.ones(1)
+        if group.is_light(stiffness * one, damping * one, period_s)[0]:
+            rest = _finite(effort, self.name) + damping * self.velocity
+            slope = period_s * stiffness + damping
+            bounds = (-math.inf * one, math.inf * one)
+            group.set_feedback([0], rest * one, slope * one, *bounds)
+            return
+        held = self._engine.motors.commands.get(self._element)
+        if held is not None and held.mode == "effort":
+            group.end_feedback([0])
+        self.set_effort(effort)
+
     def set_velocity_target(self, velocity: float, max_effort: float = math.inf) -> None:
         """Drive towards a velocity with at most an effort, as ODE's ``vel`` and ``fmax``.
 
@@ -153,9 +178,7 @@ class JointHandle:
 
     def lock_position(self, position: float, *, steps: int = 1) -> None:
         """Hold a position whatever acts on the joint; see `JointGroup.lock_position`."""
-        if self._group is None:
-            self._group = self._engine.joint_group((self.name,))
-        self._group.lock_position(np.array([_finite(position, self.name)]), steps=steps)
+        self._own_group().lock_position(np.array([_finite(position, self.name)]), steps=steps)
 
     def release(self) -> None:
         """Stop motor, lock and effort: the joint moves freely."""
@@ -200,6 +223,11 @@ class JointHandle:
         """Return the effort a motor gets: what is asked for, at most the joint's own limit."""
         own = self.effort_limit
         return min(abs(max_effort), own) if own > 0 else abs(max_effort)
+
+    def _own_group(self) -> JointGroup:
+        if self._group is None:
+            self._group = self._engine.joint_group((self.name,))
+        return self._group
 
     def _clamped(self, effort: float) -> float:
         limit = self.effort_limit

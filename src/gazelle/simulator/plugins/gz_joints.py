@@ -98,7 +98,8 @@ class _Velocity(_JointSystem):
             error = joint.velocity - self._command
             drives = self._command != 0 and math.copysign(1.0, self._command) * error <= 0
             acts = drives or not self._coasts
-            joint.set_effort(pid.update(error, self._step_s) if acts else 0.0)
+            effort = pid.update(error, self._step_s) if acts else 0.0
+            joint.set_feedback(effort, 0.0, pid.p if acts else 0.0)
 
     def _reset(self) -> None:
         super()._reset()
@@ -121,7 +122,7 @@ class _Position(_JointSystem):
                 rate = min(max(-error / self._step_s, -self._fastest), self._fastest)
                 joint.set_velocity_target(rate, math.inf)
             else:
-                joint.set_effort(pid.update(error, self._step_s))
+                joint.set_feedback(pid.update(error, self._step_s), pid.p, pid.d)
 
     def _reset(self) -> None:
         super()._reset()

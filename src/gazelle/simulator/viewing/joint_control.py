@@ -59,7 +59,7 @@ class JointControl:
             NotFoundError: there is no such joint.
         """
         joint = self._server.engine.joint(name)
-        self._drive(name, gains, lambda: joint.velocity - velocity)
+        self._drive(name, gains, lambda: joint.velocity - velocity, of_velocity=True)
 
     def free(self, name: str) -> None:
         """End what was commanded.
@@ -70,17 +70,21 @@ class JointControl:
         task = self._tasks.pop(name, None)
         if task is not None:
             self._server.scheduler.remove(task)
-        self._server.engine.joint(name).set_effort(0.0)
+        self._server.engine.joint(name).set_feedback(0.0, 0.0, 0.0)
 
-    def _drive(self, name: str, gains: Gains, error: Callable[[], float]) -> None:
+    def _drive(
+        self, name: str, gains: Gains, error: Callable[[], float], *, of_velocity: bool = False
+    ) -> None:
         self.free(name)
         engine = self._server.engine
+        joint = engine.joint(name)
+        stiffness, damping = (0.0, gains.p) if of_velocity else (gains.p, gains.d)
         pid = GazeboPid(gains.p, gains.i, gains.d)
 
         def update() -> None:
             try:
                 effort = pid.update(error(), engine.step_ns * 1e-9)
-                engine.joint(name).set_effort(effort)
+                joint.set_feedback(effort, stiffness, damping)
             except NotFoundError:
                 # Its model was deleted.
                 self._server.scheduler.remove(self._tasks.pop(name))
