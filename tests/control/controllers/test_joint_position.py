@@ -253,3 +253,13 @@ def test_group_takes_no_array_of_the_wrong_length() -> None:
     ports.send("~/command", Array64(data=[1.0]))
     run(robot, controller, 1)
     assert plant.effort[0] == pytest.approx(1.5)
+
+
+def test_it_tells_what_its_effort_loses_per_position_and_velocity() -> None:
+    robot, _ = make_robot([PlantJoint("a", 2.0)])
+    parameters = {"joint": "a", "pid": {"p": 8.0, "d": 1.0}}
+    controller, _ = make_controller(JointPositionController, robot, parameters, type_name=EFFORT)
+    controller.start(0)
+    run(robot, controller, 1)
+    place = robot.bank.command_index["a/effort"]
+    assert (robot.bank.stiffness[place], robot.bank.damping[place]) == (8.0, 1.0)

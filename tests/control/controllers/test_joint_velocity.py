@@ -35,3 +35,15 @@ def test_it_begins_with_velocity_zero_again() -> None:
     controller.start(0)
     run(robot, controller, 1)
     assert plant.effort[0] == pytest.approx(-1.0)
+
+
+def test_it_tells_what_its_effort_loses_per_velocity() -> None:
+    robot, _ = make_robot([PlantJoint("a", 2.0)])
+    parameters = {"joint": "a", "pid": {"p": 8.0, "d": 1.0}}
+    controller, _ = make_controller(JointVelocityController, robot, parameters)
+    controller.start(0)
+    run(robot, controller, 1)
+    place = robot.bank.command_index["a/effort"]
+    assert (robot.bank.stiffness[place], robot.bank.damping[place]) == (0.0, 8.0)
+    robot.switch(frozenset(), frozenset({"a/effort"}))
+    assert robot.bank.damping[place] == 0.0
