@@ -153,8 +153,6 @@ REFUSED: tuple[Refusal, ...] = tuple(
             *_rows(
                 "is one of Nav2's Python tools that are not here; nav2_simple_commander"
                 ".robot_navigator is",
-                *("nav2_simple_commander.costmap_2d", "nav2_simple_commander.line_iterator"),
-                *("nav2_simple_commander.footprint_collision_checker",),
                 *("nav2_simple_commander.occupancy_grid", "nav2_simple_commander.utils"),
                 *("nav2_simple_commander.demo_inspection", "nav2_simple_commander.demo_picking"),
                 *("nav2_simple_commander.demo_recoveries", "nav2_simple_commander.demo_security"),

@@ -405,7 +405,7 @@ ROS1_GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ),
     (
         _IMAGE,
-        (),
+        ("genpy.message.Message.deserialize: (str_)",),
     ),
     (
         _CAMERA,
