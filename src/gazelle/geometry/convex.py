@@ -213,11 +213,12 @@ def _tell(mesh: Mesh) -> None:
     if listener is None or name in listener[1]:
         return
     say, said = listener
+    # A robot has dozens of meshes: why it takes so long is said of the first.
+    why = "" if said else (
+        f", which takes some seconds; this is done once and kept in '{cache_folder() / 'convex'}'"
+    )  # fmt: skip
     said.add(name)
-    say(
-        f"splitting '{name}' into convex pieces, which takes some seconds; this is done once and"
-        f" kept in '{cache_folder() / 'convex'}'"
-    )
+    say(f"splitting '{name}' into convex pieces{why}")
 
 
 def _is_solid(points: NDArray[np.float64]) -> bool:
