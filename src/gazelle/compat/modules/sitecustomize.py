@@ -1,5 +1,12 @@
 """Makes message packages importable in every Python of a `gazelle env` shell."""
 
+import _signal
+
+# Ctrl-C while Python itself still starts ends it without "Fatal Python error" and a traceback.
+_GIVEN = _signal.getsignal(_signal.SIGINT)
+if _GIVEN is _signal.default_int_handler:
+    _signal.signal(_signal.SIGINT, _signal.SIG_DFL)
+
 import importlib.machinery
 import importlib.util
 import sys
@@ -21,3 +28,6 @@ if importlib.util.find_spec("gazelle") is not None:
     from gazelle.compat.finder import install
 
     install()
+
+if _signal.getsignal(_signal.SIGINT) == _signal.SIG_DFL:
+    _signal.signal(_signal.SIGINT, _GIVEN)
