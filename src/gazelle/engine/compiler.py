@@ -42,7 +42,7 @@ FRICTION_RATIO = 1000.0
 """Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
 
 
-_STOPPED_AT_ONCE = 100.0
+_STOPPED_AT_ONCE = 1000.0
 """Speed that friction at least takes from a joint in a step, rad/s or m/s."""
 
 
@@ -250,7 +250,7 @@ def _steady_friction(model: Any, step_s: float) -> bool:
     """Give light joints the inertia with which their friction holds them; whether one got some.
 
     MuJoCo's dry friction creeps at 10⁻⁴ of the speed that its limit would give the joint in a
-    step; here that is below 10⁻² rad/s. Friction stops such a joint from 100 rad/s in a step.
+    step; here that is below 0.1 rad/s. Friction stops such a joint from 1000 rad/s in a step.
     """
     least = model.dof_frictionloss * step_s / _STOPPED_AT_ONCE
     missing = least - 1.0 / np.maximum(model.dof_invweight0, 1e-12)
