@@ -87,7 +87,7 @@ def pixels_of_cells(
     cells = cells[::-1]
     known = (cells >= 0) & (cells <= 100)
     if mode is MapMode.RAW:
-        return np.where(known, cells, 255).astype(np.uint8)[..., None]
+        return np.where(known, cells.astype(np.uint8), np.uint8(255))[..., None]
     if mode is MapMode.SCALE:
         share = np.where(known, (100.0 - cells) / 100.0, 0.5)
         # GraphicsMagick keeps 16 bits and rounds when it writes 8.
