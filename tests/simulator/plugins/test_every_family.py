@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from tests.simulator.plugins import family_drives, family_sensors
+from tests.simulator.plugins import family_drives, family_sensors, family_worlds
 from tests.simulator.plugins.family_trial import FamilyRow
 
 from gazelle.simulator import Simulation
 from gazelle.simulator.plugins.registry import all_tables
 
-ROWS = (*family_drives.ROWS, *family_sensors.ROWS)
+ROWS = (*family_drives.ROWS, *family_sensors.ROWS, *family_worlds.ROWS)
 NAMES = {table.family: table.filenames for table in all_tables()}
 
 
