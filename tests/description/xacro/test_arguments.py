@@ -27,7 +27,8 @@ def test_options_of_older_generations_are_accepted_with_a_notice() -> None:
     assert command.file == "r.xacro"
     assert len(command.notices) == 5
     assert command.notices[0] == (
-        "option --xacro-ns has no effect: tags need the prefix 'xacro:' since ROS Melodic"
+        "option --xacro-ns has no effect: tags without the prefix 'xacro:' are taken and told in"
+        " ROS 1"
     )
 
 

@@ -38,7 +38,10 @@ Remarks = Callable[..., list[Diagnostic]]
         '<arg name="a" default="1"/>',
     ],
 )
-def test_old_tags_without_prefix_are_told(tag: str, remarks: Remarks) -> None:
+def test_old_tags_without_prefix_are_told_in_ros2(
+    tag: str, remarks: Remarks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_VERSION", "2")
     (found,) = remarks(f"<link/>\n  {tag}")
     name = tag[1:].partition(" ")[0]
     assert (found.code, found.severity) == ("xacro.not-expanded", Severity.WARNING)
@@ -47,7 +50,10 @@ def test_old_tags_without_prefix_are_told(tag: str, remarks: Remarks) -> None:
     assert found.fix == f"write <xacro:{name} …>"
 
 
-def test_macro_called_without_prefix_is_told(remarks: Remarks) -> None:
+def test_macro_called_without_prefix_is_told_in_ros2(
+    remarks: Remarks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_VERSION", "2")
     macro = '<xacro:macro name="wheel" params="n"><link name="${n}"/></xacro:macro>\n'
     (found,) = remarks(f'{macro}<wheel n="left"/>')
     assert (

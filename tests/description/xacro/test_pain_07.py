@@ -44,7 +44,13 @@ def test_broken_cart_has_all_its_errors_at_once() -> None:
     assert condition.fix == "write true"
 
 
-def test_tags_without_prefix_are_told_in_a_file_that_expands() -> None:
+def test_tags_without_prefix_are_told_in_a_file_that_expands(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = _findings("broken", "old.urdf.xacro")
+    (told,) = (item for item in found if item.code == "xacro.unprefixed")
+    assert _place(told) == "old.urdf.xacro:2:3"
+    monkeypatch.setenv("ROS_VERSION", "2")
     found = _findings("broken", "old.urdf.xacro")
     places = [_place(item) for item in found if item.code == "xacro.not-expanded"]
     assert places == ["old.urdf.xacro:2:3", "old.urdf.xacro:12:3"]

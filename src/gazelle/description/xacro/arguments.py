@@ -13,7 +13,7 @@ __all__ = ["XacroCommand", "parse_xacro_arguments", "read_xacro_arguments"]
 
 # Options of xacro before ROS Noetic, with what has become of them.
 _OLD = {
-    "--xacro-ns": "tags need the prefix 'xacro:' since ROS Melodic",
+    "--xacro-ns": "tags without the prefix 'xacro:' are taken and told in ROS 1",
     "--check-order": "files are always processed in order since ROS Melodic",
     "--oldorder": "files are always processed in order since ROS Melodic",
     "--legacy": "files are always processed in order since ROS Melodic",

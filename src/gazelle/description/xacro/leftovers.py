@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.xacro.explaining.documents import NAMESPACE
 from gazelle.description.xacro.session import Session
 from gazelle.description.xacro.sources import definitions_in
+from gazelle.description.xacro.unprefixed import NEEDED_ATTRIBUTES, OF_ROBOTS
 from gazelle.description.xacro.writing import Written
 from gazelle.description.xml import Tag, attribute_span, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
@@ -25,18 +27,6 @@ _SCOPE = re.compile(rb"\sscope\s*=\s*[\"'](?!global[\"']|parent[\"']|local[\"'])
 _SCOPES = ("global", "parent")
 _SPLITTERS = (b"tokenize", b".split(")
 _TUPLE = re.compile(r"\((-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)\)")
-_WITHOUT_PREFIX = {
-    "arg": {"name", "default"},
-    "if": {"value"},
-    "include": {"filename"},
-    "insert_block": {"name"},
-    "macro": {"name"},
-    "property": {"name", "value"},
-    "unless": {"value"},
-}
-_OF_ROBOTS = frozenset(
-    {"gazebo", "group", "joint", "link", "material", "ros2_control", "sensor", "transmission"}
-)
 
 
 def report_leftovers(
@@ -52,6 +42,7 @@ def report_leftovers(
         diagnostics: receives warnings and remarks.
     """
     text = written.text
+    _report_unprefixed(session, diagnostics)
     _report_tags(written, text, session, diagnostics)
     for place in written.unexpanded:
         message = "xacro expands nothing inside <![CDATA[…]]>: ${…} is left as it stands"
@@ -63,19 +54,34 @@ def report_leftovers(
     _report_unused(session, file, given, diagnostics)
 
 
+def _report_unprefixed(session: Session, diagnostics: Diagnostics) -> None:
+    """Report the tags that were taken for xacro's, once a file."""
+    by_file: dict[str, list[tuple[str, SourceSpan | None]]] = {}
+    for name, place in session.unprefixed or ():
+        by_file.setdefault(place.file if place else "", []).append((name, place))
+    for tags in by_file.values():
+        name, place = tags[0]
+        # A macro's body is copied at each call.
+        more = len({replace(found, via=()) for _name, found in tags if found}) - 1
+        message = f"<{name}> without the prefix 'xacro:' is taken as <xacro:{name}>, as until ROS"
+        message += f" Melodic (and {more} more in this file)" if more else " Melodic"
+        fix = f"write <xacro:{name} …>, which all versions take"
+        diagnostics.report("xacro.unprefixed", message, place, fix=fix)
+
+
 def _report_tags(written: Written, text: str, session: Session, diagnostics: Diagnostics) -> None:
-    suspected = written.names & {*_WITHOUT_PREFIX, *session.macros}
+    suspected = written.names & {*NEEDED_ATTRIBUTES, *session.macros}
     root = parse_xml(text, "", Diagnostics()) if suspected else None
     if root is None or root.name != "robot":
         return
     for tag, is_top, place in _outside_plugins(root, iter(written.places)):
         if tag.name not in suspected:
             continue
-        needed = _WITHOUT_PREFIX.get(tag.name)
+        needed = NEEDED_ATTRIBUTES.get(tag.name)
         if needed is not None and needed <= set(tag.attributes):
             message = f"<{tag.name}> without the prefix 'xacro:' is not xacro's; it is left in the"
             message += " result as it stands"
-        elif is_top and tag.name in session.macros and tag.name not in _OF_ROBOTS:
+        elif is_top and tag.name in session.macros and tag.name not in OF_ROBOTS:
             message = (
                 f"macro '{tag.name}' is called without the prefix 'xacro:'; it is not expanded"
             )

@@ -20,6 +20,11 @@ from typing import Any
 from gazelle.description.xacro.budget import ExpansionLimitError, Spending
 from gazelle.description.xacro.dom import Tracker, node_in, place_of
 from gazelle.description.xacro.repairs import UNKNOWN, UNKNOWN_NAME, Repairs
+from gazelle.description.xacro.unprefixed import (
+    add_prefixes,
+    takes_unprefixed,
+    with_old_calls,
+)
 from gazelle.description.xml.reader import too_much_in
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import NotFoundError
@@ -66,6 +71,8 @@ class Session:
         macros: last place of each macro by name.
         addresses: what ``xmlns:xacro`` is in the root elements, with their places.
         spending: what the run has used up.
+        unprefixed: xacro's tags without the prefix that were taken, with their places; None where
+            they are not.
     """
 
     tracker: Tracker
@@ -76,6 +83,7 @@ class Session:
     macros: dict[str, SourceSpan] = field(default_factory=dict)
     addresses: dict[str, SourceSpan] = field(default_factory=dict)
     spending: Spending = field(default_factory=Spending)
+    unprefixed: list[tuple[str, SourceSpan | None]] | None = None
 
 
 @contextmanager
@@ -103,6 +111,7 @@ def run_session(
 
     repairs = repairs or Repairs()
     session = Session(Tracker(repairs), AskedFor(arguments))
+    session.unprefixed = [] if takes_unprefixed(os.environ) else None
     find = _finder(workspace)
     table: Any = substitution_args._eval_dict
     with _LOCK:
@@ -134,7 +143,7 @@ def _replacements(
         (
             library,
             "handle_macro_call",
-            _tracked(spending.counted(library.handle_macro_call), tracker),
+            _macro_calls(library, session),
         ),
         (library, "process_include", _tracked(spending.counted(library.process_include), tracker)),
         (library, "grab_property", _noting(library.grab_property, _note_property, session)),
@@ -213,6 +222,8 @@ def _parser(library: Any, session: Session) -> Callable[..., Any]:
             raise ExpansionLimitError(f"'{filename}': {reason}")
         document = tracker.parse(data, str(filename))
         root: Any = document.documentElement
+        if session.unprefixed is not None:
+            add_prefixes(root, session.unprefixed)
         address, place = root.getAttribute("xmlns:xacro"), place_of(root)
         if address and place is not None:
             session.addresses.setdefault(address, place)
@@ -260,6 +271,13 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
         return result
 
     return call
+
+
+def _macro_calls(library: Any, session: Session) -> Callable[..., Any]:
+    call = _tracked(session.spending.counted(library.handle_macro_call), session.tracker)
+    if session.unprefixed is None:
+        return call
+    return with_old_calls(call, library, session.unprefixed)
 
 
 def _noting(

@@ -138,10 +138,20 @@ ENTRIES = (
         "xacro.not-expanded",
         "warning",
         "Something of xacro is left in the result",
-        "xacro goes by the prefix 'xacro:' since ROS Melodic and passes everything else through: "
+        "xacro goes by the prefix 'xacro:' since ROS Noetic and passes everything else through: "
         "the robot lacks what should stand there.",
         "write the prefix 'xacro:'",
         "Deprecated: xacro tag 'macro' w/o 'xacro:' xml namespace prefix",
+    ),
+    Entry(
+        "xacro.unprefixed",
+        "warning",
+        "A tag of xacro's without the prefix is taken",
+        "Kinetic, Lunar and Melodic take <property>, <macro>, <include>, <arg>, <if>, <unless>, "
+        "<insert_block> and calls of macros without the prefix 'xacro:', so this file works; "
+        "Noetic and ROS 2 leave them in the result, as Gazelle does under ROS 2.",
+        "write the prefix 'xacro:', which all versions take",
+        "deprecated: xacro tags should be prepended with 'xacro' xml namespace",
     ),
     Entry(
         "xacro.unused-argument",
