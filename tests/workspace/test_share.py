@@ -130,6 +130,44 @@ def test_data_files_of_setup_py_are_found_where_they_are_installed(
     assert (share / "maps/pond.yaml").samefile(folder / "data/maps/pond.yaml")
 
 
+@pytest.mark.parametrize(
+    ("build_type", "places"),
+    [
+        ("ament_cmake", {"bringup/a.launch.py"}),
+        ("cmake", {"bringup/a.launch.py"}),
+        ("ament_python", {"a.launch.py"}),
+    ],
+)
+def test_build_type_alone_says_which_build_file_installs(
+    make_package, tmp_path: Path, discover, build_type: str, places: set[str]
+) -> None:
+    export = f"<build_type>{build_type}</build_type>"
+    tool = "ament_cmake" if build_type == "cmake" else build_type
+    folder = make_package(tmp_path / "src" / "egret", "egret", tool=tool, export=export)
+    write(folder, "resource/egret", "launch/a.launch.py", "data/maps/pond.yaml")
+    write(folder, "setup.py", text=SETUP)
+    lists = "project(egret)\ninstall(DIRECTORY launch/ DESTINATION share/egret/bringup)\n"
+    write(folder, "CMakeLists.txt", text=lists)
+    share = discover(extra=(folder.parent,)).package("egret").share
+    found = {path.relative_to(share).as_posix() for path in share.rglob("*.launch.py")}
+    assert found == places
+
+
+def test_both_build_files_count_where_the_build_type_is_conditional(
+    make_package, tmp_path: Path, discover
+) -> None:
+    export = """<build_type condition="$ROS_VERSION == 1">catkin</build_type>
+        <build_type condition="$ROS_VERSION == 2">ament_python</build_type>"""
+    folder = make_package(tmp_path / "src" / "egret", "egret", export=export)
+    write(folder, "resource/egret", "launch/a.launch.py", "data/maps/pond.yaml")
+    write(folder, "setup.py", text=SETUP)
+    lists = "project(egret)\ninstall(DIRECTORY launch/ DESTINATION share/egret/bringup)\n"
+    write(folder, "CMakeLists.txt", text=lists)
+    share = discover(extra=(folder.parent,)).package("egret").share
+    assert (share / "bringup/a.launch.py").is_file()
+    assert (share / "a.launch.py").is_file()
+
+
 def test_package_whose_rules_move_nothing_is_its_own_share_folder(
     make_package, tmp_path: Path, discover
 ) -> None:

@@ -20,7 +20,12 @@ from gazelle.workspace.building.install_rules import InstallRule, cmake_rules
 from gazelle.workspace.building.plan import Plan, add_rules
 from gazelle.workspace.building.setup_file import read_setup
 from gazelle.workspace.crawler import manifest_in
-from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
+from gazelle.workspace.manifest import (
+    MANIFEST_BYTES,
+    ManifestError,
+    quick_name,
+    read_manifest,
+)
 
 __all__ = ["install_rules", "installed_files", "installed_source"]
 
@@ -102,9 +107,36 @@ def _rules(folder: Path, name: str) -> tuple[InstallRule, ...]:
         lists, setup = read_cmake_lists(folder, name), read_setup(folder)
     except OSError:
         return ()
-    found = [] if lists is None else [*cmake_rules(lists, f"share/{name}").rules]
-    # Of a package with both files, CMake's is the one that builds it, unless it is for colcon's
-    # Python packages alone.
-    if setup is not None and (not found or setup.is_for_ament):
-        found += setup.rules
+    by_cmake = () if lists is None else cmake_rules(lists, f"share/{name}").rules
+    by_setup = () if setup is None else tuple(setup.rules)
+    build_type = _build_type(folder)
+    if build_type == "ament_python":
+        found = by_cmake if setup is None else by_setup
+    elif build_type:
+        found = by_setup if lists is None else by_cmake
+    elif setup is not None and (not by_cmake or setup.is_for_ament):
+        found = (*by_cmake, *by_setup)
+    else:
+        found = by_cmake
     return tuple(rule for rule in found if rule.is_known and "$<" not in rule.source)
+
+
+def _build_type(folder: Path) -> str:
+    """Return the type that alone says which of the two build files counts, as for colcon.
+
+    Empty where none is known, and for a package of ROS 1 and ROS 2 at once, both of whose files
+    count, each for its own.
+    """
+    file = manifest_in(folder)
+    try:
+        manifest = None if file is None else read_manifest(file)
+    except ManifestError:
+        return ""
+    if manifest is None:
+        return ""
+    types = [item for item in manifest.exports if item.name == "build_type"]
+    tools = {item.name for item in manifest.dependencies if item.kind == "buildtool_depend"}
+    both = "catkin" in tools and any(one.startswith("ament") for one in tools)
+    if len(types) > 1 or any(item.get("condition") for item in types) or (both and not types):
+        return ""
+    return manifest.build_type

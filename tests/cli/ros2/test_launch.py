@@ -222,6 +222,15 @@ def test_files_of_one_name_are_both_named(here: Callable[..., Ran], tmp_path: Pa
     assert f"fix: ros2 launch {folder}/launch/say.launch.py" in ran.text
 
 
+def test_one_file_at_two_places_is_no_second_file(here: Callable[..., Ran], tmp_path: Path) -> None:
+    folder = tmp_path / "ws/src/bringup"
+    (folder / "old").mkdir()
+    (folder / "old" / "say.launch.py").symlink_to(folder / "launch/say.launch.py")
+    ran = here("bringup", "say.launch.py", "--show-args")
+    assert ran.code == 0
+    assert "more than once" not in ran.text
+
+
 def test_arguments_may_hold_the_sign_themselves() -> None:
     assert launch_arguments(["a:=b:=c", "d:=e", "a:=x"]) == [("a", "x"), ("d", "e")]
     assert launch_arguments(["cmd:=x:=1"]) == [("cmd", "x:=1")]

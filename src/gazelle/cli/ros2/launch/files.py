@@ -34,7 +34,12 @@ def launch_file_of(package: str, name: str) -> Path:
         ToolError: there is no such file, or more than one.
     """
     share = get_package_share_directory(package)
-    found = [path for path in _files_below(share) if path.name == name]
+    # A file that is there at two places is one file.
+    places: dict[Path, Path] = {}
+    for path in _files_below(share):
+        if path.name == name:
+            places.setdefault(path.resolve(), path)
+    found = list(places.values())
     if len(found) == 1:
         return found[0]
     if found:
