@@ -153,6 +153,34 @@ def test_jump_back_wakes_sleepers_and_tells_listeners(simulated: Graph) -> None:
         assert outcome[0].delta_ns == -9 * S
 
 
+def test_change_to_simulated_time_is_a_jump_back_for_sleepers(
+    graph: Graph, eventually: Wait
+) -> None:
+    clock = graph.create_node("a").clock
+    jumps = clock.jumps
+    target_ns = clock.now_ns() + 3600 * S
+    thread, outcome = _sleep_in_thread(lambda: clock.sleep_until(target_ns, since=jumps))
+    graph.parameters.set("/use_sim_time", True)
+    thread.join(30)
+    assert clock.use_sim_time
+    assert clock.jumps == jumps + 1
+    assert [type(one) for one in outcome] == [TimeJumpError]
+
+
+def test_sleep_begins_anew_when_the_time_becomes_simulated(graph: Graph, eventually: Wait) -> None:
+    node = graph.create_node("a")
+    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(3600 * S))
+    eventually(lambda: bool(node.clock._sleepers))
+    graph.parameters.set("/use_sim_time", True)
+    eventually(lambda: node.clock.use_sim_time)
+    simulator = _Simulator(node)
+    simulator.show(1 * S)
+    eventually(lambda: [one[0] for one in node.clock._sleepers] == [3601 * S])
+    simulator.show(3601 * S)
+    thread.join(30)
+    assert outcome == [True]
+
+
 def test_closing_wakes_sleepers(simulated: Graph) -> None:
     node = simulated.create_node("a")
     thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))

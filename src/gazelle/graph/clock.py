@@ -52,6 +52,7 @@ class Clock:
         self._closed = False
         self._sim_ns = 0
         self._jumps = 0
+        self._switches = 0
         self._last_jump_ns = 0
         self._listeners: list[Callable[[int], None]] = []
 
@@ -59,6 +60,11 @@ class Clock:
     def use_sim_time(self) -> bool:
         """True while the clock follows ``/clock``."""
         return self._use_sim_time
+
+    @property
+    def jumps(self) -> int:
+        """How often time went backwards, the change from wall time to simulated one included."""
+        return self._jumps
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds: simulated, or since 1970."""
@@ -70,25 +76,35 @@ class Clock:
 
     def sleep(self, duration_ns: int) -> bool:
         """Sleep on this clock; see `sleep_until`. Waits for the first ``/clock`` if need be."""
-        if self._use_sim_time and not self._wait_for_start():
-            return False
-        return self.sleep_until(self.now_ns() + duration_ns)
+        while True:
+            if self._use_sim_time and not self._wait_for_start():
+                return False
+            switches, jumps = self._switches, self._jumps
+            try:
+                return self.sleep_until(self.now_ns() + duration_ns, since=jumps)
+            except TimeJumpError:
+                # Of a clock that became another one the end of the sleep is not known.
+                if self._switches == switches:
+                    raise
 
-    def sleep_until(self, target_ns: int, stop: threading.Event | None = None) -> bool:
+    def sleep_until(
+        self, target_ns: int, stop: threading.Event | None = None, *, since: int | None = None
+    ) -> bool:
         """Sleep until the clock shows a time.
 
         Args:
             target_ns: the time.
             stop: ends the sleep early, also while simulated time stands still.
+            since: `jumps` when the target was reckoned, now unless given.
 
         Returns:
             True when it does, False when the graph was closed or `stop` was set first.
 
         Raises:
-            TimeJumpError: simulated time went backwards meanwhile.
+            TimeJumpError: time went backwards meanwhile.
         """
         wake = threading.Event()
-        jumps = self._jumps
+        jumps = self._jumps if since is None else since
         while stop is None or not stop.is_set():
             wake.clear()
             with self._lock:
@@ -162,7 +178,13 @@ class Clock:
             wanted = bool(self._nodes) and self._is_sim_time_wanted()
             if self._nodes and wanted != self._use_sim_time:
                 with self._lock:
+                    before_ns = self.now_ns()
                     self._use_sim_time = wanted
+                    self._switches += 1
+                    if self.now_ns() < before_ns:
+                        # A target of wall time is 1.8e18 ns of simulated time away.
+                        self._jumps += 1
+                        self._last_jump_ns = self.now_ns() - before_ns
                     self._wake(everybody=True)
             if wanted and self._subscription is None:
                 self._subscribe()

@@ -78,14 +78,17 @@ def private_number(node: Node, arguments: NodeArguments, name: str, default: flo
 def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:
     """Yield the time at every period of the node's clock until told to stop.
 
-    A period that is missed is not made up for; a jump back in time starts anew from there.
+    A period that is missed is not made up for; a jump back in time, also while the caller works,
+    and a change to simulated time start anew from there.
     """
+    jumps = node.clock.jumps
     next_ns = node.clock.now_ns() + period_ns
     while not stop.is_set():
         try:
-            if not node.clock.sleep_until(next_ns, stop):
+            if not node.clock.sleep_until(next_ns, stop, since=jumps):
                 return
         except TimeJumpError:
+            jumps = node.clock.jumps
             next_ns = node.clock.now_ns() + period_ns
             continue
         now_ns = node.clock.now_ns()

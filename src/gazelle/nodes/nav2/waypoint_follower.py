@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.actions import ActionClient, ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
@@ -137,5 +138,7 @@ class _Follower:
             said = getattr(sent.result, "error_msg", "") or sent.text
             return f"{sent.status.name.lower()} {said}".strip()
         until_ns = self._node.clock.now_ns() + int(self._pause_s * 1e9)
-        self._node.clock.sleep_until(until_ns, self._ending)
+        # A clock that went back is not waited for: the pause is over.
+        with contextlib.suppress(TimeJumpError):
+            self._node.clock.sleep_until(until_ns, self._ending)
         return ""

@@ -1,0 +1,82 @@
+"""The periods of built-in nodes, on whatever clock."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from queue import SimpleQueue
+from typing import Any
+
+import pytest
+
+from gazelle.graph import Graph
+from gazelle.interfaces import message_type
+from gazelle.nodes.parameters import ticks
+
+MS = 1_000_000
+
+
+@pytest.fixture
+def graph(bench: Any) -> Graph:
+    found: Graph = bench.graph
+    return found
+
+
+@pytest.fixture
+def show(graph: Graph) -> Callable[[int], None]:
+    kind = message_type("rosgraph_msgs/msg/Clock")
+    publisher = graph.create_node("simulator").create_publisher("/clock", kind)
+
+    def publish(now_ns: int) -> None:
+        message: Any = kind()
+        message.clock.sec, message.clock.nanosec = divmod(now_ns, 1_000_000_000)
+        publisher.publish(message)
+
+    return publish
+
+
+def test_ticks_go_on_when_the_time_becomes_simulated(
+    bench: Any, graph: Graph, show: Callable[[int], None]
+) -> None:
+    node = graph.create_node("a")
+    seen: SimpleQueue[int] = SimpleQueue()
+    stop = threading.Event()
+    # Only a node that began by wall time waits an hour of it.
+    thread = threading.Thread(
+        target=lambda: [seen.put(now_ns) for now_ns in ticks(node, 3600_000 * MS, stop)]
+    )
+    thread.start()
+    bench.eventually(lambda: bool(node.clock._sleepers))
+    graph.parameters.set("/use_sim_time", True)
+    bench.eventually(lambda: node.clock.use_sim_time)
+    bench.eventually(lambda: [one[0] for one in node.clock._sleepers] == [3600_000 * MS])
+    show(3600_000 * MS)
+    assert seen.get(timeout=30) == 3600_000 * MS
+    stop.set()
+    thread.join(30)
+
+
+def test_jump_back_while_the_caller_works_starts_anew_from_there(
+    bench: Any, graph: Graph, show: Callable[[int], None]
+) -> None:
+    graph.parameters.set("/use_sim_time", True)
+    node = graph.create_node("a")
+    show(99_000 * MS)
+    bench.eventually(lambda: node.clock.now_ns() == 99_000 * MS)
+    stop = threading.Event()
+    found = ticks(node, 10 * MS, stop)
+    seen: SimpleQueue[int] = SimpleQueue()
+    first = threading.Thread(target=lambda: seen.put(next(found)))
+    first.start()
+    bench.eventually(lambda: bool(node.clock._sleepers))
+    show(99_010 * MS)
+    assert seen.get(timeout=30) == 99_010 * MS
+    first.join(30)
+    show(1_000 * MS)
+    thread = threading.Thread(target=lambda: seen.put(next(found)))
+    thread.start()
+    bench.eventually(lambda: bool(node.clock._sleepers))
+    assert [one[0] for one in node.clock._sleepers] == [1_010 * MS]
+    show(1_010 * MS)
+    assert seen.get(timeout=30) == 1_010 * MS
+    thread.join(30)
