@@ -18,7 +18,12 @@ def _start(folder: Path, own_site: str, program: str) -> subprocess.CompletedPro
     paths = os.pathsep.join([str(MODULES), str(folder)])
     words = [sys.executable, "-c", program]
     environ = {**os.environ, "PYTHONPATH": paths}
-    return subprocess.run(words, capture_output=True, text=True, env=environ, check=False)
+    # Behind "&" in a script the tests are started with SIGINT ignored, which children inherit.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        return subprocess.run(words, capture_output=True, text=True, env=environ, check=False)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_an_interrupt_while_python_starts_leaves_no_traceback(tmp_path: Path) -> None:

@@ -46,7 +46,12 @@ def test_empty_world_takes_every_argument_of_the_original(discover):
     assert (client.get("type"), client.get("if")) == ("gzclient", "$(arg gui)")
 
 
-@pytest.mark.parametrize("path", sorted(BUILTIN.rglob("*.launch")), ids=lambda path: path.name)
+ROS1_LAUNCHES = sorted(
+    path for path in BUILTIN.rglob("*.launch") if "$(var " not in path.read_text(encoding="utf-8")
+)
+
+
+@pytest.mark.parametrize("path", ROS1_LAUNCHES, ids=lambda path: path.name)
 def test_launch_files_refer_only_to_what_is_there(discover, path):
     workspace = discover()
     root = ElementTree.parse(path).getroot()

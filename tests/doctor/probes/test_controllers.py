@@ -45,8 +45,8 @@ def test_weak_servo_sags_by_weight_over_gain() -> None:
     assert rows[0][4] == "sags"
 
 
-def test_gains_beyond_the_period_shake_the_joint() -> None:
-    rows, (item,) = _started(1e6, 0.0)
+def test_gains_without_damping_shake_the_joint() -> None:
+    rows, (item,) = _started(2e4, 0.0)
     assert item.code == "probe.controller-shakes"
     assert "joint 'hinge' shakes under controller '/arm/servo'" in item.message
     assert item.fix == "lower p or raise d, or give the joint a damping"

@@ -166,7 +166,8 @@ def test_what_newcomers_get_wrong_in_python_is_explained(
     assert fix in diagnostic.fix
     assert diagnostic.span is not None
     assert (Path(diagnostic.span.file).name, diagnostic.span.line) == ("faulty.launch.py", line)
-    assert "gazelle" not in diagnostic.message
+    # The folder of this clone may have the name.
+    assert "gazelle" not in diagnostic.message.replace(str(ROOT), "")
 
 
 @pytest.mark.parametrize(

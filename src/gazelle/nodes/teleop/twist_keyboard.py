@@ -154,6 +154,9 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
 
 
 def _drive(arguments: NodeArguments, graph: Graph, stop: threading.Event, *, is_ros2: bool) -> int:
+    # Who has looked is not ended in the midst: the terminal is put back.
+    if stop.is_set():
+        return 0
     with Keys("teleop_twist_keyboard", takes_ctrl_c=True) as keys:
         node = start_node(arguments, graph)
 

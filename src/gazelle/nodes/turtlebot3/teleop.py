@@ -127,6 +127,9 @@ def _drive(
     *,
     is_stamped: bool,
 ) -> int:
+    # Who has looked is not ended in the midst: the terminal is put back.
+    if stop.is_set():
+        return 0
     with Keys("turtlebot3_teleop_key", takes_ctrl_c=True) as keys:
         node = start_node(arguments, graph)
         speeds = Speeds(limits_of(model_of(node)))

@@ -50,6 +50,9 @@ _POLL_S = 0.1
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Drive until ``q``, Ctrl-C, or told to stop."""
+    # Who has looked is not ended in the midst: the terminal is put back.
+    if stop.is_set():
+        return 0
     with Keys("turtle_teleop_key", takes_ctrl_c=False) as keys:
         node = start_node(arguments, graph)
         is_ros2 = arguments.generation == 2
