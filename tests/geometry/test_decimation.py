@@ -29,9 +29,9 @@ def _decimated(mesh: Mesh, most_faces: int, tolerance_ratio: float = 0.01) -> Me
 
 def test_a_box_of_many_triangles_keeps_its_corners_and_volume():
     box = _finer(Mesh((box_mesh((1, 2, 3)),)), 4)
-    fewer = _decimated(box, 300)
+    fewer = _decimated(box, 400)
     assert len(box.faces) == 12 * 4**4
-    assert len(fewer.faces) <= 300
+    assert len(fewer.faces) <= 400
     assert is_closed(fewer)
     assert mesh_volume_m3(fewer) == pytest.approx(6.0, rel=1e-3)
     np.testing.assert_allclose(np.ptp(fewer.vertices_m, axis=0), (1, 2, 3), rtol=1e-3)
@@ -40,8 +40,8 @@ def test_a_box_of_many_triangles_keeps_its_corners_and_volume():
 def test_a_hollow_stays_hollow():
     outline = [(0, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1), (1, 3), (0, 3)]
     bracket = _finer(Mesh((polyline_mesh([outline], 1.0),)), 4)
-    fewer = _decimated(bracket, 700)
-    assert len(fewer.faces) <= 700
+    fewer = _decimated(bracket, 200)
+    assert len(fewer.faces) <= 200
     assert is_closed(fewer)
     assert mesh_volume_m3(fewer) == pytest.approx(8.0, rel=1e-2)
 

@@ -50,19 +50,15 @@ def decimated(
         return vertices, faces
     size = float(np.ptp(vertices, axis=0).max())
     quadrics = _quadrics(vertices, faces)
-    refused, moved = np.empty(0, np.intp), False
+    refused = np.empty(0, np.intp)
     for _ in range(_MOST_ROUNDS):
         surplus = (len(faces) - most_faces + 1) // 2
         edges = _cheap_edges(vertices, faces, quadrics, (tolerance_ratio * size) ** 2, refused)
-        if surplus <= 0 or not (len(edges.cost) or moved):
+        if surplus <= 0 or not len(edges.cost):
             break
-        if not len(edges.cost):  # what was refused may fit now that its surroundings are others
-            refused, moved = np.empty(0, np.intp), False
-            continue
         apart = _apart(edges, faces, len(vertices))
         keeps = _keeps_surface(edges, apart, vertices, faces)
         refused = np.append(refused, _key(edges.ends[apart[~keeps]], len(vertices)))
-        moved = moved or bool(keeps.any())
         faces = _collapse(edges, apart[keeps][:surplus], vertices, quadrics, faces)
     used, faces = np.unique(faces, return_inverse=True)
     return vertices[used], faces.reshape(-1, 3)
@@ -126,10 +122,8 @@ def _key(ends: Indices, vertices: int) -> Indices:
 
 def _apart(edges: _Edges, faces: Indices, vertices: int) -> Indices:
     """Return the edges that are cheaper than every other within one edge of their ends."""
-    # Equal costs in the order of the vertices would let one edge a row collapse in a round.
-    shuffled = np.random.default_rng(0).permutation(len(edges.cost))
     rank = np.empty(len(edges.cost), np.intp)
-    rank[np.lexsort((shuffled, edges.cost))] = np.arange(len(rank))
+    rank[np.lexsort((edges.ends[:, 1], edges.ends[:, 0], edges.cost))] = np.arange(len(rank))
     least = np.full(vertices, len(rank))
     np.minimum.at(least, edges.ends, rank[:, None])
     around = least.copy()
