@@ -15,7 +15,6 @@ from gazelle.geometry import (
     polyline_mesh,
     sphere_mesh,
 )
-from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.convex import cache_folder
 
 L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
@@ -111,45 +110,3 @@ def test_a_damaged_cache_file_is_made_anew(bracket, own_cache, damage):
     file.write_bytes(damage)
     assert len(convex_parts(bracket).parts) >= 2
     assert file.stat().st_size > 100
-
-
-def test_a_thin_wall_of_many_triangles_is_split_from_fewer_and_stays_thin(monkeypatch):
-    coacd = pytest.importorskip("coacd")
-    asked: list[tuple[int, str]] = []
-    run = coacd.run_coacd
-
-    def watched(mesh, **settings):
-        asked.append((len(mesh.indices), settings["preprocess_mode"]))
-        return run(mesh, **settings)
-
-    monkeypatch.setattr(coacd, "run_coacd", watched)
-    channel = [(0, 0), (1, 0), (1, 1), (0.97, 1), (0.97, 0.03), (0.03, 0.03), (0.03, 1), (0, 1)]
-    part = polyline_mesh([channel], 1.0)
-    corners = part.vertices_m[part.faces]
-    for _ in range(4):
-        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
-        four = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-        corners = np.concatenate([np.stack(one, axis=1) for one in four])
-    found = convex_parts(Mesh((part_from_soup(corners, name="channel"),)))
-    ((faces, preparation),) = asked
-    assert len(corners) > 5000
-    assert faces <= 1500
-    assert preparation == "off"
-    assert found.is_exact
-    assert sum(map(mesh_volume_m3, found.parts)) == pytest.approx(0.0882, rel=0.1)
-
-
-def test_pieces_that_leave_the_surface_are_made_from_a_mended_one(bracket, monkeypatch):
-    coacd = pytest.importorskip("coacd")
-    run, modes = coacd.run_coacd, []
-
-    def failing(mesh, **settings):
-        modes.append(settings["preprocess_mode"])
-        pieces = run(mesh, **settings)
-        return pieces[:1] if settings["preprocess_mode"] == "off" else pieces
-
-    monkeypatch.setattr(coacd, "run_coacd", failing)
-    found = convex_parts(bracket)
-    assert modes == ["off", "auto"]
-    assert sum(map(mesh_volume_m3, found.parts)) == pytest.approx(5.0, rel=0.05)

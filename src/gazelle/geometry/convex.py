@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry.building import part_from_soup
-from gazelle.geometry.decimation import decimated
 from gazelle.geometry.mesh import Mesh, MeshPart
 from gazelle.geometry.shading import group_points
 
@@ -39,16 +38,16 @@ _THRESHOLD = 0.08
 # Scans and CAD exports of whole bodies: finer pieces take half a minute and slow every contact.
 _COARSE_THRESHOLD = 0.15
 _MANY_FACES = 4000
-_CACHE_VERSION = 3
-# A fraction of CoACD's own effort, on a surface of fewer triangles: the pieces fill the same
-# volume within a few percent and a robot's body takes seconds instead of half a minute.
-_MOST_FACES = 1500
-_TOLERANCE_RATIO = 0.01
-_SEARCH_EFFORT = {"resolution": 400, "mcts_nodes": 6, "mcts_iterations": 15, "mcts_max_depth": 2}
-# CoACD's own mending draws thin walls anew, thicker: only what is cracked needs it.
-_AS_IT_IS: dict[str, str | int] = {"preprocess_mode": "off"}
-_MENDED: dict[str, str | int] = {"preprocess_mode": "auto", "preprocess_resolution": 30}
-_MOST_UNCOVERED_RATIO = 0.02
+_CACHE_VERSION = 2
+# A fraction of CoACD's own effort: the pieces fill the same volume within a few percent and a
+# robot's body takes seconds instead of half a minute.
+_SEARCH_EFFORT = {
+    "preprocess_resolution": 30,
+    "resolution": 800,
+    "mcts_nodes": 10,
+    "mcts_iterations": 40,
+    "mcts_max_depth": 2,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +138,7 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
     if not is_splitting():
         return ConvexParts((hull,), False, "a run splits the mesh; here the hull stands for it")
     try:
-        import coacd  # noqa: F401 - asked before the work is told
+        import coacd
     except ImportError:
         note = (
             "the mesh is hollow and collides as its convex hull; "
@@ -147,7 +146,11 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
         )
         return ConvexParts((hull,), False, note)
     _tell(mesh)
-    parts = _split(mesh, threshold)
+    coacd.set_log_level("error")
+    pieces = coacd.run_coacd(
+        coacd.Mesh(*_welded(mesh)), threshold=threshold, seed=0, **_SEARCH_EFFORT
+    )
+    parts = tuple(convex_hull(np.asarray(vertices)) for vertices, _ in pieces)
     if not parts:
         return ConvexParts((hull,), False, "coacd found no pieces; the convex hull is used")
     _save(file, parts)
@@ -158,53 +161,6 @@ def cache_folder() -> Path:
     """Return ``$XDG_CACHE_HOME/gazelle``, by default ``~/.cache/gazelle``."""
     base = os.environ.get("XDG_CACHE_HOME")
     return (Path(base) if base else Path.home() / ".cache") / "gazelle"
-
-
-def _split(mesh: Mesh, threshold: float) -> tuple[MeshPart, ...]:
-    """Return CoACD's pieces: of a closed surface as it is, else of CoACD's mended copy."""
-    from gazelle.geometry.mesh_mass import is_closed
-
-    vertices, faces = _welded(mesh)
-    if not is_closed(mesh):
-        return _pieces(vertices, faces, threshold, _MENDED)
-    vertices, faces = decimated(
-        vertices, faces, most_faces=_MOST_FACES, tolerance_ratio=_TOLERANCE_RATIO
-    )
-    parts = _pieces(vertices, faces, threshold, _AS_IT_IS)
-    # Surfaces that pass through themselves can defeat the cuts.
-    return parts if _follow(parts, vertices) else _pieces(vertices, faces, threshold, _MENDED)
-
-
-def _pieces(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.intp],
-    threshold: float,
-    preparation: dict[str, str | int],
-) -> tuple[MeshPart, ...]:
-    import coacd
-
-    coacd.set_log_level("error")
-    mesh = coacd.Mesh(vertices, faces)
-    found = coacd.run_coacd(mesh, threshold=threshold, seed=0, **_SEARCH_EFFORT, **preparation)
-    return tuple(convex_hull(np.asarray(corners)) for corners, _ in found)
-
-
-def _follow(parts: tuple[MeshPart, ...], vertices: NDArray[np.float64]) -> bool:
-    """Tell whether pieces lie within a surface's bounds and leave no vertex of it far outside."""
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    most = _MOST_UNCOVERED_RATIO * float((high - low).max())
-    outside = np.full(len(vertices), np.inf)
-    for part in parts:
-        points = np.asarray(part.vertices_m, np.float64)
-        if (points < low - most).any() or (points > high + most).any():
-            return False
-        corners = points[part.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        length = np.linalg.norm(normals, axis=1, keepdims=True)
-        normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
-        beyond = vertices @ normals.T - np.einsum("ij,ij->i", normals, corners[:, 0])
-        outside = np.minimum(outside, beyond.max(axis=1))
-    return bool((outside <= most).all())
 
 
 def _tell(mesh: Mesh) -> None:
