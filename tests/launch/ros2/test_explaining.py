@@ -10,6 +10,8 @@ import pytest
 
 from gazelle.diagnostics import Diagnostic
 
+ROOT = Path(__file__).parents[3]
+
 _HEAD = """from launch import LaunchDescription
 from launch.actions import *
 from launch.conditions import IfCondition
