@@ -70,7 +70,7 @@ def test_a_reload_keeps_what_was_open(bench: Any, look: Any) -> None:
     seen.page.get_by_role("menuitem", name="Service Caller").click()
     seen.panel("rqt_service_caller").wait_for()
     bench.eventually(
-        lambda: "rqt_service_caller" in seen.page.evaluate("sessionStorage['gazelle.tab']")
+        lambda: "rqt_service_caller" in (seen.page.evaluate("sessionStorage['gazelle.tab']") or "")
     )
     seen.page.reload()
     seen.panel("rqt_service_caller").wait_for()

@@ -106,10 +106,7 @@ def sleep(duration: float | _Duration) -> None:
     if seconds_ns <= 0:
         return
     if not node.clock.use_sim_time:
-        if STATE.stopping.is_set():
-            wall_time.sleep(seconds_ns / 1e9)
-        else:
-            STATE.stopping.wait(seconds_ns / 1e9)
+        STATE.sleep(seconds_ns / 1e9)
         return
     STATE.check_running()
     try:

@@ -49,6 +49,7 @@ class NodeState:
         self.requested = threading.Event()
         self.stopping = threading.Event()
         self._aware: set[int] = set()
+        self._cut_short: set[int] = set()
         self._finished = threading.Event()
         self.reason = ""
         self._hooks: list[Callable[[], Any]] = []
@@ -197,6 +198,17 @@ class NodeState:
         if over:
             self._aware.add(threading.get_ident())
         return over
+
+    def sleep(self, seconds: float) -> None:
+        """Sleep in wall time; the shutdown cuts one sleep short in each thread, or its first after.
+
+        A thread that knows of the shutdown sleeps in full, and so does a loop that never asks.
+        """
+        thread = threading.get_ident()
+        if thread in self._aware or thread in self._cut_short:
+            time.sleep(seconds)
+        elif self.stopping.wait(seconds):
+            self._cut_short.add(thread)
 
     def check_running(self) -> None:
         """Raise when the node is shut down.
