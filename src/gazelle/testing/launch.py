@@ -298,7 +298,7 @@ def launched(
             home = Path(stack.enter_context(folder))
         waiting = Waiting(timeout_s)
         tree = ProcessTree(
-            [*options, *words, *given],
+            ["roslaunch", *options, *words, *given],
             cwd=cwd or Path.cwd(),
             environment=launch_environment(graph.port, home, env or {}),
             on_change=waiting.wake,

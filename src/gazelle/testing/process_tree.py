@@ -24,7 +24,7 @@ _FOREIGN = frozenset(
 
 
 class ProcessTree:
-    """``gazelle roslaunch …`` in a session of its own; all of it ends with this process.
+    """A command of Gazelle's in a session of its own; all of it ends with this process.
 
     Attributes:
         lines: what it has written so far.
@@ -39,12 +39,19 @@ class ProcessTree:
         environment: Mapping[str, str],
         on_change: Callable[[], None],
     ) -> None:
-        """Start it; `on_change` is called for every line and at the end."""
+        """Start it.
+
+        Args:
+            words: the command as ``gazelle`` takes it: ``roslaunch``, a package, a file …
+            cwd: where it runs.
+            environment: of all its processes.
+            on_change: is called for every line and at the end.
+        """
         self.lines: list[str] = []
-        self.title = f"roslaunch {' '.join(words)}"
+        self.title = " ".join(words)
         self._on_change = on_change
         self._popen = subprocess.Popen(
-            [sys.executable, "-m", "gazelle.cli", "roslaunch", *words],
+            [sys.executable, "-m", "gazelle.cli", *words],
             cwd=cwd,
             env=environment,
             text=True,
@@ -56,6 +63,11 @@ class ProcessTree:
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
+
+    @property
+    def pid(self) -> int:
+        """The process number of the command, which leads a process group of its own."""
+        return self._popen.pid
 
     @property
     def exit_code(self) -> int | None:

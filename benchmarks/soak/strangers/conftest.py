@@ -1,0 +1,63 @@
+"""Public packages that nobody prepared for Gazelle, run as their README says.
+
+    pytest benchmarks/soak/strangers --strangers DIR [-n 2] [-k h13]
+
+DIR holds a folder for each package (``H13/ws/src/husky/…``); one that is missing is skipped. A
+module is one package and each of its tests one thing that must be seen; the table at the end has a
+line a package.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from stage import Stage, staged
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--strangers", type=Path, help="where the packages are laid out")
+
+
+def _package(path: Path) -> str:
+    return path.stem.split("_")[1].upper()
+
+
+@pytest.fixture(scope="module")
+def folder(request: pytest.FixtureRequest) -> Path:
+    """The folder of the module's package."""
+    base: Path | None = request.config.getoption("--strangers")
+    if base is None:
+        pytest.skip("--strangers DIR says where the packages are")
+    found = base.resolve() / _package(request.path)
+    if not found.is_dir():
+        pytest.skip(f"'{found}' is not there")
+    return found
+
+
+@pytest.fixture
+def stage(request: pytest.FixtureRequest, folder: Path) -> Iterator[Stage]:
+    """The package's stage, anew for each test; the module's ENVIRONMENT is added."""
+    with staged(folder, getattr(request.module, "ENVIRONMENT", {})) as opened:
+        yield opened
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    counts: dict[str, dict[str, int]] = {}
+    for outcome in ("passed", "failed", "error", "xfailed", "skipped"):
+        for report in terminalreporter.stats.get(outcome, []):
+            name = _package(Path(report.nodeid.partition("::")[0]))
+            row = counts.setdefault(name, {})
+            row[outcome] = row.get(outcome, 0) + 1
+    if not counts:
+        return
+    terminalreporter.section("packages")
+    for name, row in sorted(counts.items()):
+        good = not row.keys() & {"failed", "error", "skipped"}
+        told = ", ".join(f"{number} {outcome}" for outcome, number in row.items())
+        terminalreporter.line(f"{name}  {'as expected' if good else 'NOT as expected':15}  {told}")

@@ -1,0 +1,252 @@
+"""A stage for public packages: launches and commands on a graph of their own, and what is seen.
+
+Everything runs as a person would run it, through the installed command `gazelle` in the folder of
+the package; only the graph is private, so that several run on one machine.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from gazelle.graph import Graph
+from gazelle.testing.launch import Launch
+from gazelle.testing.own_graph import open_graph
+from gazelle.testing.process_tree import ProcessTree, launch_environment
+from gazelle.testing.waiting import Waiting
+
+END_S = 5.0
+"""All processes of a launch are gone this long after Ctrl-C, in seconds of real time."""
+
+_MARK = "GAZELLE_STRANGER"
+
+
+class Finished(NamedTuple):
+    """How a command ended: its exit code, and stdout and stderr as they came, together."""
+
+    code: int
+    output: str
+    stdout: str
+
+
+class Stage:
+    """The folder of one public package, with one graph for all that is started in it.
+
+    Attributes:
+        folder: where commands run.
+        graph: the graph they are on.
+    """
+
+    def __init__(self, folder: Path, environment: Mapping[str, str], timeout_s: float) -> None:
+        """Open it; use `staged`."""
+        self.folder = folder
+        self.graph: Graph = open_graph()
+        self._home = Path(tempfile.mkdtemp(prefix="gazelle-stranger-"))
+        self._launches = 0
+        self._timeout_s = timeout_s
+        variables = {"ROS_PACKAGE_PATH": str(folder / "ws" / "src")}
+        if (folder / "gazebo_models").is_dir():
+            variables["GAZEBO_MODEL_PATH"] = str(folder / "gazebo_models")
+        self.environment = launch_environment(
+            self.graph.port, self._home, {**variables, **environment}
+        )
+
+    def run(
+        self,
+        command: str,
+        *,
+        stdin: str = "",
+        timeout_s: float = 120.0,
+        env: Mapping[str, str] | None = None,
+    ) -> Finished:
+        """Run a command of ROS or Gazebo to its end: ``rostopic list``, ``xacro robot.xacro``.
+
+        One that does not end by itself within `timeout_s` gets Ctrl-C, and then counts by its code.
+        """
+        popen = subprocess.Popen(
+            [sys.executable, "-m", "gazelle.cli", *shlex.split(command)],
+            cwd=self.folder, env={**self.environment, **(env or {})}, text=True, errors="replace",
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            start_new_session=True,
+        )  # fmt: skip
+        try:
+            out, err = popen.communicate(stdin, timeout=timeout_s)
+        except subprocess.TimeoutExpired:
+            os.killpg(popen.pid, signal.SIGINT)
+            out, err = popen.communicate(timeout=30.0)
+        assert "Traceback (most recent call last)" not in err, err
+        return Finished(popen.returncode, out + err, out)
+
+    @contextlib.contextmanager
+    def launch(
+        self, command: str, *, env: Mapping[str, str] | None = None, traceback: bool = False
+    ) -> Iterator[Seen]:
+        """Run a launch for the time of a ``with`` block, and look at its end.
+
+        Args:
+            command: as it is typed: ``roslaunch pkg file.launch x:=1``, ``gz sim -r world.sdf``.
+            env: more environment variables.
+            traceback: the package's own code is known to end with one.
+        """
+        waiting = Waiting(self._timeout_s)
+        self._launches += 1
+        mark = f"{os.getpid()}-{self._home.name}-{self._launches}"
+        tree = ProcessTree(
+            shlex.split(command), cwd=self.folder,
+            on_change=waiting.wake,
+            environment={**self.environment, **(env or {}), _MARK: mark},
+        )  # fmt: skip
+        waiting.ended = tree.ended
+        seen = Seen(tree, self.graph, waiting)
+        try:
+            yield seen
+            begun_s = time.monotonic()
+            seen.interrupt()
+            while _left(mark) and time.monotonic() - begun_s < END_S + 15.0:
+                time.sleep(0.05)
+            took_s = time.monotonic() - begun_s
+            assert took_s <= END_S, f"took {took_s:.1f} s to end, left: {_left(mark)}"
+            if not traceback:
+                assert "Traceback (most recent call last)" not in seen.output, seen.output
+        except BaseException:
+            print(seen.output, file=sys.stderr)
+            raise
+        finally:
+            seen.close()
+            for pid in _pids(mark):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self.graph.close()
+
+
+class Seen(Launch):
+    """A launch that runs, with what these packages are measured by."""
+
+    def interrupt(self) -> None:
+        """Give it Ctrl-C as a terminal does: to all of its processes."""
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._tree.pid, signal.SIGINT)
+
+    def rate_hz(self, topic: str, sim_s: float = 3.0) -> float:
+        """Return how often a topic comes in a second of simulated time.
+
+        By the messages' stamps; by ``/clock`` where they have none.
+        """
+        messages = self.topic(topic)
+        stamps = [self._stamp_s(messages.next())]
+        while stamps[-1] - stamps[0] < sim_s or len(stamps) < 3:
+            stamps.append(self._stamp_s(messages.next()))
+        return (len(stamps) - 1) / (stamps[-1] - stamps[0])
+
+    def has_rate(self, topic: str, hz: float, sim_s: float = 3.0, share: float = 0.1) -> None:
+        """Check a rate within a share of it."""
+        rate = self.rate_hz(topic, sim_s)
+        assert abs(rate - hz) <= share * hz, f"{topic}: {rate:.2f} Hz, expected {hz:g}"
+
+    def topics(self) -> set[str]:
+        """Return the names of all topics that are published or listened to."""
+        return {one.name for one in self.graph.topics()}
+
+    def wait_for_topics(self, *names: str) -> None:
+        """Wait until all of these are there."""
+        self._waiting.until(
+            lambda: set(names) <= self.topics(), f"topics {', '.join(names)}", None,
+            hint=lambda: f"there: {', '.join(sorted(self.topics()))}",
+        )  # fmt: skip
+
+    def run_sim(self, seconds: float, timeout_s: float | None = None) -> None:
+        """Let so many more seconds be simulated."""
+        self.wait_until(0.001, timeout_s)
+        self.wait_until(self.sim_time_s + seconds, timeout_s or 60.0 + 10.0 * seconds)
+
+    def says(self, pattern: str, timeout_s: float | None = None) -> str:
+        """Wait for a line of the output."""
+        return self.wait_for_line(pattern, timeout_s)
+
+    def said(self, pattern: str) -> list[str]:
+        """Return the lines so far that match."""
+        return [line for line in self.output.splitlines() if re.search(pattern, line)]
+
+    def joints(self, topic: str = "/joint_states") -> dict[str, float]:
+        """Return the positions of the joints by name, of the next message."""
+        message = self.topic(topic).next()
+        return dict(zip(message.name, message.position, strict=False))
+
+    def joint_reaches(
+        self, name: str, position: float, tolerance: float, topic: str = "/joint_states"
+    ) -> None:
+        """Wait until a joint is at a position (rad or m)."""
+
+        def is_there(message: Any) -> bool:
+            at = dict(zip(message.name, message.position, strict=False))
+            return name in at and abs(at[name] - position) <= tolerance
+
+        self.topic(topic).wait_for(is_there)
+
+    def _stamp_s(self, message: Any) -> float:
+        header = getattr(message, "header", None)
+        if header is None:
+            return self.sim_time_s
+        return float(header.stamp.sec + header.stamp.nanosec * 1e-9)
+
+
+def yaw_rad(quat: Any) -> float:
+    """Return the heading of a ``geometry_msgs/Quaternion``."""
+    return math.atan2(
+        2.0 * (quat.w * quat.z + quat.x * quat.y), 1.0 - 2.0 * (quat.y**2 + quat.z**2)
+    )
+
+
+def roll_pitch_rad(quat: Any) -> tuple[float, float]:
+    """Return roll and pitch of a ``geometry_msgs/Quaternion``."""
+    roll = math.atan2(
+        2.0 * (quat.w * quat.x + quat.y * quat.z), 1.0 - 2.0 * (quat.x**2 + quat.y**2)
+    )
+    return roll, math.asin(max(-1.0, min(1.0, 2.0 * (quat.w * quat.y - quat.z * quat.x))))
+
+
+def _pids(mark: str) -> list[int]:
+    """Return the processes of a launch, by the environment they were given."""
+    wanted = f"{_MARK}={mark}".encode()
+    found = []
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit() and folder.name != str(os.getpid()):
+            with contextlib.suppress(OSError):
+                if wanted in (folder / "environ").read_bytes().split(b"\0"):
+                    found.append(int(folder.name))
+    return found
+
+
+def _left(mark: str) -> str:
+    found = []
+    for pid in _pids(mark):
+        with contextlib.suppress(OSError):
+            words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+            found.append(" ".join(one.decode(errors="replace") for one in words[1:5]))
+    return "; ".join(found)
+
+
+@contextlib.contextmanager
+def staged(
+    folder: Path, environment: Mapping[str, str] | None = None, timeout_s: float = 90.0
+) -> Iterator[Stage]:
+    """Open the stage of one package for the time of a ``with`` block."""
+    stage = Stage(folder, environment or {}, timeout_s)
+    try:
+        yield stage
+    finally:
+        stage.close()
