@@ -16,11 +16,15 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
+from gazelle.geometry import Pose
 from gazelle.graph import Graph
+from gazelle.graph.tf import TransformBuffer, TransformListener
 from gazelle.testing.launch import Launch
 from gazelle.testing.own_graph import open_graph
 from gazelle.testing.process_tree import ProcessTree, launch_environment
@@ -38,6 +42,40 @@ class Finished(NamedTuple):
     code: int
     output: str
     stdout: str
+
+
+class RobotParts(NamedTuple):
+    """What is in a URDF.
+
+    Attributes:
+        links: their names.
+        joints: the names of joints of robots (those of transmissions are not counted).
+        kinds: how many joints of each type there are.
+        mass_kg: of all links together.
+        root: the link without a parent.
+    """
+
+    links: list[str]
+    joints: list[str]
+    kinds: Counter[str]
+    mass_kg: float
+    root: str
+
+
+def robot_parts(urdf: str) -> RobotParts:
+    """Count what is in the text of a URDF, as `xacro` prints it."""
+    robot = ElementTree.fromstring(urdf)
+    links = [str(link.get("name")) for link in robot.findall("link")]
+    joints = robot.findall("joint")
+    children = {str(child.get("link")) for joint in joints for child in joint.findall("child")}
+    masses = robot.findall("link/inertial/mass")
+    return RobotParts(
+        links,
+        [str(joint.get("name")) for joint in joints],
+        Counter(str(joint.get("type")) for joint in joints),
+        sum(float(str(mass.get("value"))) for mass in masses),
+        next(link for link in links if link not in children),
+    )
 
 
 class Stage:
@@ -136,6 +174,8 @@ class Stage:
 class Seen(Launch):
     """A launch that runs, with what these packages are measured by."""
 
+    _tf: TransformListener | None = None
+
     def interrupt(self) -> None:
         """Give it Ctrl-C as a terminal does: to all of its processes."""
         with contextlib.suppress(ProcessLookupError):
@@ -185,6 +225,12 @@ class Seen(Launch):
         """Return the positions of the joints by name, of the next message."""
         message = self.topic(topic).next()
         return dict(zip(message.name, message.position, strict=False))
+
+    def tf(self, target: str, source: str, timeout_s: float = 60.0) -> Pose:
+        """Return ``T_target_source``, as soon as there is a way from one to the other."""
+        if self._tf is None:
+            self._tf = TransformListener(TransformBuffer(), self.node)
+        return self._tf.buffer.lookup_transform(target, source, timeout_s=timeout_s).pose
 
     def joint_reaches(
         self, name: str, position: float, tolerance: float, topic: str = "/joint_states"
