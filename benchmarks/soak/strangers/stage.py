@@ -84,20 +84,21 @@ class Stage:
     Attributes:
         folder: where commands run.
         graph: the graph they are on.
+        home: the home folder of what is started, empty at first.
     """
 
     def __init__(self, folder: Path, environment: Mapping[str, str], timeout_s: float) -> None:
         """Open it; use `staged`."""
         self.folder = folder
         self.graph: Graph = open_graph()
-        self._home = Path(tempfile.mkdtemp(prefix="gazelle-stranger-"))
+        self.home = Path(tempfile.mkdtemp(prefix="gazelle-stranger-"))
         self._launches = 0
         self._timeout_s = timeout_s
         variables = {"ROS_PACKAGE_PATH": str(folder / "ws" / "src")}
         if (folder / "gazebo_models").is_dir():
             variables["GAZEBO_MODEL_PATH"] = str(folder / "gazebo_models")
         self.environment = launch_environment(
-            self.graph.port, self._home, {**variables, **environment}
+            self.graph.port, self.home, {**variables, **environment}
         )
 
     def run(
@@ -139,7 +140,7 @@ class Stage:
         """
         waiting = Waiting(self._timeout_s)
         self._launches += 1
-        mark = f"{os.getpid()}-{self._home.name}-{self._launches}"
+        mark = f"{os.getpid()}-{self.home.name}-{self._launches}"
         tree = ProcessTree(
             shlex.split(command), cwd=self.folder,
             on_change=waiting.wake,
@@ -165,6 +166,12 @@ class Stage:
             for pid in _pids(mark):
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
+
+    def place(self, model: str) -> tuple[float, ...]:
+        """Return x, y, z, roll, pitch and yaw of a model of the running world."""
+        asked = self.run(f"gz model -m {model} -p")
+        assert asked.code == 0, asked.output
+        return tuple(float(one) for one in asked.stdout.split()[-6:])
 
     def close(self) -> None:
         """Leave the graph."""
@@ -242,6 +249,38 @@ class Seen(Launch):
             return name in at and abs(at[name] - position) <= tolerance
 
         self.topic(topic).wait_for(is_there)
+
+    def drive(
+        self, topic: str, linear: float, angular: float, sim_s: float, *, stamped: bool = False
+    ) -> None:
+        """Command a speed at 10 Hz of simulated time, as a ``Twist`` or a ``TwistStamped``."""
+        kind = f"geometry_msgs/msg/Twist{'Stamped' if stamped else ''}"
+        twist = {"linear": {"x": linear}, "angular": {"z": angular}}
+        self.wait_until(0.001)
+        end_s = self.sim_time_s + sim_s
+        while self.sim_time_s < end_s:
+            now_s = self.sim_time_s
+            stamp = {"sec": int(now_s), "nanosec": int(now_s % 1.0 * 1e9)}
+            fields = {"header": {"stamp": stamp}, "twist": twist} if stamped else twist
+            self.publish(topic, kind, **fields)
+            self.wait_until(now_s + 0.1)
+
+    def controllers(self, manager: str = "/controller_manager") -> dict[str, str]:
+        """Return the states of the controllers of ros2_control by name."""
+        answer = self.call(f"{manager}/list_controllers")
+        return {one.name: one.state for one in answer.controller}
+
+    def wait_for_controllers(
+        self, *names: str, manager: str = "/controller_manager", state: str = "active"
+    ) -> None:
+        """Wait until all of these are in a state."""
+        deadline_s = time.monotonic() + self._waiting.timeout_s
+        while True:
+            there = self.controllers(manager)
+            if all(there.get(name) == state for name in names):
+                return
+            assert time.monotonic() < deadline_s, f"not all {state}: {there}"
+            time.sleep(0.5)
 
     def _stamp_s(self, message: Any) -> float:
         header = getattr(message, "header", None)
