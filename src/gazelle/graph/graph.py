@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import introspection
+from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
@@ -58,6 +59,7 @@ class Graph:
         domain: ``ROS_DOMAIN_ID``.
         session: the transport.
         zid: the session's name, in tokens.
+        announcements: tells others what there is.
         clock: the clock of all nodes here.
         parameters: the parameter store, by global names.
         local: topics' ends in this process.
@@ -82,6 +84,7 @@ class Graph:
         self.port = port
         self.domain = domain
         self.zid = str(session.zid())
+        self.announcements = Announcements(session)
         self.local = LocalTopics()
         self.parameter_share = ParameterShare(session)
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
@@ -187,7 +190,8 @@ class Graph:
         full = join(namespace, own)
         if not anonymous and not is_ros2:
             self._end_namesakes(full)
-        node = Node(self, full, namespace, remappings or {}, rosout=rosout)
+        with self.announcements.together():
+            node = Node(self, full, namespace, remappings or {}, rosout=rosout)
         with self._lock:
             self._nodes.append(node)
         if self._keeper is not None:

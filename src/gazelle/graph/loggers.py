@@ -40,5 +40,6 @@ def offer_loggers(node: Node, logger: str = "ros") -> None:
             raise GraphError(f"'{request.level}' is no level; there are {words}") from None
         return put._response_class()
 
-    node.create_service("~get_loggers", get, loggers)
-    node.create_service("~set_logger_level", put, set_level)
+    with node.announced_together():
+        node.create_service("~get_loggers", get, loggers)
+        node.create_service("~set_logger_level", put, set_level)

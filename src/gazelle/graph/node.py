@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from gazelle.errors import GraphError
@@ -74,9 +75,7 @@ class Node:
         self._closed = False
         self._rosout: Publisher | None = None
         self.entity = Entity(graph.zid, graph.next_id(), graph.next_id(), Kind.NODE, name)
-        self._token: Any = graph.session.liveliness().declare_token(
-            token(graph.domain, self.entity)
-        )
+        self._token = graph.announcements.announce(token(graph.domain, self.entity))
         if rosout:
             self._rosout = self.create_publisher(
                 _ROSOUT, wire.resolve_type(_ROSOUT_TYPE), queue_size=100
@@ -91,6 +90,10 @@ class Node:
     def closed(self) -> bool:
         """True after `shutdown`."""
         return self._closed
+
+    def announced_together(self) -> AbstractContextManager[None]:
+        """Announce what is made in a ``with`` block at its end, see `Announcements.together`."""
+        return self.graph.announcements.together()
 
     def resolve_name(self, name: str) -> str:
         """Return the global name after remapping.

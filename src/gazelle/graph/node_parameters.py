@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -27,6 +28,7 @@ class _Publisher(_Closable, Protocol):
 
 
 class _Node(Protocol):
+    def announced_together(self) -> AbstractContextManager[None]: ...
     def create_publisher(self, topic: str, message_type: Any) -> _Publisher: ...
     def create_service(
         self, name: str, service_type: Any, handler: Callable[[Any], Any]
@@ -105,17 +107,8 @@ class NodeParameters:
         self._strict = strict
         self._now_ns = now_ns
         self._closables: list[_Closable] = []
-        self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
-        self._closables.append(self._events)
-        for name, kind, handler in (
-            ("get_parameters", "GetParameters", self._get),
-            ("set_parameters", "SetParameters", self._set),
-            ("set_parameters_atomically", "SetParametersAtomically", self._set_together),
-            ("list_parameters", "ListParameters", self.list_into),
-            ("describe_parameters", "DescribeParameters", self._describe),
-            ("get_parameter_types", "GetParameterTypes", self._types),
-        ):
-            self._serve(node, name, kind, handler, run)
+        with node.announced_together():
+            self._offer(node, run)
 
     def declare(self, name: str, value: Any, descriptor: Descriptor = _PLAIN) -> None:
         """Add a parameter and tell others."""
@@ -158,6 +151,19 @@ class NodeParameters:
         """Withdraw the services; closing twice does nothing."""
         while self._closables:
             self._closables.pop().unregister()
+
+    def _offer(self, node: _Node, run: Callable[[Callable[[], Any]], Any]) -> None:
+        self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
+        self._closables.append(self._events)
+        for name, kind, handler in (
+            ("get_parameters", "GetParameters", self._get),
+            ("set_parameters", "SetParameters", self._set),
+            ("set_parameters_atomically", "SetParametersAtomically", self._set_together),
+            ("list_parameters", "ListParameters", self.list_into),
+            ("describe_parameters", "DescribeParameters", self._describe),
+            ("get_parameter_types", "GetParameterTypes", self._types),
+        ):
+            self._serve(node, name, kind, handler, run)
 
     def _checked(self, name: str, value: Any) -> tuple[str, Any]:
         """Return why a value is refused, and the value in the parameter's type."""

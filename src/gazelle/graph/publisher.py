@@ -68,7 +68,7 @@ class Publisher:
             graph.session, key, reliable=reliable, latched=self.latch
         )
         self._local.add_publisher(self)
-        self._token: Any = graph.session.liveliness().declare_token(text)
+        self._token = graph.announcements.announce(text)
 
     @property
     def matched(self) -> bool:

@@ -80,7 +80,7 @@ class ServiceServer:
             return
         callback = zenoh.handlers.Callback(self._on_query, None, indirect=False)
         self._queryable: Any = graph.session.declare_queryable(self._key, callback, complete=True)
-        self._token: Any = graph.session.liveliness().declare_token(text)
+        self._token = graph.announcements.announce(text)
 
     def unregister(self) -> None:
         """Stop answering; calling it twice does nothing."""
@@ -162,7 +162,7 @@ class ServiceClient:
         self._asking: set[Any] = set()
         if is_mute:
             return
-        self._token: Any = graph.session.liveliness().declare_token(text)
+        self._token = graph.announcements.announce(text)
 
     @property
     def available(self) -> bool:

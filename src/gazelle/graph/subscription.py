@@ -94,7 +94,7 @@ class Subscription:
         declare = _declare if takes_latched else _declare_plain
         selector = topic_selector(graph.domain, self.topic)
         self._subscriber: Any = declare(graph.session, selector, self._on_sample)
-        self._token: Any = graph.session.liveliness().declare_token(token(graph.domain, entity))
+        self._token = graph.announcements.announce(token(graph.domain, entity))
 
     @property
     def dropped(self) -> int:

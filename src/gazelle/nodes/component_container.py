@@ -53,10 +53,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Offer the services of a container until told to stop."""
     node = start_node(arguments, graph)
     container = _Container(node, graph, arguments.parameter_files)
-    for name in ("load_node", "unload_node", "list_nodes"):
-        words = "".join(word.capitalize() for word in name.split("_"))
-        kind: Any = service_type(f"composition_interfaces/srv/{words}")
-        node.create_service(f"~/_container/{name}", kind, _answering(kind, container, name))
+    with node.announced_together():
+        for name in ("load_node", "unload_node", "list_nodes"):
+            words = "".join(word.capitalize() for word in name.split("_"))
+            kind: Any = service_type(f"composition_interfaces/srv/{words}")
+            node.create_service(f"~/_container/{name}", kind, _answering(kind, container, name))
     stop.wait()
     container.end()
     node.shutdown()

@@ -50,15 +50,16 @@ class Lifecycle:
         self._state = _UNCONFIGURED
         self._lock = threading.Lock()
         event: Any = message_type("lifecycle_msgs/msg/TransitionEvent")
-        self._events = node.create_publisher("~/transition_event", event)
-        for name, kind, answer in (
-            ("change_state", "ChangeState", self._on_change),
-            ("get_state", "GetState", self._on_get),
-            ("get_available_states", "GetAvailableStates", self._on_states),
-            ("get_available_transitions", "GetAvailableTransitions", self._on_available),
-            ("get_transition_graph", "GetAvailableTransitions", self._on_graph),
-        ):
-            node.create_service(f"~/{name}", service_type(f"lifecycle_msgs/srv/{kind}"), answer)
+        with node.announced_together():
+            self._events = node.create_publisher("~/transition_event", event)
+            for name, kind, answer in (
+                ("change_state", "ChangeState", self._on_change),
+                ("get_state", "GetState", self._on_get),
+                ("get_available_states", "GetAvailableStates", self._on_states),
+                ("get_available_transitions", "GetAvailableTransitions", self._on_available),
+                ("get_transition_graph", "GetAvailableTransitions", self._on_graph),
+            ):
+                node.create_service(f"~/{name}", service_type(f"lifecycle_msgs/srv/{kind}"), answer)
 
     @property
     def active(self) -> bool:

@@ -61,10 +61,11 @@ def offer_manager(
 
     generation = manager.robot.generation
     ports = make_ports(host, resources, manager.namespace, name, generation, remappings)
-    if generation == 1:
-        offer_ros1(manager, ports)
-    else:
-        offer_ros2(manager, ports)
+    with host.node.announced_together():
+        if generation == 1:
+            offer_ros1(manager, ports)
+        else:
+            offer_ros2(manager, ports)
     managers = host.controls.managers
     managers[manager.namespace] = manager
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics.nearest import nearest_names
@@ -165,6 +166,10 @@ class LocalNode:
         """Offer a service."""
         self._services[_absolute(name)] = handler
         return LocalService(self, _absolute(name))
+
+    def announced_together(self) -> AbstractContextManager[None]:
+        """Do nothing: nobody else sees what is made here."""
+        return nullcontext()
 
     def call(self, name: str, request: Any) -> Any:
         """Call a service of this process.

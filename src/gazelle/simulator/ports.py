@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -98,6 +99,10 @@ class NodePort(Protocol):
         self, name: str, service_type: Any, handler: Callable[[Any], Any]
     ) -> ServicePort:
         """Offer a service."""
+        ...
+
+    def announced_together(self) -> AbstractContextManager[None]:
+        """Announce what is made in a ``with`` block at its end, all at once."""
         ...
 
     def resolve_name(self, name: str) -> str:

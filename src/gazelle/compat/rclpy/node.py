@@ -101,35 +101,36 @@ class Node(ParameterHolder, GraphQueries):
         own = parse_ros_arguments(cli_args or [])
         name = own.node_name(given.node_name(node_name))
         space = own.namespace(node_name) or given.namespace(node_name) or namespace or ""
-        self.graph_node = self.context.graph.create_node(
-            name,
-            namespace=resolve(space or "/"),
-            remappings={**given.remappings(name), **own.remappings(name)},
-            rosout=enable_rosout,
-            is_ros2=True,
-        )
-        self.is_destroyed = False
-        self.executor: Any = None
-        self._pending: deque[Work] = deque()
-        self._answers: set[threading.Event] = set()
-        self._created: list[Any] = []
-        self._default_callback_group = MutuallyExclusiveCallbackGroup()
-        self._clock = ROSClock()
-        self._clock.attach(self.graph_node.clock)
-        self._logger = logging.RcutilsLogger(self._logger_name())
-        logging.attach_node(self._logger.name, self.graph_node)
-        for logger, level in {**given.log_levels, **own.log_levels}.items():
-            if logger in ("", self._logger.name):
-                self._logger.set_level(logging.get_logging_severity_from_string(level))
-        overrides = {**given.parameters(self._full), **own.parameters(self._full)}
-        overrides |= {one.name: one.value for one in parameter_overrides or []}
-        self._offer_parameters(overrides, allow_undeclared_parameters)
-        self._offer_type_descriptions()
-        if enable_logger_service:
-            offer_logger_levels(self)
-        if automatically_declare_parameters_from_overrides:
-            for key in [key for key in overrides if not self.has_parameter(key)]:
-                self.declare_parameter(key, overrides[key])
+        # Whoever sees the node sees its services too.
+        with self.context.graph.announcements.together():
+            self.graph_node = self.context.graph.create_node(
+                name,
+                namespace=resolve(space or "/"),
+                remappings={**given.remappings(name), **own.remappings(name)},
+                rosout=enable_rosout,
+                is_ros2=True,
+            )
+            self.is_destroyed = False
+            self.executor: Any = None
+            self._pending: deque[Work] = deque()
+            self._answers: set[threading.Event] = set()
+            self._created: list[Any] = []
+            self._default_callback_group = MutuallyExclusiveCallbackGroup()
+            self._clock = ROSClock()
+            self._clock.attach(self.graph_node.clock)
+            self._logger = logging.RcutilsLogger(self._logger_name())
+            logging.attach_node(self._logger.name, self.graph_node)
+            for logger, level in {**given.log_levels, **own.log_levels}.items():
+                if logger in ("", self._logger.name):
+                    self._logger.set_level(logging.get_logging_severity_from_string(level))
+            overrides = {**given.parameters(self._full), **own.parameters(self._full)}
+            overrides |= {one.name: one.value for one in parameter_overrides or []}
+            self._offer_parameters(overrides, allow_undeclared_parameters)
+            self._offer_type_descriptions()
+            if enable_logger_service:
+                offer_logger_levels(self)
+            if automatically_declare_parameters_from_overrides:
+                self._declare_overrides()
 
     def __enter__(self) -> Node:
         return self
@@ -461,6 +462,10 @@ class Node(ParameterHolder, GraphQueries):
             now_ns=self._clock.now_ns,
         )
         self._take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
+
+    def _declare_overrides(self) -> None:
+        for key in [key for key in self._overrides if not self.has_parameter(key)]:
+            self.declare_parameter(key, self._overrides[key])
 
     def _offer_type_descriptions(self) -> None:
         name = START_TYPE_DESCRIPTION_SERVICE_PARAM

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any, Protocol
 
 __all__ = ["ActionNode"]
@@ -13,6 +14,10 @@ class ActionNode(Protocol):
 
     A node with an attribute `clock` (see `gazelle.graph.Clock`) gives the server its time.
     """
+
+    def announced_together(self) -> AbstractContextManager[None]:
+        """Announce what is made in a ``with`` block at its end."""
+        ...
 
     def create_publisher(self, topic: str, message_type: Any, *, latch: bool = ...) -> Any:
         """Offer a topic."""

@@ -31,13 +31,14 @@ class Ros2Wire:
         self._types = types = server.types
         self._blocks = getattr(node, "clock", None) is not None
         name = f"{server.name}/_action"
-        self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
-        self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
-        self._services = (
-            node.create_service(f"{name}/send_goal", types.SendGoal, self._on_goal),
-            node.create_service(f"{name}/cancel_goal", types.CancelGoal, self._on_cancel),
-            node.create_service(f"{name}/get_result", types.GetResult, self._on_result),
-        )
+        with node.announced_together():
+            self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
+            self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
+            self._services = (
+                node.create_service(f"{name}/send_goal", types.SendGoal, self._on_goal),
+                node.create_service(f"{name}/cancel_goal", types.CancelGoal, self._on_cancel),
+                node.create_service(f"{name}/get_result", types.GetResult, self._on_result),
+            )
 
     @property
     def wants_feedback(self) -> bool:

@@ -99,12 +99,13 @@ def _context(
     node.log("info", f"Loading robot model '{robot.name}'...")
     context = make_context(node, config, robot, parameters, generation=arguments.generation)
     context.maker.warm_up(context.monitor.scene)
-    offer_scene(context)
-    offer_kinematics(context)
-    offer_planning(context)
-    offer_move_action(context)
-    offer_execute_action(context)
-    offer_sequences(context)
+    with node.announced_together():
+        offer_scene(context)
+        offer_kinematics(context)
+        offer_planning(context)
+        offer_move_action(context)
+        offer_execute_action(context)
+        offer_sequences(context)
     log_findings(node, diagnostics, render_text)
     return context
 

@@ -52,7 +52,8 @@ class Nav2Costmap:
             self.node, Frames(self.node), made, publisher, topics_in=arguments.namespace
         )
         self._parameters = offer_parameters(self.node, tree)
-        self._offer(name, space)
+        with self.node.announced_together():
+            self._offer(name, space)
 
     def close(self) -> None:
         """Take everything off the graph."""

@@ -27,15 +27,16 @@ class ToolboxServices:
     def __init__(self, node: Node, mapper: Mapper) -> None:
         """Offer them under the node's own name."""
         self._node, self._mapper = node, mapper
-        for name, kind, handler in (
-            ("save_map", "SaveMap", self._save_map),
-            ("serialize_map", "SerializePoseGraph", self._serialize),
-            ("deserialize_map", "DeserializePoseGraph", self._deserialize),
-            ("pause_new_measurements", "Pause", self._pause),
-            ("reset", "Reset", self._reset),
-        ):
-            offered = service_type(f"slam_toolbox/srv/{kind}")
-            node.create_service(f"~/{name}", offered, _answering(handler, offered))
+        with node.announced_together():
+            for name, kind, handler in (
+                ("save_map", "SaveMap", self._save_map),
+                ("serialize_map", "SerializePoseGraph", self._serialize),
+                ("deserialize_map", "DeserializePoseGraph", self._deserialize),
+                ("pause_new_measurements", "Pause", self._pause),
+                ("reset", "Reset", self._reset),
+            ):
+                offered = service_type(f"slam_toolbox/srv/{kind}")
+                node.create_service(f"~/{name}", offered, _answering(handler, offered))
 
     def load(self, path: Path, start: Sequence[float] | None, *, keeps: bool) -> str:
         """Go on with a saved graph; return what is wrong, empty when nothing is.

@@ -77,12 +77,13 @@ def offer_gazebo_ros(
     )
     spawns = SpawnServices(server, entities, report)
     world = WorldServices(server, PhysicsParameters(server, resources, space))
-    for group in (models, links, joints, spawns, world, LightServices(server)):
-        for row in group.rows():
-            resources.service(join_names(space, row.name), row.type, row.handler)
-        for row in group.ros2_rows():
-            if _PLUGIN_OF[row.name] in ros2:
-                resources.service(join_names("/", row.name), row.type, row.handler)
+    with server.node.announced_together():
+        for group in (models, links, joints, spawns, world, LightServices(server)):
+            for row in group.rows():
+                resources.service(join_names(space, row.name), row.type, row.handler)
+            for row in group.ros2_rows():
+                if _PLUGIN_OF[row.name] in ros2:
+                    resources.service(join_names("/", row.name), row.type, row.handler)
     if not is_gz:
         offer_world_contacts(server, resources)
     if space == SHOWN_SPACE:

@@ -86,8 +86,9 @@ def load_properties(context: PluginContext) -> None:
 
 
 def _offer(context: PluginContext, parameters: ParameterReader, rows: Iterable[Row]) -> None:
-    for row in rows:
-        context.resources.service(context.topic(parameters, row.name), row.type, row.handler)
+    with context.host.node.announced_together():
+        for row in rows:
+            context.resources.service(context.topic(parameters, row.name), row.type, row.handler)
 
 
 def _server(context: PluginContext) -> WorldServer:

@@ -51,16 +51,21 @@ class LifecycleNodeMixin(ManagedEntity):
         self._events: Any = None
         if enable_communication_interface:
             event = message_type("lifecycle_msgs/msg/TransitionEvent")
-            self._events = node.create_publisher(event, "~/transition_event", 10)
-            for name, kind, answer in (
-                ("change_state", "ChangeState", self._on_change_state),
-                ("get_state", "GetState", self._on_get_state),
-                ("get_available_states", "GetAvailableStates", self._on_get_states),
-                ("get_available_transitions", "GetAvailableTransitions", self._on_get_available),
-                ("get_transition_graph", "GetAvailableTransitions", self._on_get_graph),
-            ):
-                service = service_type(f"lifecycle_msgs/srv/{kind}")
-                node.create_service(service, f"~/{name}", answer, callback_group=callback_group)
+            with node.graph_node.announced_together():
+                self._events = node.create_publisher(event, "~/transition_event", 10)
+                for name, kind, answer in (
+                    ("change_state", "ChangeState", self._on_change_state),
+                    ("get_state", "GetState", self._on_get_state),
+                    ("get_available_states", "GetAvailableStates", self._on_get_states),
+                    (
+                        "get_available_transitions",
+                        "GetAvailableTransitions",
+                        self._on_get_available,
+                    ),
+                    ("get_transition_graph", "GetAvailableTransitions", self._on_get_graph),
+                ):
+                    service = service_type(f"lifecycle_msgs/srv/{kind}")
+                    node.create_service(service, f"~/{name}", answer, callback_group=callback_group)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities; a node's own callback calls this one."""
