@@ -79,6 +79,13 @@ def test_a_setup_file_that_cannot_be_parsed_gives_nothing(package):
     assert package.find_executables("talk") == ()
 
 
+def test_a_script_does_not_stand_in_for_the_compiled_program_of_its_name(package):
+    path = make(package.path, "scripts/talk.py")
+    make(package.path, "CMakeLists.txt", "add_executable(talk src/talk.cpp)\n")
+    assert package.find_executables("talk") == ()
+    assert package.find_executables("talk.py") == (path,)
+
+
 def test_executable_names_are_what_rosrun_offers(package):
     make(package.path, "scripts/a.py")
     make(package.path, "tools/b", mode=0o755)

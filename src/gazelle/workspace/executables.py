@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from gazelle.limits.names import is_file
+from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.entry_points import console_scripts
 from gazelle.workspace.installed import installed_files
 
@@ -23,7 +25,8 @@ def executables_named(
     """Return the candidate files, best first; empty when there is none.
 
     ``type_name`` is matched as written; a script installed under its name without the suffix
-    (as ``CMakeLists.txt`` and ``console_scripts`` do) is found as well.
+    (as ``CMakeLists.txt`` and ``console_scripts`` do) is found as well, unless a compiler would
+    make a program of that name: ``talker`` of ``talker.cpp`` is not the ``talker.py`` beside it.
     """
     found: dict[Path, None] = {}
     if prefix is not None:
@@ -31,17 +34,20 @@ def executables_named(
         _add(found, path / type_name)
         return tuple(found)
     installed = installed_files(path, package)
-    for name in _spellings(type_name):
+    spellings = _spellings(type_name)
+    if len(spellings) > 1 and type_name in _compiled_names(path, package):
+        spellings = (type_name,)
+    for name in spellings:
         if f"lib/{package}/{name}" in installed:
             _add(found, installed[f"lib/{package}/{name}"])
     target = console_scripts(path).get(type_name)
     if target is not None:
         _add(found, _module_file(path, target))
-    for name in _spellings(type_name):
+    for name in spellings:
         for folder in (*_FOLDERS, package):
             _add(found, path / folder / name)
     if not found:
-        for name in _spellings(type_name):
+        for name in spellings:
             for file in _files_below(path):
                 if file.name == name:
                     _add(found, file)
@@ -71,6 +77,15 @@ def _add(found: dict[Path, None], path: Path) -> None:
 
 def _spellings(type_name: str) -> tuple[str, ...]:
     return (type_name,) if Path(type_name).suffix else (type_name, f"{type_name}.py")
+
+
+@lru_cache(maxsize=256)
+def _compiled_names(path: Path, package: str) -> frozenset[str]:
+    try:
+        lists = read_cmake_lists(path, package)
+    except OSError:
+        return frozenset()
+    return frozenset() if lists is None else frozenset(lists.executables())
 
 
 def _module_file(path: Path, target: str) -> Path:

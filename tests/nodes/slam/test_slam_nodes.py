@@ -139,6 +139,18 @@ def test_a_room_is_mapped_under_every_name(
     assert maps[-1].info.origin.position.x == pytest.approx(-3 - 0.05, abs=0.15)
 
 
+def test_the_frame_of_the_map_is_there_before_the_engine_is_compiled(
+    bench: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waited = threading.Event()
+    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", lambda _tell: waited.wait())
+    bench.start("gmapping/slam_gmapping", *FAST)
+    try:
+        bench.eventually(lambda: robot.buffer.can_transform("map", "odom"))
+    finally:
+        waited.set()
+
+
 def test_dynamic_map_and_metadata_tell_the_same_map(bench: Any, robot: Robot) -> None:
     about = bench.listen("/map_metadata", "nav_msgs/msg/MapMetaData")
     bench.start("gmapping/slam_gmapping", *FAST)

@@ -115,14 +115,13 @@ def _run(
     options = _options(flavour, arguments, node, given)
     mapper = Mapper(node, options)
     _offer(node, mapper, flavour, options)
+    done = threading.Event()
+    # Costmaps and displays wait for the map's frame, which needs no scan.
+    if options.publishes_tf and options.tf_period_s > 0:
+        threading.Thread(target=_place, args=(node, mapper, done), daemon=True).start()
     warm_up(lambda text: node.log("info", text))
     mapper.listen()
-    done = threading.Event()
-    workers = [threading.Thread(target=_draw, args=(node, mapper, done), daemon=True)]
-    if options.publishes_tf and options.tf_period_s > 0:
-        workers.append(threading.Thread(target=_place, args=(node, mapper, done), daemon=True))
-    for worker in workers:
-        worker.start()
+    threading.Thread(target=_draw, args=(node, mapper, done), daemon=True).start()
     arguments.ready()
     while not stop.wait(_POLL_S):
         mapper.settle()
