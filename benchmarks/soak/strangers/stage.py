@@ -61,6 +61,11 @@ class RobotParts(NamedTuple):
     mass_kg: float
     root: str
 
+    @property
+    def moving(self) -> int:
+        """How many joints are not fixed."""
+        return self.kinds.total() - self.kinds["fixed"]
+
 
 def robot_parts(urdf: str) -> RobotParts:
     """Count what is in the text of a URDF, as `xacro` prints it."""
@@ -126,6 +131,12 @@ class Stage:
             out, err = popen.communicate(timeout=30.0)
         assert "Traceback (most recent call last)" not in err, err
         return Finished(popen.returncode, out + err, out)
+
+    def robot(self, command: str, env: Mapping[str, str] | None = None) -> RobotParts:
+        """Count what a file and its arguments expand to: ``ws/src/pkg/robot.xacro laser:=true``."""
+        done = self.run(f"xacro {command}", env=env)
+        assert done.code == 0, done.output
+        return robot_parts(done.stdout)
 
     @contextlib.contextmanager
     def launch(
@@ -281,6 +292,27 @@ class Seen(Launch):
                 return
             assert time.monotonic() < deadline_s, f"not all {state}: {there}"
             time.sleep(0.5)
+
+    def true_pose(self, model: str, topic: str = "/gazebo/model_states") -> Any:
+        """Return where the simulator says a model is, once it is there."""
+        states = self.topic(topic).wait_for(lambda message: model in message.name)
+        return states.pose[states.name.index(model)]
+
+    def frames(self, sim_s: float = 1.0) -> dict[str, str]:
+        """Return the frames of tf with their parents, as heard for so long."""
+        parents: dict[str, str] = {}
+
+        def take(message: Any) -> None:
+            parents.update((one.child_frame_id, one.header.frame_id) for one in message.transforms)
+
+        listening = [
+            self.node.create_subscription(name, "tf2_msgs/msg/TFMessage", take, queue_size=0)
+            for name in ("/tf", "/tf_static")
+        ]
+        self.run_sim(sim_s)
+        for one in listening:
+            one.unregister()
+        return parents
 
     def _stamp_s(self, message: Any) -> float:
         header = getattr(message, "header", None)
