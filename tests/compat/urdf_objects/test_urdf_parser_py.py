@@ -107,6 +107,15 @@ def test_what_is_written_is_read_the_same() -> None:
     assert again.transmissions[0].joints[0].hardwareInterfaces == ["EffortJointInterface"]
 
 
+def test_attributes_keep_their_order_beside_xacro(monkeypatch: pytest.MonkeyPatch) -> None:
+    from xml.dom import minidom
+
+    from xacro.xmlutils import fixed_writexml
+
+    monkeypatch.setattr(minidom.Element, "writexml", fixed_writexml)
+    assert Pose([0, 0, 1]).to_xml_string(addHeader=False) == '<origin xyz="0 0 1" rpy="0 0 0"/>'
+
+
 def test_robots_are_made_by_hand() -> None:
     robot = URDF("made")
     link = Link("box", Visual(Box([1, 1, 1]), Material("m", Color(0.1, 0.2, 0.3))))

@@ -202,6 +202,19 @@ def test_a_robot_that_stands_is_looked_at_only_on_request() -> None:
     assert amcl.update((0.3, 0.0, 0.0), scan) is not None
 
 
+def test_a_scan_without_numbers_does_not_use_up_a_request() -> None:
+    amcl = Amcl(AmclOptions(max_particles=300, resample_interval=1), seed=1)
+    amcl.set_map(_room())
+    amcl.initialise((1.2, 1.6, 0.4), np.diag([0.01, 0.01, 0.01]))
+    scan = _scan((1.2, 1.6, 0.4))
+    blind = replace(scan, ranges_m=np.full_like(scan.ranges_m, np.nan))
+    assert amcl.update((0.0, 0.0, 0.0), blind) is None
+    assert amcl.update((0.0, 0.0, 0.0), scan) is not None
+    amcl.request_update()
+    assert amcl.update((0.0, 0.0, 0.0), blind) is None
+    assert amcl.update((0.0, 0.0, 0.0), scan) is not None
+
+
 def test_a_kidnapped_robot_is_found_after_spreading_everywhere() -> None:
     options = AmclOptions(
         max_particles=3000, resample_interval=1, laser_max_beams=60,
@@ -242,7 +255,7 @@ def test_scans_that_say_nothing_leave_the_particles_everywhere() -> None:
     amcl.set_map(_room())
     amcl.spread_everywhere()
     nothing = Scan(0, 0.0, math.tau / 90, np.full(90, np.nan, np.float32), 0.1, 3.5)
-    assert amcl.update((0.0, 0.0, 0.0), nothing) is not None
+    assert amcl.update((0.0, 0.0, 0.0), nothing) is None
     assert np.ptp(amcl.particles[:, 0]) > 3.0
 
 

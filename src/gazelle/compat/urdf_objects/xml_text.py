@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
-from xml.dom import minidom
 from xml.etree import ElementTree as ET
+from xml.sax.saxutils import escape, quoteattr
 
 import yaml
 
@@ -23,12 +23,28 @@ __all__ = [
 
 
 def xml_string(rootXml: ET.Element, addHeader: bool = True) -> str:
-    """Return an element's text, two spaces a level, with the XML declaration if wanted."""
-    made = minidom.parseString(ET.tostring(rootXml))  # noqa: S318 - made of elements
-    lines = made.toprettyxml(indent="  ").splitlines()
-    if not addHeader and lines[0].startswith("<?xml"):
-        lines = lines[1:]
-    return "\n".join(line for line in lines if line.strip())
+    """Return an element's text, two spaces a level, with the XML declaration if wanted.
+
+    Attributes keep their order. xml.dom.minidom would do, but xacro replaces its writer in the
+    whole process by one that sorts them.
+    """
+    lines = ['<?xml version="1.0" ?>'] if addHeader else []
+    return "\n".join([*lines, *_lines(rootXml, "")])
+
+
+def _lines(element: ET.Element, indent: str) -> Iterator[str]:
+    attributes = "".join(f" {name}={quoteattr(value)}" for name, value in element.items())
+    text = escape((element.text or "").strip())
+    start = f"{indent}<{element.tag}{attributes}"
+    if not len(element):
+        yield f"{start}>{text}</{element.tag}>" if text else f"{start}/>"
+        return
+    yield f"{start}>"
+    if text:
+        yield f"{indent}  {text}"
+    for child in element:
+        yield from _lines(child, f"{indent}  ")
+    yield f"{indent}</{element.tag}>"
 
 
 def dict_sub(obj: Mapping[Any, Any], keys: Iterable[Any]) -> dict[Any, Any]:

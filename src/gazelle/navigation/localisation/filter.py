@@ -138,6 +138,9 @@ class Amcl:
     def update(self, odometry: Pose, scan: Scan, laser: str = "") -> Estimate | None:
         """Take in a scan.
 
+        One without a single number (a blinded or starting lidar) says nothing, so it neither
+        answers `request_update` nor counts as the first look from an initial pose.
+
         Args:
             odometry: the robot in the odometry's frame at the time of the scan.
             scan: what the lidar saw.
@@ -148,6 +151,8 @@ class Amcl:
             before there is a map.
         """
         if self._model is None or self._map is None or self._refiner is None:
+            return None
+        if np.isnan(scan.ranges_m).all():
             return None
         first = self._odometry is None
         self._lasers.add(laser)
