@@ -295,6 +295,16 @@ def test_ros2_unspawner_deactivates_and_unloads(graph, monkeypatch):
         assert list(manager.controllers) == ["right"]
 
 
+@pytest.mark.parametrize(("version", "option"), [("1", "--stopped"), ("2", "--controller-manager")])
+def test_help_is_that_of_the_generation_of_the_command(graph, monkeypatch, capsys, version, option):
+    monkeypatch.setenv("ROS_VERSION", version)
+    arguments = read_arguments(["--help"], "spawner")
+    with pytest.raises(SystemExit) as ended:
+        controller_spawner.run(arguments, graph, threading.Event())
+    assert ended.value.code == 0
+    assert option in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("run", "words", "phrase"),
     [

@@ -60,9 +60,10 @@ class _Parser(ArgumentParser):
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Load and start controllers; ROS 1's stays and unloads them at the end.
 
-    The generation is told from the arguments, or from what the manager offers.
+    The generation is told from the launch or command behind it, from the arguments, or from what
+    the manager offers.
     """
-    if arguments.has_ros_args or is_ros2(arguments.rest):
+    if arguments.generation == 2 or is_ros2(arguments.rest):
         from gazelle.nodes.controller_spawner_ros2 import run as run_ros2
 
         return run_ros2(arguments, graph, stop)
@@ -81,7 +82,7 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
     node = _start(arguments, graph, stop, "unspawner")
     try:
         client = ManagerClient(node, "controller_manager", stop)
-        if arguments.has_ros_args or is_ros2(arguments.rest):
+        if arguments.generation == 2 or is_ros2(arguments.rest):
             return unspawn(node, arguments.rest, stop)
         if not arguments.rest:
             raise LaunchError("usage: unspawner controller [controller ...]")
@@ -110,7 +111,7 @@ def _start(arguments: NodeArguments, graph: Graph, stop: threading.Event, defaul
 
 def spawner_parser() -> ArgumentParser:
     """Return the parser of ROS 1's arguments; it raises `LaunchError` for wrong ones."""
-    parser = _Parser(prog="spawner", description="Controller spawner", add_help=False)
+    parser = _Parser(prog="spawner", description="Controller spawner")
     add = parser.add_argument
     add("controllers", nargs="+", metavar="controller")
     add("--stopped", action="store_true")

@@ -178,7 +178,7 @@ ENTRIES = (
         "error",
         "The executable of a node does not exist",
         "Neither the package, nor the built-in nodes, nor an installed ROS has it.",
-        "correct type, or make the script executable; compiled nodes have to be built by catkin",
+        "correct type, or make the script executable; compiled nodes have to be built first",
         "Cannot locate node of type in package",
     ),
     Entry(
@@ -186,7 +186,7 @@ ENTRIES = (
         "error",
         "A node is compiled code that is not here",
         "Gazelle runs Python nodes and its own built-in nodes; C++ has to be built first.",
-        "build it with catkin and source its workspace, or write the node in Python",
+        "build it with catkin or colcon and source its workspace, or write the node in Python",
         "Cannot locate node of type in package",
     ),
     Entry(
