@@ -73,6 +73,26 @@ assert rospy.get_param("/of_test") == "hello"
 """
 
 
+_BYTES = """
+import rospy, rosparam, yaml
+from xmlrpc.client import Binary
+rospy.init_node("bytes")
+found = rospy.get_param("/file")
+assert isinstance(found, Binary) and found.data == b"\\x00\\xff", found
+assert rospy.get_param("/")["file"].data == found.data
+rospy.set_param("/copy", {"of": [found]})
+assert rospy.get_param("/copy/of")[0] == found
+rosparam.dump_params("dumped.yaml", "/copy")
+assert yaml.safe_load(open("dumped.yaml")) == {"of": [b"\\x00\\xff"]}
+"""
+
+
+def test_bytes_are_binary_as_in_rospy(passes: Run, graph: Graph) -> None:
+    graph.parameters.set("/file", b"\x00\xff")
+    passes(_BYTES)
+    assert graph.parameters.get("/copy/of") == [b"\x00\xff"]
+
+
 def test_parameters_are_shared_with_the_graph(passes: Run, graph: Graph) -> None:
     graph.parameters.set("/of_test", "hello")
     passes(_PARAMETERS)

@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from gazelle.compat.rospy import client
+from gazelle.compat.rospy.binary import as_bytes
 from gazelle.errors import GazelleError
 from gazelle.graph.names import join, resolve
 from gazelle.launch.xml1.values import load_yaml
@@ -174,7 +175,7 @@ def dump_params(filename: str, param: str, verbose: bool = False) -> None:
     tree = get_param(param)
     if verbose:
         _say(f"dumping namespace [{param}] to file [{filename}]")
-    Path(filename).write_text(yaml.safe_dump(tree), encoding="utf-8")
+    Path(filename).write_text(yaml.safe_dump(as_bytes(tree)), encoding="utf-8")
 
 
 def _documents(text: str) -> Iterator[str]:

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from gazelle.compat.rospy.binary import as_binary, as_bytes
 from gazelle.compat.rospy.errors import ROSException, ROSInterruptException
 from gazelle.compat.rospy.naming import (
     get_caller_id,
@@ -155,7 +156,7 @@ def load_command_line_node_params(argv: Sequence[str]) -> None:
 
 
 def get_param(param_name: str, default: Any = _MISSING) -> Any:
-    """Return a parameter.
+    """Return a parameter; bytes are an ``xmlrpc.client.Binary``.
 
     Raises:
         KeyError: it is not set and there is no default.
@@ -180,7 +181,7 @@ def set_param(param_name: str, param_value: Any) -> None:
     """
     name = STATE.resolved(param_name)
     try:
-        STATE.open_graph().parameters.set(name, param_value)
+        STATE.open_graph().parameters.set(name, as_bytes(param_value))
     except GraphError as error:
         raise ROSException(str(error)) from error
 
@@ -293,7 +294,7 @@ def _get(name: str, default: Any, *, cached: bool) -> Any:
     full = STATE.resolved(name)
     read = store.get_cached if cached else store.get
     try:
-        return read(full)
+        return as_binary(read(full))
     except (KeyError, GraphError):
         if default is not _MISSING:
             return default
