@@ -24,7 +24,9 @@ from xml.etree import ElementTree
 
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
+from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.graph.tf import TransformBuffer, TransformListener
+from gazelle.interfaces import action_type, fill
 from gazelle.testing.launch import Launch
 from gazelle.testing.own_graph import open_graph
 from gazelle.testing.process_tree import ProcessTree, launch_environment
@@ -99,7 +101,11 @@ class Stage:
         self.home = Path(tempfile.mkdtemp(prefix="gazelle-stranger-"))
         self._launches = 0
         self._timeout_s = timeout_s
-        variables = {"ROS_PACKAGE_PATH": str(folder / "ws" / "src")}
+        variables = {
+            "ROS_PACKAGE_PATH": str(folder / "ws" / "src"),
+            # As in an activated virtual environment.
+            "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
+        }
         if (folder / "gazebo_models").is_dir():
             variables["GAZEBO_MODEL_PATH"] = str(folder / "gazebo_models")
         self.environment = launch_environment(
@@ -113,15 +119,26 @@ class Stage:
         stdin: str = "",
         timeout_s: float = 120.0,
         env: Mapping[str, str] | None = None,
+        cwd: str = ".",
+        traceback: bool = False,
     ) -> Finished:
         """Run a command of ROS or Gazebo to its end: ``rostopic list``, ``xacro robot.xacro``.
 
         One that does not end by itself within `timeout_s` gets Ctrl-C, and then counts by its code.
+        ``shell COMMAND`` runs any other program where ROS's commands and modules are.
+
+        Args:
+            command: as it is typed.
+            stdin: what it reads.
+            timeout_s: patience in seconds of real time.
+            env: more environment variables.
+            cwd: where it runs, in the package's folder.
+            traceback: the package's own code is known to print one.
         """
         popen = subprocess.Popen(
             [sys.executable, "-m", "gazelle.cli", *shlex.split(command)],
-            cwd=self.folder, env={**self.environment, **(env or {})}, text=True, errors="replace",
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            cwd=self.folder / cwd, env={**self.environment, **(env or {})}, text=True,
+            errors="replace", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             start_new_session=True,
         )  # fmt: skip
         try:
@@ -129,7 +146,7 @@ class Stage:
         except subprocess.TimeoutExpired:
             os.killpg(popen.pid, signal.SIGINT)
             out, err = popen.communicate(timeout=30.0)
-        assert "Traceback (most recent call last)" not in err, err
+        assert traceback or "Traceback (most recent call last)" not in err, err
         return Finished(popen.returncode, out + err, out)
 
     def robot(self, command: str, env: Mapping[str, str] | None = None) -> RobotParts:
@@ -243,6 +260,18 @@ class Seen(Launch):
         """Return the positions of the joints by name, of the next message."""
         message = self.topic(topic).next()
         return dict(zip(message.name, message.position, strict=False))
+
+    def reach_goal(
+        self, action: str, type_name: str, timeout_s: float = 60.0, /, **fields: Any
+    ) -> ClientGoal:
+        """Send a goal to an action server, as soon as it is there, and wait until it is over."""
+        client = ActionClient(self.node, action, type_name)
+        client.require_server(timeout_s)
+        goal = action_type(type_name).Goal()
+        fill(goal, fields)
+        sent = client.send_goal(goal)
+        assert sent.wait(timeout_s), f"{action}: not over after {timeout_s:g} s"
+        return sent
 
     def tf(self, target: str, source: str, timeout_s: float = 60.0) -> Pose:
         """Return ``T_target_source``, as soon as there is a way from one to the other."""
