@@ -136,6 +136,39 @@ def test_pytest_runs_marked_files(tmp_path: Path) -> None:
     assert "'never one' not found in sequence after previous match" in ran.stdout
 
 
+_COMPILED = """
+from launch_ros.actions import Node
+
+def generate_test_description():
+    return launch.LaunchDescription([echo("word"), ReadyToTest()])
+
+class Beside(unittest.TestCase):
+    def test_it(self, launch_service, proc_info, proc_output):
+        node = Node(package="demo", executable="speak")
+        with launch_testing.tools.launch_process(
+            launch_service, node, proc_info, proc_output
+        ):
+            with self.assertRaisesRegex(AssertionError, "compiled code that is not here"):
+                proc_info.assertWaitForShutdown(process=node, timeout=200)
+"""
+
+
+def test_a_node_that_is_compiled_code_is_not_waited_for(
+    launch_test: Callable[..., Finished], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "demo").mkdir()
+    (tmp_path / "demo/package.xml").write_text(
+        "<package format='3'><name>demo</name><version>1.0.0</version><description>d</description>"
+        "<maintainer email='a@b.org'>a</maintainer><license>MIT</license></package>"
+    )
+    (tmp_path / "demo/CMakeLists.txt").write_text("add_executable(speak src/speak.cpp)\n")
+    (tmp_path / "demo/src").mkdir()
+    (tmp_path / "demo/src/speak.cpp").write_text("int main() {}\n")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    ran = launch_test(_COMPILED)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+
+
 _ARGUMENTS = """
 def generate_test_description():
     return launch.LaunchDescription([

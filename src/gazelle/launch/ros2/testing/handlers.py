@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,6 +14,7 @@ from gazelle.launch.ros2.testing.lookup import NoMatchingProcessException, resol
 __all__ = ["ActiveIoHandler", "ActiveProcInfoHandler", "IoHandler", "ProcInfoHandler"]
 
 _PATIENCE_S = 10
+_LOOK_S = 0.2
 
 
 class IoHandler:
@@ -208,14 +210,14 @@ class ActiveProcInfoHandler:
         is_over = self._wait(
             lambda event: isinstance(event, ProcessExited), process, cmd_args, timeout
         )
-        assert is_over, f"Timed out waiting for process '{process}' to finish"
+        assert is_over, _reason(process, "finish")
 
     def assertWaitForStartup(
         self, process: Any, cmd_args: Any = None, *, timeout: float = _PATIENCE_S
     ) -> None:
         """Wait so many seconds for the start of a process, and fail when it does not come."""
         has_begun = self._wait(lambda _event: True, process, cmd_args, timeout)
-        assert has_begun, f"Timed out waiting for process '{process}' to start"
+        assert has_begun, _reason(process, "start")
 
     def _wait(self, is_it: Any, process: Any, cmd_args: Any, timeout: float) -> bool:
         def holds() -> bool:
@@ -226,5 +228,21 @@ class ActiveProcInfoHandler:
                 return False
             return bool(is_it(known[action]))
 
+        end_s = time.monotonic() + timeout
         with self._condition:
-            return self._condition.wait_for(holds, timeout)
+            # That a node is compiled code is not an event: it is looked at now and then.
+            while not self._condition.wait_for(holds, min(_LOOK_S, end_s - time.monotonic())):
+                if _is_absent(process) or time.monotonic() >= end_s:
+                    return False
+        return True
+
+
+def _is_absent(process: Any) -> bool:
+    """Tell whether an action of a node found nothing to run, so that no wait for it helps."""
+    return bool(getattr(process, "is_absent", False))
+
+
+def _reason(process: Any, wanted: str) -> str:
+    if _is_absent(process):
+        return f"process '{process}' cannot {wanted}: it is compiled code that is not here"
+    return f"Timed out waiting for process '{process}' to {wanted}"

@@ -74,7 +74,12 @@ class Node(ExecuteProcess):
 
     The executable is looked for in the user's package, then among Gazelle's own nodes, then in an
     installed ROS. Parameters in dictionaries go to it by a file, as in ROS 2.
+
+    Attributes:
+        is_absent: it was to start and is compiled code that is not here.
     """
+
+    is_absent = False
 
     UNSPECIFIED_NODE_NAME: ClassVar[str] = "<node_name_unspecified>"
     UNSPECIFIED_NODE_NAMESPACE: ClassVar[str] = "<node_namespace_unspecified>"
@@ -249,6 +254,7 @@ class Node(ExecuteProcess):
         assert isinstance(what, NodeExecutable)
         if not what.find(context, self.__package, self.__executable, self.place):
             # Compiled code: that has been said, and the launch goes on without it.
+            self.is_absent = True
             self.__note_absence(context)
             return None
         what.add_words([*self.__own_words(context), *(self.__ros_words or ())])
