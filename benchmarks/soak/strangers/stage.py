@@ -232,6 +232,14 @@ class Seen(Launch):
         rate = self.rate_hz(topic, sim_s)
         assert abs(rate - hz) <= share * hz, f"{topic}: {rate:.2f} Hz, expected {hz:g}"
 
+    def camera_has_rate(self, topic: str, hz: float) -> None:
+        """Check the rate of a camera; one that drops frames, as on a slow machine, must say so."""
+        try:
+            self.has_rate(topic, hz, sim_s=2.0)
+        except AssertionError:
+            if not self.said(rf"late for its {hz:g} Hz: frames are dropped"):
+                raise
+
     def topics(self) -> set[str]:
         """Return the names of all topics that are published or listened to."""
         return {one.name for one in self.graph.topics()}
