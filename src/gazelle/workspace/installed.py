@@ -27,7 +27,7 @@ from gazelle.workspace.manifest import (
     read_manifest,
 )
 
-__all__ = ["install_rules", "installed_files", "installed_source"]
+__all__ = ["install_rules", "installed_files", "installed_source", "made_texts"]
 
 _BUILD_FILES = ("CMakeLists.txt", "setup.py")
 
@@ -48,6 +48,26 @@ def installed_files(folder: Path, name: str) -> Mapping[str, Path]:
     rules = (rule for rule in install_rules(folder, name) if exists(folder / rule.source))
     add_rules(plan, folder, rules, "{path}")
     return {item.target: item.source for item in plan.items.values() if item.source is not None}
+
+
+def made_texts(folder: Path, name: str) -> Mapping[str, str]:
+    """Return the texts that the build file writes, by their places in the share folder.
+
+    ``configure_file(arm.urdf.xacro.in …)`` makes a file that no source folder has. One that a
+    build has left in the source folder is not made again.
+
+    Args:
+        folder: of the package.
+        name: of the package.
+    """
+    made = _made(folder, name)
+    start = f"share/{name}/"
+    found = {place: text for place, text in made.items() if not place.startswith("${")}
+    for rule in _rules(folder, name):
+        for target, text in rule.texts(made).items():
+            if target.startswith(start):
+                found[target.removeprefix(start)] = text
+    return {place: text for place, text in found.items() if not exists(folder / place)}
 
 
 def installed_source(path: Path) -> Path | None:
@@ -100,6 +120,15 @@ def _name_of(folder: Path) -> str:
 
 
 @lru_cache(maxsize=256)
+def _made(folder: Path, name: str) -> Mapping[str, str]:
+    try:
+        lists = read_cmake_lists(folder, name) if is_folder(folder) else None
+    except OSError:
+        return {}
+    return {} if lists is None else lists.made
+
+
+@lru_cache(maxsize=256)
 def _rules(folder: Path, name: str) -> tuple[InstallRule, ...]:
     if not is_folder(folder):
         return ()
@@ -118,7 +147,10 @@ def _rules(folder: Path, name: str) -> tuple[InstallRule, ...]:
         found = (*by_cmake, *by_setup)
     else:
         found = by_cmake
-    return tuple(rule for rule in found if rule.is_known and "$<" not in rule.source)
+    made = {} if lists is None else lists.made
+    return tuple(
+        rule for rule in found if "$<" not in rule.source and (rule.is_known or rule.texts(made))
+    )
 
 
 def _build_type(folder: Path) -> str:

@@ -3,7 +3,8 @@
 User code joins paths to what ``get_package_share_directory``, ``$(find …)`` or ``rospack find``
 answer. Where install rules move no file the source folder itself is the answer. Where they do, the
 answer is a tree of links in the user's cache: each file at the place the rules give it, so that
-any joined path leads to it, and nothing has to be built. What no rule names is there too.
+any joined path leads to it, and nothing has to be built. What no rule names is there too, and what
+``configure_file()`` of the build file makes of a template, as far as its variables are known.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
 from gazelle.limits.names import exists
-from gazelle.workspace.installed import install_rules, installed_files
+from gazelle.workspace.installed import install_rules, installed_files, made_texts
 
 __all__ = ["share_folder"]
 
@@ -38,7 +39,8 @@ def share_folder(folder: Path, name: str, *, has_devel_space: bool) -> Path:
             first.
     """
     start = f"share/{name}/"
-    if not any(
+    texts = made_texts(folder, name)
+    if not texts and not any(
         f"/{rule.destination}/".startswith(f"/{start}") for rule in install_rules(folder, name)
     ):
         return folder
@@ -52,13 +54,13 @@ def share_folder(folder: Path, name: str, *, has_devel_space: bool) -> Path:
         for place, source in files.items()
         if (not exists(folder / place) if has_devel_space else folder / place != source)
     }
-    if not moved:
+    if not moved and not texts:
         return folder
     stay = {source for place, source in files.items() if folder / place == source}
     left_out = frozenset() if has_devel_space else frozenset(moved.values()) - stay
     links = {place: folder / place for place in _places_below(folder)}
     links = {place: source for place, source in links.items() if source not in left_out}
-    return _linked(folder, name, {**links, **moved})
+    return _linked(folder, name, {**links, **moved}, texts)
 
 
 def _places_below(folder: Path) -> Iterator[str]:
@@ -70,16 +72,16 @@ def _places_below(folder: Path) -> Iterator[str]:
             yield os.path.relpath(os.path.join(root, item), folder).replace(os.sep, "/")  # noqa: PTH118
 
 
-def _linked(folder: Path, name: str, files: Mapping[str, Path]) -> Path:
-    """Return the tree of links for these files; made once, and never changed."""
-    rows = "\n".join(f"{place}\t{source}" for place, source in sorted(files.items()))
+def _linked(folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[str, str]) -> Path:
+    """Return the tree of links and texts for these places; made once, and never changed."""
+    rows = "\n".join(f"{place}\t{source}" for place, source in sorted({**files, **texts}.items()))
     digest = hashlib.sha256(f"{folder}\n{rows}".encode(errors="surrogateescape")).hexdigest()[:16]
     failure: OSError | None = None
     for top in _tops():
         made = top / digest
         try:
             if not made.is_dir():
-                _make(made, folder, name, files)
+                _make(made, folder, name, files, texts)
         except OSError as error:
             failure = error
             continue
@@ -94,7 +96,9 @@ def _tops() -> Iterator[Path]:
     yield Path(tempfile.gettempdir()) / f"user-{os.getuid()}" / LINKS_FOLDER
 
 
-def _make(made: Path, folder: Path, name: str, files: Mapping[str, Path]) -> None:
+def _make(
+    made: Path, folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[str, str]
+) -> None:
     made.parent.mkdir(parents=True, exist_ok=True)
     _forget_others(made.parent)
     with tempfile.TemporaryDirectory(
@@ -102,6 +106,10 @@ def _make(made: Path, folder: Path, name: str, files: Mapping[str, Path]) -> Non
     ) as new:
         share = Path(new) / made.name / "share" / name
         share.mkdir(parents=True)
+        for place, text in texts.items():
+            file = share / place
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
         for place, source in files.items():
             link = share / place
             # A file where another rule wants a folder is a mistake that CMake's install tells.

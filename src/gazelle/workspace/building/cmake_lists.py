@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.workspace.building.cmake import Command, SyntaxProblem, Word, read_commands
+from gazelle.workspace.building.configured import configured_text
 from gazelle.workspace.building.places import is_file, is_folder
 
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]
@@ -27,6 +28,9 @@ _MAKE_PROGRAMS = (
     "qt_add_executable",
 )
 _ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
+_TRUE = frozenset({"1", "ON", "YES", "TRUE", "Y"})
+# The build folder is not known, only what lies where below it.
+_BINARY = "${CMAKE_BINARY_DIR}"
 
 
 class Step(NamedTuple):
@@ -65,6 +69,8 @@ class CMakeLists:
         problem: where its syntax is wrong.
         hidden: commands that may do more than was read: own macros and files of elsewhere.
         compiling: calls of own macros that make executables or libraries.
+        made: texts that ``configure_file()`` writes, by their places: relative to the package, or
+            below ``${CMAKE_BINARY_DIR}``. Only those in which every variable is known.
     """
 
     file: Path
@@ -74,6 +80,7 @@ class CMakeLists:
     problem: tuple[SyntaxProblem, SourceSpan] | None = None
     hidden: list[Step] = field(default_factory=list)
     compiling: list[Step] = field(default_factory=list)
+    made: dict[str, str] = field(default_factory=dict)
 
     def called(self, *names: str) -> tuple[Step, ...]:
         """Return the calls of these commands."""
@@ -118,6 +125,9 @@ class _Walker:
         self._given = frozenset(definitions)
         self._variables = {**_known_variables(folder, name), **definitions}
         self._own: dict[str, list[Command]] = {}
+        self._options: set[str] = set()
+        # Set in a branch that may not be taken: what they hold afterwards is a guess.
+        self._doubtful: set[str] = set()
         self._depth = 0
         self._ifs = 0
 
@@ -131,10 +141,13 @@ class _Walker:
             span = SourceSpan(str(file), problem.line, problem.column)
             self.lists.problem = (problem, span)
         here = self._variables.get("CMAKE_CURRENT_SOURCE_DIR", "")
+        built = self._variables.get("CMAKE_CURRENT_BINARY_DIR", "")
         self._variables["CMAKE_CURRENT_SOURCE_DIR"] = str(self._root / folder)
+        self._variables["CMAKE_CURRENT_BINARY_DIR"] = f"{_BINARY}/{folder}".rstrip("/")
         self._variables["CMAKE_CURRENT_LIST_DIR"] = str(file.parent)
         self._follow(commands, file, folder)
         self._variables["CMAKE_CURRENT_SOURCE_DIR"] = here
+        self._variables["CMAKE_CURRENT_BINARY_DIR"] = built
         self._depth -= 1
 
     def _follow(self, commands: Sequence[Command], file: Path, folder: str) -> None:
@@ -146,8 +159,26 @@ class _Walker:
                 self._block(command, commands[place + 1 : end], file, folder)
                 place = end + 1
                 continue
+            taken = self._is_taken(command)
+            if taken is not None:
+                end = _end_of(commands, place)
+                branches = _branches(commands[place + 1 : end])
+                if branches is not None:
+                    self._follow(branches[0 if taken else 1], file, folder)
+                    place = end + 1
+                    continue
             self._command(command, file, folder)
             place += 1
+
+    def _is_taken(self, command: Command) -> bool | None:
+        """Decide an ``if`` that asks for an option of this file alone; None for all others."""
+        words = [word.text for word in command.words]
+        turned = words[:1] == ["NOT"]
+        if command.name != "if" or len(words) != 1 + turned or words[-1] not in self._options:
+            return None
+        if words[-1] in self._doubtful:
+            return None
+        return (self._variables[words[-1]].upper() in _TRUE) is not turned
 
     def _block(self, command: Command, body: Sequence[Command], file: Path, folder: str) -> None:
         words = self._words(command.words)
@@ -218,13 +249,47 @@ class _Walker:
         if step.words[0] in self._given and "CACHE" in step.words:
             return
         values = step.after(step.words[0], ("CACHE", "PARENT_SCOPE"))
-        self._variables[step.words[0]] = ";".join(values)
+        self._assign(step.words[0], ";".join(values), step)
+
+    def _assign(self, name: str, value: str, step: Step) -> None:
+        self._variables[name] = value
+        if step.is_conditional:
+            self._doubtful.add(name)
+        else:
+            self._doubtful.discard(name)
+
+    def _option(self, step: Step) -> None:
+        name = step.words[0]
+        self._options.add(name)
+        if name not in self._variables:
+            self._assign(name, step.words[2] if len(step.words) > 2 else "OFF", step)
+
+    def _configure_file(self, step: Step) -> None:
+        if len(step.words) < 2:
+            return
+        source, output = self._root / step.folder / step.words[0], step.words[1]
+        if not output.startswith(("/", _BINARY)):
+            output = f"{self._variables['CMAKE_CURRENT_BINARY_DIR']}/{output}"
+        if output.startswith(f"{self._root}/"):
+            output = output[len(f"{self._root}/") :]
+        elif not output.startswith(_BINARY):
+            return
+        known = {
+            name: value
+            for name, value in self._variables.items()
+            if name not in self._doubtful and "${" not in value
+        }
+        text = configured_text(source, known, frozenset(step.words[2:]))
+        if text is not None:
+            self.lists.made[output] = text
 
     def _list(self, step: Step) -> None:
         if step.words[0] in {"APPEND", "PREPEND"} and len(step.words) > 1:
             name = step.words[1]
             parts = [self._variables.get(name, ""), *step.words[2:]]
             self._variables[name] = ";".join(part for part in parts if part)
+            if step.is_conditional:
+                self._doubtful.add(name)
 
     def _file(self, step: Step) -> None:
         if not step.words[0].startswith("GLOB") or len(step.words) < 2:
@@ -260,6 +325,8 @@ class _Walker:
 _HANDLERS: dict[str, Callable[[_Walker, Step], None]] = {
     "project": _Walker._project,
     "set": _Walker._set,
+    "option": _Walker._option,
+    "configure_file": _Walker._configure_file,
     "list": _Walker._list,
     "file": _Walker._file,
     "add_subdirectory": _Walker._subdirectory,
@@ -275,6 +342,8 @@ def _known_variables(folder: Path, name: str) -> dict[str, str]:
         "PROJECT_SOURCE_DIR": root,
         "CMAKE_SOURCE_DIR": root,
         "CMAKE_CURRENT_SOURCE_DIR": root,
+        "PROJECT_BINARY_DIR": _BINARY,
+        "CMAKE_CURRENT_BINARY_DIR": _BINARY,
         "CMAKE_INSTALL_PREFIX": "",
         "CMAKE_INSTALL_BINDIR": "bin",
         "CMAKE_INSTALL_DATADIR": "share",
@@ -295,12 +364,25 @@ def _known_variables(folder: Path, name: str) -> dict[str, str]:
 
 def _end_of(commands: Sequence[Command], begin: int) -> int:
     """Return the place of the command that closes a block, the file's end when none does."""
-    opening, closing, depth = commands[begin].name, _ENDS[commands[begin].name], 0
+    opening, depth = commands[begin].name, 0
+    closing = _ENDS.get(opening, f"end{opening}")
     for place in range(begin, len(commands)):
         depth += {opening: 1, closing: -1}.get(commands[place].name, 0)
         if depth == 0:
             return place
     return len(commands)
+
+
+def _branches(body: Sequence[Command]) -> tuple[Sequence[Command], Sequence[Command]] | None:
+    """Return what an ``if`` runs when true and when not; None with an ``elseif`` between."""
+    depth = 0
+    for place, command in enumerate(body):
+        depth += {"if": 1, "endif": -1}.get(command.name, 0)
+        if depth == 0 and command.name == "elseif":
+            return None
+        if depth == 0 and command.name == "else":
+            return body[:place], body[place + 1 :]
+    return body, ()
 
 
 def _installs(body: Iterable[Command]) -> bool:

@@ -70,7 +70,7 @@ def plan_cmake(
         return
     share = f"share/{package.name}"
     rules = cmake_rules(lists, share)
-    add_rules(plan, package.path, rules.rules, _FAILURE)
+    add_rules(plan, package.path, rules.rules, _FAILURE, lists.made)
     for span in rules.unread:
         text = "what this installs is known only to CMake; it is left out"
         plan.diagnostics.report("package.install-unread", text, span)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -59,6 +59,20 @@ class InstallRule:
     def is_known(self) -> bool:
         """False when a variable in it has no known value."""
         return "${" not in self.source + self.destination
+
+    def texts(self, made: Mapping[str, str]) -> dict[str, str]:
+        """Return the texts that the build file writes and this rule installs, by their targets.
+
+        Args:
+            made: those of `CMakeLists.made`.
+        """
+        below_build = self.source.startswith("${")
+        found = {
+            self.target(place): text
+            for place, text in made.items()
+            if place.startswith("${") is below_build
+        }
+        return {target: text for target, text in found.items() if target is not None}
 
     def target(self, relative: str) -> str | None:
         """Return where a file of the package goes below the prefix, None when not by this rule."""

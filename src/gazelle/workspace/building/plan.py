@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import posixpath
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -102,7 +102,13 @@ def site_packages() -> str:
     return f"lib/python{version.major}.{version.minor}/site-packages"
 
 
-def add_rules(plan: Plan, folder: Path, rules: Iterable[InstallRule], failure: str) -> None:
+def add_rules(
+    plan: Plan,
+    folder: Path,
+    rules: Iterable[InstallRule],
+    failure: str,
+    made: Mapping[str, str] | None = None,
+) -> None:
     """Put what install rules name into a plan.
 
     Args:
@@ -110,8 +116,14 @@ def add_rules(plan: Plan, folder: Path, rules: Iterable[InstallRule], failure: s
         folder: of the package.
         rules: of its build file.
         failure: what the real build prints for a file that is not there, with ``{path}``.
+        made: texts that the build file writes by itself, by their places.
     """
     for rule in rules:
+        texts = {} if made is None else rule.texts(made)
+        for target, text in texts.items():
+            plan.add(Item(target, None, text, rule.is_program), rule.span)
+        if texts and not (rule.is_folder and rule.is_known):
+            continue
         if not rule.is_known or "$<" in rule.source + rule.destination:
             text = f"'{rule.source}' is made or placed by the real build only; it is left out"
             plan.diagnostics.report("package.install-unread", text, rule.span)
