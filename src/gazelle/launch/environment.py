@@ -17,6 +17,7 @@ __all__ = [
     "drop_in_folder",
     "is_own_command",
     "node_environment",
+    "ros1_variables",
     "ros_home",
 ]
 
@@ -122,11 +123,22 @@ def node_environment(environ: Mapping[str, str], workspace: Workspace) -> dict[s
     # Nodes run in another folder and must find what this one's workspace has.
     found = [*environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), *_source_folders(workspace)]
     environment["ROS_PACKAGE_PATH"] = os.pathsep.join(dict.fromkeys(filter(None, found)))
-    environment.setdefault("ROS_MASTER_URI", "http://localhost:11311")
-    environment.setdefault("ROS_DISTRO", "noetic")
-    environment.setdefault("ROS_VERSION", "1")
     environment.setdefault("PYTHONUNBUFFERED", "1")
-    return environment
+    return {**ros1_variables(environment), **environment}
+
+
+def ros1_variables(environ: Mapping[str, str]) -> dict[str, str]:
+    """Return what every shell with ROS 1 has set, where `environ` has nothing else.
+
+    Launch files take that for granted: ``$(env ROS_DISTRO)``.
+    """
+    variables = {
+        "ROS_DISTRO": "noetic",
+        "ROS_MASTER_URI": "http://localhost:11311",
+        "ROS_PYTHON_VERSION": "3",
+        "ROS_VERSION": "1",
+    }
+    return {name: environ.get(name, value) for name, value in variables.items()}
 
 
 def ros_home(environ: Mapping[str, str]) -> Path:

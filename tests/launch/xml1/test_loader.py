@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -268,6 +269,36 @@ def test_command_output_is_the_value_and_xacro_needs_no_program(tmp_path: Path) 
     found = _params(body, tmp_path)
     assert found["/e"] == "1.5"
     assert '<link name="b"/>' in str(found["/x"])
+
+
+def test_a_wrapper_of_another_python_still_finds_xacro(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "r.xacro").write_text('<robot name="r"><link name="b"/></robot>')
+    wrapper = tmp_path / "env_run"
+    wrapper.write_text('#!/bin/sh\nexec "$@"\n')
+    wrapper.chmod(0o755)
+    strange = tmp_path / "bin" / "python3"  # as without an activated environment
+    strange.parent.mkdir()
+    strange.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "$@"\n')
+    strange.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{strange.parent}:/usr/bin:/bin")
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    command = "$(dirname)/env_run $(find xacro)/xacro $(dirname)/r.xacro"
+    found = _params(f'<param name="x" command="{command}"/>', tmp_path)
+    assert '<link name="b"/>' in str(found["/x"])
+
+
+def test_what_every_shell_with_ros_has_set_is_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION"):
+        monkeypatch.delenv(name, raising=False)
+    body = """<param name="d" value="$(env ROS_DISTRO)"/>
+      <param name="v" value="$(env ROS_VERSION)$(optenv ROS_PYTHON_VERSION)" type="str"/>"""
+    assert _params(body, tmp_path) == {"/d": "noetic", "/v": "13"}
+    monkeypatch.setenv("ROS_DISTRO", "melodic")
+    assert _params(body, tmp_path)["/d"] == "melodic"
 
 
 def test_anonymous_names_are_equal_for_equal_ids(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.launch.config import LaunchConfig
+from gazelle.launch.environment import ros1_variables
 from gazelle.launch.xml1.elements import HANDLERS
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
@@ -38,7 +39,7 @@ def load_launch_files(
         environ: environment for ``$(env …)``; the process's own when None.
     """
     config = LaunchConfig()
-    reading = Reading(config, workspace, diagnostics, dict(environ or os.environ))
+    reading = Reading(config, workspace, diagnostics, _surroundings(environ or os.environ))
     for file in files:
         root = read_xml(file, diagnostics)
         if root is not None:
@@ -57,12 +58,16 @@ def load_launch_text(
 ) -> LaunchConfig:
     """Read launch XML that has no file (``roslaunch -``)."""
     config = LaunchConfig()
-    reading = Reading(config, workspace, diagnostics, dict(os.environ))
+    reading = Reading(config, workspace, diagnostics, _surroundings(os.environ))
     root = parse_xml(text, file, diagnostics)
     if root is not None:
         _load_root(root, Scope(file, given=dict(args)), reading, top=True)
     _check_names(reading)
     return config
+
+
+def _surroundings(environ: Mapping[str, str]) -> dict[str, str]:
+    return {**environ, **ros1_variables(environ)}
 
 
 def _load_root(root: Tag, scope: Scope, reading: Reading, *, top: bool) -> None:
