@@ -15,6 +15,6 @@ if __name__ == "__main__":
     command = shutil.which("xacro")
     if find_spec("gazelle") is None and command is not None:
         # Started through a script of the user's, by a Python that is not Gazelle's.
-        os.execv(command, [command, *sys.argv[1:]])
+        os.execv(command, [command, *sys.argv[1:]])  # noqa: S606
     sys.argv[:] = ["gazelle", "xacro", *sys.argv[1:]]
     sys.exit(import_module("gazelle.cli.main").main())
