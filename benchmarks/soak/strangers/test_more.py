@@ -6,6 +6,7 @@ once, and Ctrl-C ends all of it. `lay_out.py` lays the packages out.
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import time
@@ -31,6 +32,7 @@ class Row(NamedTuple):
         named: one pattern a piece of compiled code that must be named by one line.
         environment: what the README has one set.
         workspace: where the README puts the workspace, below the home folder.
+        drives: a topic of commands that moves the robot, and one of odometry that tells.
         has_clock: it simulates.
         traceback: its own code is known to end with one.
     """
@@ -45,6 +47,7 @@ class Row(NamedTuple):
     named: tuple[str, ...] = ()
     environment: Mapping[str, str] = {}
     workspace: str = ""
+    drives: tuple[str, str] | None = None
     has_clock: bool = True
     traceback: bool = False
 
@@ -70,6 +73,7 @@ ROWS = {
             "stretch_arm_controller", "stretch_head_controller", "stretch_gripper_controller",
         ),
         named=(_plugin("librealsense_gazebo_plugin.so"),),
+        drives=("/stretch_diff_drive_controller/cmd_vel", "/stretch_diff_drive_controller/odom"),
     ),
     "M02": Row(
         "roslaunch fetch_gazebo simulation.launch",
@@ -105,6 +109,7 @@ ROWS = {
         "roslaunch mir_gazebo mir_maze_world.launch",
         {"/scan": None, "/b_scan": None, "/f_scan": None, "/odom": 50.0, "/joint_states": None},
         running=("joint_state_controller", "mobile_base_controller"),
+        drives=("/cmd_vel", "/odom"),
     ),
     "M08": Row(
         "roslaunch leo_gazebo leo_gazebo.launch",
@@ -139,6 +144,7 @@ ROWS = {
     "M13": Row(
         "roslaunch diff_wheeled_robot_gazebo diff_wheeled_gazebo_full.launch",
         {"/scan": None, "/odom": 100.0, "/joint_states": 10.0},
+        drives=("/cmd_vel", "/odom"),
     ),
     "M14": Row(
         "roslaunch scout_gazebo_sim scout_empty_world.launch", {"/joint_states": None},
@@ -173,6 +179,7 @@ ROWS = {
         {"/odom": 50.0, "/odom/unfiltered": 50.0, "/scan": None, "/imu/data": None},
         nodes=("/command_timeout", "/ekf_filter_node"),
         environment={"LINOROBOT2_BASE": "2wd"},
+        drives=("/cmd_vel", "/odom"),
     ),
     "M20": Row(
         "ros2 launch rosbot_gazebo simulation.launch.py",
@@ -221,6 +228,7 @@ ROWS = {
         "ros2 launch bme_gazebo_basics spawn_robot.launch.py",
         {"/odom": None, "/joint_states": None},
         environment={"GZ_SIM_RESOURCE_PATH": "~/gazebo_models"},
+        drives=("/cmd_vel", "/odom"),
     ),
     "M29": Row(
         "ros2 launch yahboom_rosmaster_gazebo yahboom_rosmaster.gazebo.launch.py",
@@ -279,6 +287,15 @@ def wait_for_running(stage: Stage, row: Row, patience_s: float = 90.0) -> None:
         assert time.monotonic() < deadline_s, f"not all running: {listed}"
 
 
+def moves(seen: Seen, command: str, odometry: str) -> None:
+    """Check that a robot drives forward when told to."""
+    begin = seen.topic(odometry).next().pose.pose.position
+    seen.drive(command, 0.3, 0.0, 1.5)
+    end = seen.topic(odometry).next().pose.pose.position
+    way_m = math.hypot(end.x - begin.x, end.y - begin.y)
+    assert 0.1 < way_m < 0.8, f"{way_m:.3f} m"
+
+
 def is_up(seen: Seen, stage: Stage, row: Row) -> None:
     """Wait for all that the row wants, and check it."""
     for pattern in row.says:
@@ -298,6 +315,8 @@ def is_up(seen: Seen, stage: Stage, row: Row) -> None:
             seen.topic(topic).next()
         else:
             seen.has_rate(topic, hz, sim_s=1.0, share=0.15)
+    if row.drives is not None:
+        moves(seen, *row.drives)
     for pattern in row.named:
         found = seen.said(pattern)
         assert len(found) == 1, f"{pattern!r} is told {len(found)} times: {found}"
@@ -307,3 +326,10 @@ def is_up(seen: Seen, stage: Stage, row: Row) -> None:
 def test_the_readmes_command_brings_it_up(stage: Stage, row: Row) -> None:
     with stage.launch(row.command, traceback=row.traceback) as seen:
         is_up(seen, stage, row)
+
+
+@of("M17")
+def test_stand_ins_for_compiled_hardware_let_its_controllers_run(stage: Stage, row: Row) -> None:
+    with stage.launch(row.command, env={"GAZELLE_MOCK_HARDWARE": "1"}) as seen:
+        seen.wait_for_controllers("joint_state_broadcaster", "xarm6_traj_controller")
+        seen.topic("/joint_states").next()
