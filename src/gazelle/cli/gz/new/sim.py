@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle._version import __version__
+from gazelle.cli.gz.new.gui_config import lets_world_go
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.sdf.sdf_file import say
 from gazelle.diagnostics import did_you_mean
@@ -25,6 +26,8 @@ Available Options:
   -s                    Run only the server; there is no other here.
   -g                    Run only the GUI: stays alive, there is no window.
   -r                    Run simulation on start. Without it the world starts paused.
+  --gui-config arg      A file of the window's plug-ins: without -r and -s, a WorldControl whose
+                        <start_paused> is false runs the world. So does one in the world's <gui>.
   --iterations arg      Number of iterations to execute, then end.
   --seed arg            Seed of all noise.
   -v [ --verbose ] arg  Output level from 0 to 4, 3 when it is left out; from 3 on notices are
@@ -41,7 +44,7 @@ _VALUES = frozenset({"--iterations", "--seed"})
 _IDLE_VALUES = frozenset(
     {
         "-z", "--network-role", "--network-secondaries", "--record-path", "--record-topic",
-        "--playback", "--gui-config", "--physics-engine", "--render-engine", "--initial-sim-time",
+        "--playback", "--physics-engine", "--render-engine", "--initial-sim-time",
         "--render-engine-gui", "--render-engine-server", "--render-engine-gui-api-backend",
         "--render-engine-server-api-backend", "--force-version",
     }
@@ -72,6 +75,7 @@ class SimStart:
         level: of the output.
         values: ``--iterations`` and ``--seed``, whole numbers.
         notes: what has no effect here, and why.
+        gui_config: file of the window's plug-ins.
     """
 
     world: str = ""
@@ -79,6 +83,7 @@ class SimStart:
     level: int = 1
     values: dict[str, int] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    gui_config: str = ""
 
     @property
     def server_words(self) -> list[str]:
@@ -114,6 +119,8 @@ def run(words: list[str]) -> int:
 
         return run_node(["gazebo_ros/gzclient"])
     start.world = _found_world(start.world)
+    if not start.flags & {"-r", "-s"} and lets_world_go(start.world, start.gui_config):
+        start.flags.add("-r")
     if "-r" not in start.flags:
         say(["gazelle: the world is paused, as gz sim has it without -r; gz world -p 0 lets it go"])
     return gzserver.main([*start.server_words, "--gz"])
@@ -131,6 +138,8 @@ def read_sim(words: Iterable[str]) -> SimStart:
         name, equals, value = word.partition("=")
         if not word.startswith("-"):
             _take_world(start, word)
+        elif name == "--gui-config":
+            start.gui_config = value if equals else _next(rest, name)
         elif name in _VALUES | _IDLE_VALUES:
             value = value if equals else _next(rest, name)
             _take_value(start, name, value)
@@ -141,7 +150,8 @@ def read_sim(words: Iterable[str]) -> SimStart:
         elif word in _FLAGS | _SILENT_FLAGS:
             start.flags.add(word)
         else:
-            known = sorted(_VALUES | _IDLE_VALUES | _IDLE_FLAGS | _FLAGS | _SILENT_FLAGS)
+            options = _VALUES | _IDLE_VALUES | _IDLE_FLAGS | _FLAGS | _SILENT_FLAGS
+            known = sorted({*options, "--gui-config"})
             hint = did_you_mean(word, known) or "see gz sim --help"
             raise GzError(f"gz sim has no option '{word}'; {hint}")
     return start
