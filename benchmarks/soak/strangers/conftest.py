@@ -23,6 +23,7 @@ from stage import Stage, staged
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--strangers", type=Path, help="where the packages are laid out")
+    parser.addoption("--sdf-cases", type=Path, help="expectations of sdformat's files (JSON)")
 
 
 def _package(test: str) -> str:
