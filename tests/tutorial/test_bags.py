@@ -41,6 +41,9 @@ def recorded(gazelle: Callable, graph: Graph, tmp_path: Path) -> Path:
             count += 1
             pose.publish(pose.message_class(x=float(count)))
             command.publish(command.message_class())
+    # What is on its way when the recorder is stopped is lost, as in ROS.
+    active = tmp_path / "turtle.bag.active"
+    run.eventually(lambda: open_bag(active).summary.messages == 101)
     assert run.stop() == 0, run.text
     assert not (tmp_path / "turtle.bag.active").exists()
     talker.shutdown()
