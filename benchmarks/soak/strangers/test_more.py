@@ -33,6 +33,7 @@ class Row(NamedTuple):
         environment: what the README has one set.
         workspace: where the README puts the workspace, below the home folder.
         drives: a topic of commands that moves the robot, and one of odometry that tells.
+        first: a command that is given as soon as the nodes are there.
         has_clock: it simulates.
         traceback: its own code is known to end with one.
     """
@@ -48,6 +49,7 @@ class Row(NamedTuple):
     environment: Mapping[str, str] = {}
     workspace: str = ""
     drives: tuple[str, str] | None = None
+    first: str = ""
     has_clock: bool = True
     traceback: bool = False
 
@@ -148,6 +150,7 @@ ROWS = {
     ),
     "M14": Row(
         "roslaunch scout_gazebo_sim scout_empty_world.launch", {"/joint_states": None},
+        named=(_compiled("scout_skid_steer_controller"),),
     ),
     "M15": Row(
         "roslaunch turtlesim multisim.launch",
@@ -176,7 +179,7 @@ ROWS = {
     ),
     "M19": Row(
         "ros2 launch linorobot2_gazebo gazebo.launch.py",
-        {"/odom": 50.0, "/odom/unfiltered": 50.0, "/scan": None, "/imu/data": None},
+        {"/odom": 50.0, "/odom/unfiltered": 100.0, "/scan": None, "/imu/data": None},
         nodes=("/command_timeout", "/ekf_filter_node"),
         environment={"LINOROBOT2_BASE": "2wd"},
         drives=("/cmd_vel", "/odom"),
@@ -198,7 +201,7 @@ ROWS = {
     "M22": Row(
         "ros2 launch ur_simulation_gz ur_sim_control.launch.py",
         {"/joint_states": None},
-        active=("joint_state_broadcaster", "scaled_joint_trajectory_controller"),
+        active=("joint_state_broadcaster", "joint_trajectory_controller"),
     ),
     "M23": Row(
         "ros2 launch ur_simulation_gazebo ur_sim_control.launch.py",
@@ -211,12 +214,17 @@ ROWS = {
     ),
     "M25": Row(
         "ros2 launch ros_gz_example_bringup diff_drive.launch.py",
+        {
+            "/diff_drive/odometry": None, "/diff_drive/scan": None, "/joint_states": None,
+        },
         nodes=("/robot_state_publisher", "/ros_gz_bridge"),
-        has_clock=False,  # gz sim starts paused
+        # gz sim starts paused; the README has one press "play".
+        first="gz service -s /world/demo/control --reqtype gz.msgs.WorldControl "
+        "--reptype gz.msgs.Boolean --timeout 20000 --req 'pause: false'",
     ),
     "M26": Row(
         "ros2 launch turtlebot4_ignition_bringup turtlebot4_ignition.launch.py",
-        {"/scan": None, "/odom": None, "/imu": None, "/joint_states": None},
+        {"/scan": None, "/odom": None, "/joint_states": None},
         active=("joint_state_broadcaster", "diffdrive_controller"),
     ),
     "M27": Row(
@@ -239,6 +247,10 @@ ROWS = {
     "M30": Row(
         "ros2 launch dummy_robot_bringup dummy_robot_bringup.launch.py",
         nodes=("/robot_state_publisher",),
+        named=(
+            _compiled("dummy_map_server"), _compiled("dummy_joint_states"),
+            _compiled("dummy_laser"),
+        ),
         has_clock=False,
     ),
     "M32": Row(
@@ -246,7 +258,7 @@ ROWS = {
         {"/clock": None},
     ),
     "M34": Row(
-        "ros2 launch bumperbot_description gazebo.launch.py", {"/imu": None, "/joint_states": None},
+        "ros2 launch bumperbot_description gazebo.launch.py", {"/imu/out": None},
     ),
 }  # fmt: skip
 
@@ -300,12 +312,15 @@ def is_up(seen: Seen, stage: Stage, row: Row) -> None:
     """Wait for all that the row wants, and check it."""
     for pattern in row.says:
         seen.says(pattern)
-    if row.has_clock:
-        seen.wait_until(0.5)
-    if row.topics:
-        seen.wait_for_topics(*row.topics)
     for name in row.nodes:
         seen.wait_for_node(name)
+    if row.topics:
+        seen.wait_for_topics(*row.topics)
+    if row.first:
+        done = stage.run(row.first)
+        assert done.code == 0, done.output
+    if row.has_clock:
+        seen.wait_until(0.5)
     if row.running:
         wait_for_running(stage, row)
     if row.active:
