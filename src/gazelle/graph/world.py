@@ -96,7 +96,8 @@ def hidden_transport_name(name: str, world: str) -> str:
         name: the topic; ``~`` is ``/gazebo/WORLD``.
         world: the world's name.
     """
-    full = "/" + name.replace("~", f"{SHOWN_SPACE}/{world}", 1).strip("/")
+    # Gazebo makes one slash of two as well: a model may be called "/drone".
+    full = re.sub("/{2,}", "/", "/" + name.replace("~", f"{SHOWN_SPACE}/{world}", 1).strip("/"))
     legal = re.sub(r"[^A-Za-z0-9_/]", lambda found: f"_x{ord(found[0]):x}_", full)
     return _TRANSPORT + legal
 

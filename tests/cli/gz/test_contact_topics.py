@@ -55,6 +55,16 @@ def test_a_standing_foot_tells_its_contacts(standing: Simulation, gz: Run, topic
     assert '  world: "default"' in lines
 
 
+@pytest.mark.parametrize("name", ["/dog-1", "dog//1", "1 dog/"])
+def test_a_model_of_any_name_is_placed_with_its_sensors(
+    world: Simulation, gz: Run, name: str
+) -> None:
+    robot = LEGGED.replace('name="dog-1"', f'name="{name}"')
+    world.server.commands.call(lambda: world.spawn(robot, pose=Pose((4.0, 0.0, 0.1))))
+    plain = name.replace("//", "/").strip("/")
+    assert f"/gazebo/default/{plain}/leg/touch" in gz("topic", "-l").out.splitlines()
+
+
 def test_all_contacts_of_the_world_are_told(standing: Simulation, gz: Run) -> None:
     told = gz("topic", "-e", "~/physics/contacts", "-d", "1").out
     assert "dog-1::foot::foot_collision" in told
