@@ -82,6 +82,7 @@ SOURCES = [
     Source("M19", "linorobot/linorobot2", "1981a12021388d41d8ee28f7ee918f1ecccc1702", ".", "linorobot2", _MEDIA),
     Source("M20", "husarion/rosbot_ros", "5b024d75db0d03b132d1577e52c35ff065c9bdc4", ".", "rosbot_ros", _MEDIA),
     Source("M20", "husarion/husarion_office_gz", "6049a8f25baac7329b911fcddd080c57bcc1c4f2", ".", "husarion_office_gz", _MEDIA),
+    Source("M20", "husarion/ros_components_description", "2a669a02582d89dbe0c5699381f096a3f7a51815", ".", "ros_components_description"),
     Source("M21", "NovoG93/sjtu_drone", "4a643e22d7cb0400c69eb0a62c689655d481b4db", ".", "sjtu_drone", _MEDIA),
     Source("M22", _UR + "GZ_Simulation", "54a6a11a88b886f886cfa098bb21bf8448ea8c18", ".", "ur_simulation_gz", _MEDIA),
     Source("M22", _UR + "Description", "2221ec0f720fb1af99339eb891639b499b62f1da", ".", "ur_description"),
