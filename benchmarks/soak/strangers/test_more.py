@@ -112,6 +112,8 @@ ROWS = {
         {"/scan": None, "/b_scan": None, "/f_scan": None, "/odom": 50.0, "/joint_states": None},
         running=("joint_state_controller", "mobile_base_controller"),
         drives=("/cmd_vel", "/odom"),
+        says=("Started controllers",),
+        first="rosservice call /gazebo/unpause_physics",
     ),
     "M08": Row(
         "roslaunch leo_gazebo leo_gazebo.launch",
@@ -120,7 +122,12 @@ ROWS = {
     ),
     "M09": Row(
         "roslaunch racecar_gazebo racecar.launch",
-        {"/scan": None, "/joint_states": None, "/vesc/odom": None},
+        {"/scan": None, "/racecar/joint_states": 50.0, "/vesc/odom": None},
+        running=(
+            "joint_state_controller", "left_rear_wheel_velocity_controller",
+            "right_steering_hinge_position_controller",
+        ),
+        manager="/racecar/controller_manager",
     ),
     "M10": Row(
         "roslaunch hector_quadrotor_gazebo quadrotor_empty_world.launch",
@@ -314,11 +321,11 @@ def is_up(seen: Seen, stage: Stage, row: Row) -> None:
         seen.says(pattern)
     for name in row.nodes:
         seen.wait_for_node(name)
-    if row.topics:
-        seen.wait_for_topics(*row.topics)
     if row.first:
         done = stage.run(row.first)
         assert done.code == 0, done.output
+    if row.topics:
+        seen.wait_for_topics(*row.topics)
     if row.has_clock:
         seen.wait_until(0.5)
     if row.running:
