@@ -105,6 +105,8 @@ ROWS = {
     "M06": Row(
         "roslaunch niryo_robot_bringup desktop_gazebo_simulation.launch",
         nodes=("/robot_state_publisher", "/niryo_robot_arm_commander"),
+        named=(_compiled("niryo_robot_hardware_interface_node"),),
+        # Its camera node wants cv2, and one of its nodes a parameter that no launch file sets.
         traceback=True,
     ),
     "M07": Row(
@@ -149,6 +151,7 @@ ROWS = {
     "M12": Row(
         "roslaunch ridgeback_gazebo ridgeback_world.launch",
         {"/front/scan": None, "/imu/data": None, "/joint_states": None},
+        named=(_plugin("libridgeback_ros_force_based_move.so"),),
     ),
     "M13": Row(
         "roslaunch diff_wheeled_robot_gazebo diff_wheeled_gazebo_full.launch",

@@ -77,6 +77,12 @@ def test_tutorial_of_moveit_commander(arm: ArmBench) -> None:
     assert scene.get_known_object_names() == []
 
 
+def test_limits_without_default_scaling_are_taken(arm: ArmBench) -> None:
+    limits = {"joint_limits": {"joint_1": {"has_velocity_limits": True}}}
+    arm.bench.node.parameters.set("/robot_description_planning", limits)
+    assert commander.MoveGroupCommander("arm").get_name() == "arm"
+
+
 def test_plan_is_a_trajectory_too_as_in_kinetic(arm: ArmBench) -> None:
     group = commander.MoveGroupCommander("arm")
     group.set_named_target("up")

@@ -338,6 +338,7 @@ def _scaling(client: MoveGroupClient) -> tuple[float, float]:
     found = []
     for kind in ("velocity", "acceleration"):
         name = store.search(f"robot_description_planning/default_{kind}_scaling_factor")
-        value = store.get(name) if name else 0.1
+        # The search is for the first part of the name alone, as in ROS.
+        value = store.get(name, 0.1) if name else 0.1
         found.append(float(value) if 0 < float(value) <= 1 else 0.1)
     return found[0], found[1]
