@@ -111,7 +111,7 @@ ROWS = {
     ),
     "M07": Row(
         "roslaunch mir_gazebo mir_maze_world.launch",
-        {"/scan": None, "/b_scan": None, "/f_scan": None, "/odom": 50.0, "/joint_states": None},
+        {"/scan": None, "/b_scan": None, "/f_scan": None, "/odom": 41.2, "/joint_states": None},
         running=("joint_state_controller", "mobile_base_controller"),
         drives=("/cmd_vel", "/odom"),
         says=("Started controllers",),
