@@ -71,6 +71,21 @@ def test_sensors_of_gz_worlds_publish_by_themselves(
         assert np.abs(depth - 3.0).max() < 1e-3
 
 
+def test_the_system_of_sensors_may_stand_in_a_model(
+    load: Callable[..., Simulation], tmp_path: Any, listen: Callable[..., list[Any]]
+) -> None:
+    text = WORLD.format(kind="gpu_lidar", spec=LIDAR, topic=OWN)
+    lines = [line for line in text.splitlines() if "<plugin" not in line]
+    system = '<plugin filename="ignition-gazebo-sensors-system" name="gz::sim::systems::Sensors"/>'
+    text = "\n".join(lines).replace('<model name="wall">', f'<model name="wall">{system}')
+    path = tmp_path / "lab.sdf"
+    path.write_text(text)
+    sim = load(world=path)
+    messages = listen(sim, "/own")
+    sim.run(seconds=0.5)
+    assert len(messages) == 10
+
+
 def test_sensors_of_other_worlds_need_their_plug_in(
     load: Callable[..., Simulation], tmp_path: Any
 ) -> None:
