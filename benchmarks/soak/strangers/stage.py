@@ -199,7 +199,8 @@ class Stage:
         """Return x, y, z, roll, pitch and yaw of a model of the running world."""
         asked = self.run(f"gz model -m {model} -p")
         assert asked.code == 0, asked.output
-        return tuple(float(one) for one in asked.stdout.split()[-6:])
+        # gz sim's way has brackets around each three.
+        return tuple(float(one) for one in re.sub(r"[\[\]]", " ", asked.stdout).split()[-6:])
 
     def close(self) -> None:
         """Leave the graph."""
