@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import threading
+from types import SimpleNamespace
 
 import pytest
+import zenoh
 
 from gazelle.graph import relink
 from gazelle.graph.relink import Relinker
@@ -52,3 +54,20 @@ def test_nothing_is_asked_after_the_close(
     relinker.lost("abc")
     assert threading.active_count() == before
     assert not begun.is_set()
+
+
+def test_a_question_that_closes_too_slowly_is_answered_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    class Session:
+        def liveliness(self) -> Session:
+            return self
+
+        def get(self, _selector: str, timeout: float) -> list[SimpleNamespace]:
+            return [SimpleNamespace(ok=timeout)]
+
+        def close(self) -> None:
+            raise zenoh.ZError("close operation timed out!")
+
+    monkeypatch.setattr(zenoh, "open", lambda _config: Session())
+    assert relink.hub_knows(1, "@ros2_lv/*/abc/**")

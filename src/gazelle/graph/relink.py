@@ -78,7 +78,9 @@ def hub_knows(port: int, selector: str) -> bool:
     replies = session.liveliness().get(selector, timeout=_ASK_S)
     # All of them are taken: one that finds the channel full would hold up the close.
     lives = sum(reply.ok is not None for reply in replies) > 0
-    session.close()
+    with suppress(zenoh.ZError):
+        # A machine with much to do is too slow for it; the answer is known all the same.
+        session.close()
     return lives
 
 
