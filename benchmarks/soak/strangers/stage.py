@@ -226,6 +226,7 @@ class Seen(Launch):
         stamps = [self._stamp_s(messages.next())]
         while stamps[-1] - stamps[0] < sim_s or len(stamps) < 3:
             stamps.append(self._stamp_s(messages.next()))
+        messages.close()
         return (len(stamps) - 1) / (stamps[-1] - stamps[0])
 
     def has_rate(self, topic: str, hz: float, sim_s: float = 3.0, share: float = 0.1) -> None:
@@ -333,7 +334,10 @@ class Seen(Launch):
 
     def true_pose(self, model: str, topic: str = "/gazebo/model_states") -> Any:
         """Return where the simulator says a model is, once it is there."""
-        states = self.topic(topic).wait_for(lambda message: model in message.name)
+        heard = self.topic(topic)
+        states = heard.wait_for(lambda message: model in message.name)
+        # It comes with every step, and would fill the memory.
+        heard.close()
         return states.pose[states.name.index(model)]
 
     def frames(self, sim_s: float = 1.0) -> dict[str, str]:

@@ -56,7 +56,9 @@ def test_the_playpen_brings_all_sensors_and_the_filter(stage: Stage) -> None:
         roll, pitch = roll_pitch_rad(pose.orientation)
         assert max(abs(roll), abs(pitch)) < math.radians(3.0)
         assert abs(pose.position.z) < 0.2
-        states = launch.topic("/gazebo/model_states").next()
+        heard = launch.topic("/gazebo/model_states")
+        states = heard.next()
+        heard.close()
         assert len(states.name) == 36 + 1
         physics = launch.call("/gazebo/get_physics_properties")
         assert physics.time_step == pytest.approx(0.01)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import pytest
 from stage import Seen, Stage, roll_pitch_rad
@@ -82,7 +83,7 @@ def test_the_tricycle_steers_and_accelerates_within_its_limit(stage: Stage) -> N
             for one in heard
         ]
         assert max(speed for _, speed in speeds) > 0.1
-        for (before_s, slow), (after_s, fast) in zip(speeds, speeds[1:], strict=False):
+        for (before_s, slow), (after_s, fast) in pairwise(speeds):
             assert abs(fast - slow) <= 1.8 * (after_s - before_s) * 1.2 + 0.02
 
 

@@ -11,13 +11,37 @@ import pytest
 from stage import Seen, Stage
 
 WORLDS = "ws/src/gazebo_plugins/worlds"
-NAMES = (
-    "ackermann_drive bumper camera camera_distortion_barrel camera_distortion_pincushion "
-    "camera_triggered depth_camera diff_drive elevator force ft_sensor gps_sensor hand_of_god "
-    "harness joint_pose_trajectory joint_state_publisher multi_camera multicamera p3d "
-    "planar_move projector ray_sensor skid_steer_drive template tricycle_drive vacuum_gripper "
-    "video wheel_slip wheel_slip_drawbar_pull"
-).split()
+NAMES = [
+    "ackermann_drive",
+    "bumper",
+    "camera",
+    "camera_distortion_barrel",
+    "camera_distortion_pincushion",
+    "camera_triggered",
+    "depth_camera",
+    "diff_drive",
+    "elevator",
+    "force",
+    "ft_sensor",
+    "gps_sensor",
+    "hand_of_god",
+    "harness",
+    "joint_pose_trajectory",
+    "joint_state_publisher",
+    "multi_camera",
+    "multicamera",
+    "p3d",
+    "planar_move",
+    "projector",
+    "ray_sensor",
+    "skid_steer_drive",
+    "template",
+    "tricycle_drive",
+    "vacuum_gripper",
+    "video",
+    "wheel_slip",
+    "wheel_slip_drawbar_pull",
+]
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""Unitree's Go1, H1 and G1: paths built of arguments, controllers in C++, a paused start (ROS 1)."""
+"""Unitree's Go1, H1 and G1: paths made of arguments, controllers in C++, a paused start."""
 
 from __future__ import annotations
 
