@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph import Graph
+from gazelle.graph import Graph, Kind
+from gazelle.graph.parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type
 from gazelle.nodes.parameters import ticks
 
@@ -80,3 +81,35 @@ def test_jump_back_while_the_caller_works_starts_anew_from_there(
     show(1_010 * MS)
     assert seen.get(timeout=30) == 1_010 * MS
     thread.join(30)
+
+
+def _values(bench: Any, node: str, *names: str) -> list[Any]:
+    kind = "rcl_interfaces/srv/GetParameters"
+    found = bench.call(f"{node}/get_parameters", kind, names=list(names)).values
+    return [value_from_message(one) for one in found]
+
+
+def test_every_node_of_ros2_offers_what_it_was_started_with(bench: Any) -> None:
+    bench.start(
+        "tf2_ros/static_transform_publisher", "--frame-id", "a", "--child-frame-id", "b",
+        "--ros-args", "-r", "__node:=fixed", "-p", "note:=here",
+    )  # fmt: skip
+    assert _values(bench, "/fixed", "note", "use_sim_time") == ["here", False]
+    parameter: Any = message_type("rcl_interfaces/msg/Parameter")
+    given = parameter(name="note", value=value_message("there"))
+    kind = "rcl_interfaces/srv/SetParameters"
+    result = bench.call("/fixed/set_parameters", kind, parameters=[given]).results[0]
+    assert not result.successful
+    assert result.reason == (
+        "parameter 'note' is read when /fixed starts; start it with -p note:=… or a file of "
+        "parameters"
+    )
+    assert bench.stop() == [0]
+
+
+def test_nodes_that_say_more_have_their_services_once(bench: Any) -> None:
+    bench.start("turtlesim/turtlesim_node", "--ros-args", "-p", "background_r:=7")
+    assert _values(bench, "/turtlesim", "background_r", "background_g") == [7, 86]
+    servers = [one for one in bench.graph.entities() if one.name == "/turtlesim/get_parameters"]
+    assert [one.kind for one in servers].count(Kind.SERVICE) == 1
+    assert bench.stop() == [0]

@@ -49,6 +49,16 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
     assert codes == [0] * len(threads)
 
 
+def test_gazebo_of_ros2_offers_its_parameters(graph: Graph, start: Callable[..., None]) -> None:
+    start("--pause", "-s", "libgazebo_ros_init.so", started_by=2, params={"publish_rate": 20.0})
+    service = service_class("rcl_interfaces/GetParameters")
+    assert graph.wait_for_service("/gazebo/get_parameters", PATIENCE_S)
+    client = graph.create_node("asks").create_client("/gazebo/get_parameters", service)
+    asked = service.Request(names=["publish_rate", "use_sim_time"])
+    rate, simulated = client.call(asked, timeout_s=PATIENCE_S).values
+    assert (rate.double_value, simulated.bool_value) == (20.0, True)
+
+
 @pytest.mark.parametrize("by_file", [True, False])
 def test_publish_rate_of_gazebo_is_the_clocks(
     graph: Graph, start: Callable[..., None], tmp_path: Path, by_file: bool

@@ -142,5 +142,12 @@ def _nodes(entities: Iterable[Entity]) -> tuple[str, ...]:
 
 
 def _type_of(entities: Iterable[Entity]) -> str:
-    """The first type anybody states; publishers come first."""
-    return next((one.type_name for one in entities if one.type_name != ANY_TYPE), ANY_TYPE)
+    """The first type anybody states; publishers come first, and a type with a header.
+
+    A drive of the simulator shows ``Twist`` and takes ``TwistStamped`` too; a bridge beside it
+    that says the latter is the side that ROS sees.
+    """
+    stated = [one.type_name for one in entities if one.type_name != ANY_TYPE]
+    if not stated:
+        return ANY_TYPE
+    return f"{stated[0]}Stamped" if f"{stated[0]}Stamped" in stated else stated[0]

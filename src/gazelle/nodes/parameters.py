@@ -3,41 +3,99 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
+from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
-from gazelle.nodes.navigation.settings import nested
+from gazelle.nodes.navigation.settings import flat, nested
 from gazelle.nodes.ros2_console import print_ros2
 
-__all__ = ["parameter_tree", "private", "private_number", "start_node", "ticks"]
+__all__ = [
+    "node_parameters",
+    "parameter_tree",
+    "private",
+    "private_number",
+    "start_node",
+    "ticks",
+]
+
+_SIM_TIME = "use_sim_time"
+_OFFERED: WeakKeyDictionary[Node, NodeParameters] = WeakKeyDictionary()
 
 
 def start_node(arguments: NodeArguments, graph: Graph) -> Node:
-    """Make the graph node of a built-in node, with its names and remaps."""
+    """Make the graph node of a built-in node, with its names and remaps.
+
+    One of ROS 2 offers the parameters that it was started with; `node_parameters` says more.
+    """
     ros2 = arguments.generation == 2
-    node = graph.create_node(
-        arguments.name,
-        namespace=arguments.namespace,
-        remappings=arguments.remappings,
-        is_ros2=ros2,
-    )
-    if ros2:
-        node.console = print_ros2
-        if node.parameters.has(node.name):
-            # In ROS 2 parameters end with their node; these are of one that had this name.
-            node.parameters.delete(node.name)
-    keep_log(node, arguments.log_file, arguments.output)
-    offer_loggers(node)
+    with graph.announcements.together():
+        node = graph.create_node(
+            arguments.name,
+            namespace=arguments.namespace,
+            remappings=arguments.remappings,
+            is_ros2=ros2,
+        )
+        if ros2:
+            node.console = print_ros2
+            if node.parameters.has(node.name):
+                # In ROS 2 parameters end with their node; these are of one that had this name.
+                node.parameters.delete(node.name)
+            _offer_given(node, arguments.params)
+        keep_log(node, arguments.log_file, arguments.output)
+        offer_loggers(node)
     if arguments.log_level:
         node.log_level = level_of(arguments.log_level)
     for name, value in arguments.params.items():
         node.parameters.set(node.resolve_name(f"~{name}"), value)
     return node
+
+
+def node_parameters(
+    node: Node,
+    values: Mapping[str, Any],
+    on_set: Callable[[dict[str, Any]], str] = lambda changes: "",
+    *,
+    descriptors: Mapping[str, Descriptor] | None = None,
+    allow_undeclared: bool = False,
+) -> NodeParameters:
+    """Offer the parameters of a built-in node to ``ros2 param``, in place of those it was given.
+
+    Args:
+        node: on the graph.
+        values: by name, with dots.
+        on_set: hears changes before they count; returns why they are refused, or nothing.
+        descriptors: what is said about them.
+        allow_undeclared: setting a name that is not declared declares it.
+    """
+    offered = _OFFERED.get(node)
+    if offered is None:
+        offered = NodeParameters(node, node.name, {}, now_ns=node.clock.now_ns)
+        _OFFERED[node] = offered
+    offered.redefine(values, on_set, descriptors=descriptors, allow_undeclared=allow_undeclared)
+    return offered
+
+
+def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
+    def refused(changes: dict[str, Any]) -> str:
+        for name, value in changes.items():
+            if name == _SIM_TIME:
+                node.clock.use(bool(value))
+                continue
+            return (
+                f"parameter '{name}' is read when {node.name} starts; start it with "
+                f"-p {name}:=… or a file of parameters"
+            )
+        return ""
+
+    values = {name: value for name, value in flat(nested(given)) if value is not None}
+    node_parameters(node, {_SIM_TIME: False, **values}, refused)
 
 
 def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:

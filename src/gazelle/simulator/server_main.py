@@ -14,6 +14,7 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_yo
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
 from gazelle.graph.aside import aside_path, write_aside
+from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.graph.world import SHOWN_SPACE, world_space
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 __all__ = ["check_server_plugins", "ros2_plugins_of", "ros_version_of", "serve"]
 
 _RATE = "publish_rate"
+# What gazebo_ros declares; the clock comes more often here as long as nobody sets it.
+_DECLARED_RATE_HZ = 10.0
 _ROS1_PLUGINS = frozenset({"gazebo_ros_api_plugin", "gazebo_ros_paths_plugin"})
 
 
@@ -82,6 +85,8 @@ def serve(
         if world_space(version, is_gz=options.is_gz) == SHOWN_SPACE:
             offer_loggers(node)
         rate_hz = None if version == 1 else _clock_rate(arguments, node, diagnostics)
+        if version == 2 and not options.is_gz:
+            _offer_parameters(node, rate_hz)
         workspace = Workspace.discover()
         world = _world(options, node, workspace, diagnostics, falls_back=falls_back)
         ros = (version, rate_hz)
@@ -142,6 +147,19 @@ def _serve_world(
         if dropped:
             node.log("info", f"{dropped} camera frames were dropped, rendering was late")
     return 0
+
+
+def _offer_parameters(node: Any, clock_rate_hz: float | None) -> None:
+    """Offer what ROS 2's node ``gazebo`` declares; both are read when it starts."""
+    rate_hz = _DECLARED_RATE_HZ if clock_rate_hz is None else clock_rate_hz
+    fixed = Descriptor(read_only=True)
+    NodeParameters(
+        node,
+        node.name,
+        {_RATE: rate_hz, "use_sim_time": True},
+        descriptors={_RATE: fixed, "use_sim_time": fixed},
+        now_ns=node.clock.now_ns,
+    )
 
 
 def _clock_rate(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> float | None:

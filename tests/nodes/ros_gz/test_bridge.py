@@ -97,6 +97,18 @@ def test_same_name_needs_no_passing_and_another_type_is_told(bench: Any) -> None
     assert any("no bridge between [a/B] and [gz.msgs.Clock]" in line for line in lines)
 
 
+def test_the_bridges_type_is_the_topics(bench: Any) -> None:
+    # As a drive of a world: it shows one type and takes both.
+    got: list[Any] = []
+    bench.node.create_subscription("/cmd_vel", None, got.append, announced=_TWIST.TYPE_NAME)
+    bench.start(_BRIDGE, "/cmd_vel@geometry_msgs/msg/TwistStamped]gz.msgs.Twist")
+    stamped = "geometry_msgs/msg/TwistStamped"
+    bench.eventually(lambda: dict(bench.graph.topic_names_and_types()).get("/cmd_vel") == stamped)
+    _send(bench, "/cmd_vel", _TWIST())
+    bench.eventually(lambda: got)
+    assert bench.stop() == [0]
+
+
 def test_who_listens_without_the_header_is_not_told_of(bench: Any) -> None:
     said = _logged(bench)
     bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")

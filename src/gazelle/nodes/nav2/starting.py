@@ -11,7 +11,7 @@ from gazelle.graph.node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.navigation.settings import flat, nested
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import node_parameters, start_node
 from gazelle.nodes.ros2_words import file_params
 
 __all__ = ["offer_parameters", "serve", "start", "tree_of_node"]
@@ -40,9 +40,7 @@ def offer_parameters(
 ) -> NodeParameters:
     """Offer a node's parameters to ``ros2 param``; `changed` may refuse with a reason."""
     values = {key: value for key, value in flat(tree) if value is not None}
-    return NodeParameters(
-        node, node.name, values, changed, allow_undeclared=True, now_ns=node.clock.now_ns
-    )
+    return node_parameters(node, values, changed, allow_undeclared=True)
 
 
 def serve(

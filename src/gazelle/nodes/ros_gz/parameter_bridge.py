@@ -109,6 +109,7 @@ def _relays(ros: Node, gz: Node, row: TopicRow) -> list[Relay]:
             log=ros.log,
             queue_size=row.queue_size,
             lazy=row.lazy,
+            to_gz=from_ros,
         )
         relays.append(relay)
     return relays

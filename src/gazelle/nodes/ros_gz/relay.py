@@ -28,7 +28,7 @@ class End(NamedTuple):
 
 
 class Relay:
-    """Passes messages on; with one name for both sides it only watches the types."""
+    """Passes messages on; with one name for both sides it says its type and watches others'."""
 
     def __init__(
         self,
@@ -39,6 +39,7 @@ class Relay:
         log: Callable[[str, str], None],
         queue_size: int = 10,
         lazy: bool = False,
+        to_gz: bool = False,
     ) -> None:
         """Begin.
 
@@ -49,6 +50,7 @@ class Relay:
             log: takes a level and a text.
             queue_size: told to others.
             lazy: listen to `source` only while somebody listens to `target`.
+            to_gz: `target` is Gazebo's side.
         """
         self._log = log
         self._source = source
@@ -65,6 +67,10 @@ class Relay:
             )
             if not lazy:
                 self._listen()
+        elif to_gz:
+            # The world takes the messages itself, by whatever type; who asks for the topic's
+            # type, or waits for somebody of that type, finds the bridge's.
+            source.node.create_subscription(source.topic, None, _leave, announced=type_name)
 
     def look(self) -> None:
         """Look at who is there: call it now and then."""
@@ -153,3 +159,7 @@ def wrapped_field(outer: Any, inner: Any) -> str | None:
     fields: list[Field] = [one for one in outer.FIELDS if one.name != _HEADER]
     is_stamped = len(outer.FIELDS) == 2 and len(fields) == 1
     return fields[0].name if is_stamped and fields[0].type.base == inner.TYPE_NAME else None
+
+
+def _leave(_message: Any) -> None:
+    """Take no notice of a message that the world takes."""

@@ -27,10 +27,10 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.node_parameters import Descriptor
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import node_parameters, start_node, ticks
 
 __all__ = ["FakeBase", "run", "run_ros2"]
 
@@ -159,7 +159,7 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
     declared = {**values, **numbers}
     # Read once, as the original does, which lets them be set to no effect.
     fixed = {name: Descriptor(read_only=True) for name in declared}
-    NodeParameters(node, node.name, declared, descriptors=fixed, now_ns=node.clock.now_ns)
+    node_parameters(node, declared, descriptors=fixed)
     node.log("info", "Turtlebot3 fake node has been initialised")
     setup = _Setup(
         _ROS2_PERIOD_NS,

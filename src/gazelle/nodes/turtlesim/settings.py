@@ -7,9 +7,10 @@ from typing import Any, Protocol
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Node
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.node_parameters import Descriptor
 from gazelle.graph.parameter_values import parameter_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import node_parameters
 from gazelle.nodes.turtlesim.canvas import BACKGROUND
 
 __all__ = ["Settings", "settings_of"]
@@ -91,14 +92,7 @@ class _Ros2Settings:
         self._node = node
         self._on_background = on_background
         self._use_sim_time(values)
-        self._parameters = NodeParameters(
-            node,
-            node.name,
-            values,
-            self._on_set,
-            descriptors=descriptors,
-            now_ns=node.clock.now_ns,
-        )
+        self._parameters = node_parameters(node, values, self._on_set, descriptors=descriptors)
 
     def background(self) -> Color:
         return _color(self._parameters.values)

@@ -13,10 +13,9 @@ from typing import Any
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
-from gazelle.graph.node_parameters import NodeParameters
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private_number, start_node
+from gazelle.nodes.parameters import node_parameters, private_number, start_node
 from gazelle.nodes.teleop.terminal import Keys, say
 
 __all__ = ["run"]
@@ -100,7 +99,7 @@ def _scale(node: Node, name: str) -> float:
 
 def _ros2_scales(node: Node, arguments: NodeArguments) -> Callable[[], tuple[float, float]]:
     values = {name: private_number(node, arguments, name, 2.0) for name in _SCALES}
-    parameters = NodeParameters(node, node.name, values, now_ns=node.clock.now_ns)
+    parameters = node_parameters(node, values)
     return lambda: (parameters.values["scale_linear"], parameters.values["scale_angular"])
 
 

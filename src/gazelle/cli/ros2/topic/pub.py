@@ -159,8 +159,10 @@ def _is_heard(publisher: Publisher, wanted: int) -> bool:
 
 
 def _warn_of_other_type(graph: Graph, topic: str, type_name: str) -> None:
-    types = types_by_name(graph.entities(), (Kind.PUBLISHER, Kind.SUBSCRIPTION)).get(topic, ())
-    for other in types:
+    entities = graph.entities()
+    if type_name in types_by_name(entities, (Kind.SUBSCRIPTION,)).get(topic, ()):
+        return
+    for other in types_by_name(entities, (Kind.PUBLISHER, Kind.SUBSCRIPTION)).get(topic, ()):
         if other != type_name:
             print(
                 f"WARNING: {topic} has type {other}, you publish {type_name}; its subscribers "
