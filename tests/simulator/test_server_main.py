@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -202,8 +203,8 @@ def test_only_ros_1_shows_the_names_and_lines_of_its_gazebo_ros(
     offered = [
         name
         for name in (*(one.name for one in graph.services()), *(one.name for one in graph.topics()))
-        # Loggers belong to the node.
-        if name.startswith("/gazebo/") and "logger" not in name
+        # Loggers and parameters belong to the node.
+        if name.startswith("/gazebo/") and not re.search("logger|parameter", name)
     ]
     assert bool(offered) is shows, offered
     if shows:
