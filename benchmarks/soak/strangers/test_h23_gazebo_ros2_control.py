@@ -182,6 +182,9 @@ def test_the_tricycle_turns(stage: Stage) -> None:
     with stage.launch(launch("tricycle_drive")) as robot:
         ready(robot, "tricycle_controller")
         robot.has_rate("/tricycle_controller/odom", 50.0, share=0.2)
+        # use_stamped_vel: false
+        answer = stage.run("ros2 topic type /tricycle_controller/cmd_vel")
+        assert answer.stdout.split() == ["geometry_msgs/msg/Twist"], answer.output
         robot.drive("/tricycle_controller/cmd_vel", 0.2, 0.1, 5.0)
         # The wheel stands at atan(wheelbase * turn / speed).
         robot.joint_reaches("steering_joint", math.atan(1.7 * 0.1 / 0.2), 0.1)

@@ -96,6 +96,17 @@ def test_timeout_is_in_milliseconds_and_straightens_the_wheel():
     assert bench.commands[-1] == [0.0, 0.0]
 
 
+@pytest.mark.parametrize(("flag", "name"), [(True, "TwistStamped"), (False, "Twist")])
+def test_type_of_the_command_is_announced_as_use_stamped_vel_says(flag, name):
+    bench = _bench({"use_stamped_vel": flag})
+    types, _ = bench.ports.subscriptions["~/cmd_vel"]
+    assert types[0] == f"geometry_msgs/{name}"
+    bench.run(0.1, "~/cmd_vel", twist(0.3))
+    assert bench.commands[-1][0] > 0
+    bench.run(0.1, "~/cmd_vel", stamped(0, 0.6))
+    assert bench.commands[-1][0] == pytest.approx(3.0)
+
+
 def test_ackermann_command_and_tf_are_published_on_request():
     bench = _bench({"publish_ackermann_command": True, "enable_odom_tf": True})
     bench.run(0.1, "~/cmd_vel", twist(0.4))

@@ -94,7 +94,8 @@ class TricycleController(Controller):
         timeout_s = parameters.integer("cmd_vel_timeout") * 1e-3
         uses_stamps = parameters.flag("use_stamped_vel")
         self._input = TwistInput(ports, timeout_s, uses_stamps=uses_stamps)
-        self._input.listen("~/cmd_vel", stamped_first=True)
+        # Of one name in both cases, unlike the topics of the other wheeled bases.
+        self._input.listen("~/cmd_vel", stamped_first=uses_stamps)
         offer_reset_odometry(ports, self._odometry)
 
     def _wheel(self, twist: PlanarTwist) -> tuple[float, float]:

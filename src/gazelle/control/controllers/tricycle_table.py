@@ -41,7 +41,8 @@ _PARAMETERS = (
         "use_stamped_vel",
         "flag",
         True,
-        "whether the stamp of a TwistStamped tells its age; both types are taken anyway",
+        "whether ~/cmd_vel is announced as TwistStamped, not Twist, and a stamp tells the age;"
+        " both types are taken anyway",
     ),
     _row("tf_frame_prefix", "text", "", "prefix of the frames, ~ stands for the namespace"),
 )
