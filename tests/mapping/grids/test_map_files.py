@@ -41,10 +41,12 @@ def _read(path: Path, generation: int = 1) -> OccupancyGrid:
     return grid
 
 
-def _findings(folder: Path, text: str, name: str = "map.yaml") -> dict[str, str]:
+def _findings(
+    folder: Path, text: str, name: str = "map.yaml", generation: int = 1
+) -> dict[str, str]:
     (folder / name).write_text(text)
     found = Diagnostics()
-    grid = read_map(folder / name, found)
+    grid = read_map(folder / name, found, generation=generation)
     assert (grid is None) == (found.worst is Severity.ERROR)
     return {item.code: str(item) for item in found}
 
@@ -154,6 +156,19 @@ def test_a_missing_picture_is_told_with_the_nearest_name(tmp_path: Path) -> None
     assert f'failed to open image file "{tmp_path}/map.pgm"' in text
     assert "map.yaml:1:1" in text
     assert "did you mean 'map1.pgm'" in text
+
+
+@pytest.mark.parametrize("resolution", ["0.05", "0"])
+def test_a_missing_picture_is_told_in_nav2s_words_in_ros_2(tmp_path: Path, resolution: str) -> None:
+    text = _findings(tmp_path, _YAML.replace("0.05", resolution), generation=2)["map.no-image"]
+    assert f"Failed to load image file {tmp_path}/map.pgm for reason: there is no such" in text
+    assert "ROS/Gazebo says: Failed to load image file" in text
+
+
+def test_a_broken_picture_is_told_in_nav2s_words_in_ros_2(tmp_path: Path) -> None:
+    (tmp_path / "map.pgm").write_bytes(b"no picture")
+    text = _findings(tmp_path, _YAML, generation=2)["map.bad-image"]
+    assert f"Failed to load image file {tmp_path}/map.pgm for reason: it is no picture" in text
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from gazelle.limits import read_text_limited
 from gazelle.limits.yaml_text import LimitedLoader
 from gazelle.mapping.grids.pixels import MapMode
 
-__all__ = ["MapFile", "read_map_file", "report_missing_image"]
+__all__ = ["MapFile", "read_map_file", "report_bad_image", "report_missing_image"]
 
 _KEYS = ("image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _NEEDED = tuple(key for key in _KEYS if key != "mode")
@@ -46,12 +46,15 @@ class MapFile:
     image_span: SourceSpan | None = None
 
 
-def read_map_file(path: Path | str, diagnostics: Diagnostics) -> MapFile | None:
+def read_map_file(
+    path: Path | str, diagnostics: Diagnostics, generation: int = 1
+) -> MapFile | None:
     """Read a map's YAML; None when it has errors, which are all reported.
 
     Args:
         path: of the YAML; ``~`` is the home folder.
         diagnostics: takes the findings.
+        generation: whose map_server's words a missing picture is told in.
     """
     path = Path(path).expanduser()
     entries = _entries(path, diagnostics)
@@ -73,17 +76,37 @@ def read_map_file(path: Path | str, diagnostics: Diagnostics) -> MapFile | None:
     reader.check_values(found)
     if reader.failed:
         # Otherwise whoever reads the picture tells of it.
-        reader.check_image(found)
+        reader.check_image(found, generation)
         return None
     return found
 
 
-def report_missing_image(path: Path, span: SourceSpan | None, diagnostics: Diagnostics) -> None:
+def report_bad_image(
+    path: Path, problem: str, span: SourceSpan | None, diagnostics: Diagnostics, generation: int
+) -> None:
+    """Tell that a map's picture cannot be read, in the words of its generation's map_server."""
+    text, phrase = _words_of_image(path, problem, generation)
+    diagnostics.report("map.bad-image", text, span, phrase=phrase)
+
+
+def report_missing_image(
+    path: Path, span: SourceSpan | None, diagnostics: Diagnostics, generation: int
+) -> None:
     """Tell that a map's picture is not there, and which one has nearly its name."""
     folder = path.parent
     there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
-    text = f'failed to open image file "{path}": there is no such file'
-    diagnostics.report("map.no-image", text, span, fix=did_you_mean(path.name, there))
+    text, phrase = _words_of_image(path, "there is no such file", generation)
+    fix = did_you_mean(path.name, there)
+    diagnostics.report("map.no-image", text, span, fix=fix, phrase=phrase)
+
+
+def _words_of_image(path: Path, problem: str, generation: int) -> tuple[str, str]:
+    """Return what is said of a picture, and what of it people search for."""
+    if generation == 1:
+        phrase = "failed to open image file"
+        return f'{phrase} "{path}": {problem}', phrase
+    phrase = "Failed to load image file"
+    return f"{phrase} {path} for reason: {problem}", phrase
 
 
 def _entries(path: Path, diagnostics: Diagnostics) -> dict[str, tuple[Any, SourceSpan]] | None:
@@ -190,10 +213,10 @@ class _Reader:
             return self._path
         return self._path.parent / Path(value).expanduser()
 
-    def check_image(self, found: MapFile) -> None:
+    def check_image(self, found: MapFile, generation: int) -> None:
         """Tell of a picture that is not there."""
         if "image" in self._entries and not found.image.exists():
-            report_missing_image(found.image, found.image_span, self._diagnostics)
+            report_missing_image(found.image, found.image_span, self._diagnostics, generation)
 
     def check_values(self, found: MapFile) -> None:
         """Tell of values that a map cannot have."""

@@ -11,7 +11,12 @@ from numpy.typing import NDArray
 from gazelle.diagnostics import Diagnostics
 from gazelle.limits import read_limited
 from gazelle.mapping.grids.grid import OccupancyGrid
-from gazelle.mapping.grids.map_file import MapFile, read_map_file, report_missing_image
+from gazelle.mapping.grids.map_file import (
+    MapFile,
+    read_map_file,
+    report_bad_image,
+    report_missing_image,
+)
 from gazelle.mapping.grids.pixels import cells_of_pixels
 
 __all__ = ["read_map", "read_map_image"]
@@ -28,12 +33,13 @@ def read_map(
     Args:
         path: of the YAML.
         diagnostics: takes the findings, all at once.
-        generation: 1 reads grey values as ``map_server`` does, 2 as ``nav2_map_server`` does.
+        generation: 1 reads grey values and words errors as ``map_server`` does, 2 as
+            ``nav2_map_server`` does.
 
     Returns:
         The grid; None when there is an error.
     """
-    described = read_map_file(path, diagnostics)
+    described = read_map_file(path, diagnostics, generation)
     return None if described is None else read_map_image(described, diagnostics, generation)
 
 
@@ -41,7 +47,7 @@ def read_map_image(
     described: MapFile, diagnostics: Diagnostics, generation: int = 1
 ) -> OccupancyGrid | None:
     """Read the picture that a map's YAML names; None when it cannot be read."""
-    pixels = _pixels(described, diagnostics)
+    pixels = _pixels(described, diagnostics, generation)
     if pixels is None:
         return None
     cells = cells_of_pixels(
@@ -55,7 +61,9 @@ def read_map_image(
     return OccupancyGrid(cells, described.resolution_m, described.origin)
 
 
-def _pixels(described: MapFile, diagnostics: Diagnostics) -> NDArray[np.uint8] | None:
+def _pixels(
+    described: MapFile, diagnostics: Diagnostics, generation: int
+) -> NDArray[np.uint8] | None:
     from PIL import Image, UnidentifiedImageError
 
     path, span = described.image, described.image_span
@@ -66,13 +74,13 @@ def _pixels(described: MapFile, diagnostics: Diagnostics) -> NDArray[np.uint8] |
     except UnidentifiedImageError:
         problem = "it is no picture"
     except FileNotFoundError:
-        report_missing_image(path, span, diagnostics)
+        report_missing_image(path, span, diagnostics, generation)
         return None
     except Image.DecompressionBombError as error:
         problem = str(error)
     except (OSError, ValueError, SyntaxError) as error:
         problem = getattr(error, "strerror", None) or str(error)
-    diagnostics.report("map.bad-image", f'failed to open image file "{path}": {problem}', span)
+    report_bad_image(path, problem, span, diagnostics, generation)
     return None
 
 
