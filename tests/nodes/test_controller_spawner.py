@@ -172,6 +172,19 @@ def test_without_a_clock_the_time_is_the_walls(graph, lines):
     assert any("couldn't find the expected controller_manager ROS" in line for line in lines)
 
 
+def test_a_simulator_that_loads_its_world_is_waited_for(graph, monkeypatch, lines):
+    graph.parameters.set("/use_sim_time", True)
+    simulator = graph.create_node("gazebo")
+    monkeypatch.setattr(controller_spawner, "_PATIENCE_S", 0.05)
+    monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
+    spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
+    assert spawner.is_ready.wait(30)
+    assert spawner.thread.is_alive()
+    simulator.shutdown()
+    assert spawner.join() == 0
+    assert any("couldn't find the expected controller_manager ROS" in line for line in lines)
+
+
 def test_a_manager_that_still_comes_is_not_taken_for_the_other_generations(graph, monkeypatch):
     node = graph.create_node("cm")
     load, configure = (

@@ -58,7 +58,9 @@ def test_the_robot_stands_and_senses_in_its_world(stage: Stage) -> None:
 
 def test_the_namespace_of_the_description_does_not_show_in_frames(stage: Stage) -> None:
     # The file uses an argument that only robot.launch.py declares.
-    command = "ros2 launch turtlebot3_bringup turtlebot3_state_publisher.launch.py namespace:="
+    command = (
+        "ros2 launch turtlebot3_bringup turtlebot3_state_publisher.launch.py \"namespace:=''\""
+    )
     with stage.launch(command) as state:
         frames = {one.child_frame_id for one in state.topic("/tf_static").next().transforms}
         assert frames
@@ -99,7 +101,10 @@ def test_navigation_reaches_its_goal_within_the_speed_of_the_robot(stage: Stage)
         # 1.0 stands in param/humble alone. That file's plug-ins of 'recoveries_server', with their
         # old names, are for a node that Humble's bring-up does not have.
         assert "1.0" in stage.run("ros2 param get /amcl transform_tolerance").output
-        odom = world.topic("/odom")
+        driven: list[float] = []
+        world.node.create_subscription(
+            "/cmd_vel", "geometry_msgs/msg/Twist", lambda one: driven.append(one.linear.x)
+        )
         begun_s = world.sim_time_s
         sent = stage.run(
             "ros2 action send_goal /navigate_to_pose nav2_msgs/action/NavigateToPose "
@@ -110,13 +115,7 @@ def test_navigation_reaches_its_goal_within_the_speed_of_the_robot(stage: Stage)
         took_s = world.sim_time_s - begun_s
         assert "SUCCEEDED" in sent.output, sent.output
         assert took_s < 120.0
-        last = odom.next()
-        speeds = [last.twist.twist.linear.x]
-        end_s = world.sim_time_s
-        while last.header.stamp.sec < end_s - 1.0:
-            last = odom.next()
-            speeds.append(last.twist.twist.linear.x)
-        assert max(speeds) <= 0.22 + 0.02
+        assert 0.1 < max(driven) <= 0.22 + 1e-6
         x, y, *_ = stage.place("waffle_pi")
         assert math.hypot(x - 0.5, y + 0.5) < 0.35
 

@@ -20,6 +20,7 @@ __all__ = [
     "SHOWN_SPACE",
     "first_there",
     "hidden_transport_name",
+    "is_loading",
     "offered_name",
     "other_version_hint",
     "shown_transport_name",
@@ -30,6 +31,8 @@ __all__ = [
 SHOWN_SPACE = "/gazebo"
 HIDDEN_SPACE = "/_gazebo"
 _TRANSPORT = "/_transport"
+_SIMULATOR = "gazebo"
+_CLOCK = "/clock"
 _ROS2 = 2
 _OFFERS = frozenset({Kind.SERVICE, Kind.PUBLISHER})
 _SPAWN = ("/spawn_entity", "create")
@@ -129,6 +132,18 @@ def offered_name(graph: Graph, name: str, wait_s: float | None = None) -> str:
         graph.discovery.wait_for(is_there, wait_s)
     offered = {one.name for one in graph.discovery.known() if one.kind in _OFFERS}
     return next((one for one in names if one in offered), name)
+
+
+def is_loading(graph: Graph) -> bool:
+    """Tell whether a simulator is there whose world is not: it prepares meshes before its clock.
+
+    Gazebo is not as slow, so the time-outs of programs that wait for its world do not count that.
+    """
+    known = graph.discovery.known()
+    if any(one.kind is Kind.PUBLISHER and one.name == _CLOCK for one in known):
+        return False
+    nodes = (one.node.rpartition("/")[2] for one in known if one.kind is Kind.NODE)
+    return any(name == _SIMULATOR for name in nodes)
 
 
 def first_there(clients: Sequence[Any], wait_s: float) -> Any:

@@ -11,6 +11,7 @@ from typing import Any
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, Node
+from gazelle.graph.world import is_loading
 from gazelle.interfaces import message_type, ros1_service_type, service_type
 
 __all__ = ["ManagerClient"]
@@ -80,7 +81,7 @@ class ManagerClient:
         Args:
             service: below the manager's name.
             timeout_s: on the node's clock, so a paused simulation takes no time, and on the wall's
-                while nobody publishes ``/clock``; None for ever.
+                while nobody publishes ``/clock``, unless a simulator is loading; None for ever.
             late: called again and again while it is not there, every `late_s` real seconds.
             late_s: see `late`.
 
@@ -102,7 +103,8 @@ class ManagerClient:
                 # Another clock, or one that went back: count anew.
                 used_sim_time, start_ns = clock.use_sim_time, clock.now_ns()
             since_s, looked_s = time.monotonic() - looked_s, time.monotonic()
-            if clock.use_sim_time and not graph.publisher_count("/clock"):
+            without_clock = clock.use_sim_time and not graph.publisher_count("/clock")
+            if without_clock and not is_loading(graph):
                 without_clock_s += since_s
             waited_s = max((clock.now_ns() - start_ns) * 1e-9, without_clock_s)
             if timeout_s is not None and waited_s > timeout_s:

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
-from gazelle.graph.world import SHOWN_SPACE, first_there, world_names
+from gazelle.graph.world import SHOWN_SPACE, first_there, is_loading, world_names
 from gazelle.limits.names import exists, is_file
 from gazelle.simulator.messages import message_class, pose_message, service_class
 from gazelle.simulator.plugins.context import join_names
@@ -26,8 +26,6 @@ _DATABASE = """\
 <sdf version="1.4"><world name="default"><include><uri>model://{name}</uri></include></world></sdf>
 """
 _POLL_S = 0.1
-_SIMULATOR = "gazebo"
-_CLOCK = "/clock"
 
 
 class _SpawnError(GazelleError):
@@ -250,23 +248,17 @@ class _Spawner:
             waited += _POLL_S
             if self._stop.is_set() and not stopping:
                 return None
-            if self._ros2 and waited >= self._arguments.timeout and not self._is_loading():
+            if (
+                self._ros2
+                and waited >= self._arguments.timeout
+                and not is_loading(self._node.graph)
+            ):
                 raise _SpawnError(
                     f"Service {name} unavailable. Was Gazebo started with GazeboRosFactory?"
                 )
         if told:
             self._say(f"Calling service {name}")
         return client.call(request)
-
-    def _is_loading(self) -> bool:
-        """Whether a simulator is there whose world is not: it splits meshes before it has a clock.
-
-        Gazebo is not as slow, so the original's time-out does not count that.
-        """
-        graph = self._node.graph
-        if not any(name.rpartition("/")[2] == _SIMULATOR for name in graph.node_names()):
-            return False
-        return not any(one.name == _CLOCK and one.publishers for one in graph.topics())
 
     def _say(self, text: str) -> None:
         self._node.log("info", text, padded=False)
