@@ -76,6 +76,31 @@ def test_mock_arm_follows_a_trajectory(
     assert "[control." not in capsys.readouterr().err
 
 
+def test_parameters_of_the_manager_have_one_server(bench: Any, tmp_path: Path) -> None:
+    file = tmp_path / "controllers.yaml"
+    file.write_text(_PARAMETERS)
+    publisher = _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", "--params-file", str(file))
+    bench.call(
+        "/controller_manager/list_controllers", "controller_manager_msgs/srv/ListControllers"
+    )
+    kind: Any = message_type("rcl_interfaces/msg/Parameter")
+    parameter = kind(name="other.params_file")
+    parameter.value.type, parameter.value.string_array_value = 9, [str(file)]
+    for name in ("get_parameters", "set_parameters", "list_parameters"):
+        service = next(
+            one for one in bench.graph.services() if one.name == f"/controller_manager/{name}"
+        )
+        assert len(service.servers) == 1, name
+    answer = bench.call(
+        "/controller_manager/set_parameters",
+        "rcl_interfaces/srv/SetParameters",
+        parameters=[parameter],
+    )
+    assert [(one.successful, one.reason) for one in answer.results] == [(True, "")]
+    publisher.unregister()
+
+
 def test_hardware_of_a_world_is_refused(bench: Any, capsys: pytest.CaptureFixture[str]) -> None:
     _publish(bench, "gazebo_ros2_control/GazeboSystem")
     bench.start(_NODE, "--ros-args")

@@ -29,10 +29,16 @@ _SIM_TIME = "use_sim_time"
 _OFFERED: WeakKeyDictionary[Node, NodeParameters] = WeakKeyDictionary()
 
 
-def start_node(arguments: NodeArguments, graph: Graph) -> Node:
+def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: bool = True) -> Node:
     """Make the graph node of a built-in node, with its names and remaps.
 
     One of ROS 2 offers the parameters that it was started with; `node_parameters` says more.
+
+    Args:
+        arguments: of the command line.
+        graph: takes the node.
+        offers_parameters: whether it does; not where the node offers them by other means, since
+            of two servers of one service any may answer.
     """
     ros2 = arguments.generation == 2
     with graph.announcements.together():
@@ -47,7 +53,8 @@ def start_node(arguments: NodeArguments, graph: Graph) -> Node:
             if node.parameters.has(node.name):
                 # In ROS 2 parameters end with their node; these are of one that had this name.
                 node.parameters.delete(node.name)
-            _offer_given(node, arguments.params)
+            if offers_parameters:
+                _offer_given(node, arguments.params)
         keep_log(node, arguments.log_file, arguments.output)
         offer_loggers(node)
     if arguments.log_level:

@@ -52,7 +52,8 @@ _LOOK_S = 0.1
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Run a controller manager until told to stop."""
-    node = start_node(arguments, graph)
+    # The manager offers them, and takes what spawners tell of controllers.
+    node = start_node(arguments, graph, offers_parameters=False)
     try:
         text = _description(node, stop)
         if text is None:
