@@ -80,10 +80,7 @@ REFUSED: tuple[Refusal, ...] = tuple(
                     "controller_manager.controller_manager_interface",
                     "controller_manager_msgs.utils",
                 ),
-                *(
-                    "controller_manager.controller_manager_services",
-                    "controller_manager.test_utils",
-                ),
+                "controller_manager.controller_manager_services",
             ),
             *_rows(
                 _LAUNCH1,
