@@ -149,3 +149,18 @@ def test_double_key_is_reported_and_the_last_one_counts(tmp_path: Path) -> None:
     assert only.code == "control.double-parameter"
     assert only.span is not None
     assert only.span.line == 4
+
+
+def test_a_file_that_a_spawner_names_counts_for_its_controller_only(tmp_path: Path) -> None:
+    raw, substituted = tmp_path / "raw.yaml", tmp_path / "substituted.yaml"
+    text = "arm: {{ros__parameters: {{joint: '{0}', type: a/B}}}}\n"
+    raw.write_text(text.format("$(var prefix)1"))
+    substituted.write_text(text.format("joint1"))
+    source = FileSource((), "", Diagnostics())
+    source.set("", "arm.params_file", [str(substituted)])
+    source.set("", "states.params_file", [str(raw)])
+    source.take_named("arm")
+    source.take_named("states")
+    assert source.tree("arm")["joint"] == "joint1"
+    assert source.controller_type("arm") == "a/B"
+    assert not source.tree("states")

@@ -38,6 +38,8 @@ class FileSource:
         self._diagnostics = diagnostics
         self._manager = manager
         self._sections: list[NodeSection] = []
+        # What a spawner names for one controller says nothing of the others.
+        self._named: dict[str, list[NodeSection]] = {}
         self._remappings: dict[str, tuple[tuple[str, str], ...]] = {}
         self._overrides = {name: nested(tree) for name, tree in (overrides or {}).items()}
         for path in files:
@@ -94,8 +96,11 @@ class FileSource:
             return
         files, words = (_listed(own.get(key)) for key in ("params_file", "node_options_args"))
         given = read_ros_arguments(words)
-        for file in (*files, *given.files):
-            self.add_file(Path(file))
+        self._named[controller] = [
+            section
+            for file in (*files, *given.files)
+            for section in read_parameter_file(Path(file), self._diagnostics)
+        ]
         for key, value in given.values.items():
             self.set(controller, key, value)
         self._remappings[controller] = given.remappings
@@ -122,15 +127,17 @@ class FileSource:
 
     def strangers(self) -> tuple[str, ...]:
         """Return the nodes of the files when none of them is in the namespace, else nothing."""
-        nodes = [section.node for section in self._sections]
-        for section in self._sections:
+        sections = [*self._sections, *(one for named in self._named.values() for one in named)]
+        nodes = [section.node for section in sections]
+        for section in sections:
             if section.matches(f"{self.namespace}/{section.node.rpartition('/')[2]}"):
                 return ()
         return tuple(dict.fromkeys(nodes))
 
     def _matching(self, node: str) -> list[NodeSection]:
         full = f"{self.namespace}/{node}"
-        return [section for section in self._sections if section.matches(full)]
+        sections = (*self._sections, *self._named.get(node, ()))
+        return [section for section in sections if section.matches(full)]
 
 
 def _listed(value: Any) -> list[str]:
