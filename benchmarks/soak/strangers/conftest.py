@@ -56,8 +56,12 @@ def folder(request: pytest.FixtureRequest, laid_out: Callable[[str], Path]) -> P
 
 @pytest.fixture
 def stage(request: pytest.FixtureRequest, folder: Path) -> Iterator[Stage]:
-    """The package's stage, anew for each test; the module's ENVIRONMENT is added."""
-    with staged(folder, getattr(request.module, "ENVIRONMENT", {})) as opened:
+    """The package's stage, anew for each test.
+
+    A module's ENVIRONMENT is added; its PATIENCE_S is for worlds that take long to load.
+    """
+    environment = getattr(request.module, "ENVIRONMENT", {})
+    with staged(folder, environment, getattr(request.module, "PATIENCE_S", 90.0)) as opened:
         yield opened
 
 

@@ -81,11 +81,14 @@ def node_parameters(
         descriptors: what is said about them.
         allow_undeclared: setting a name that is not declared declares it.
     """
+    said: dict[str, Any] = {"descriptors": descriptors, "allow_undeclared": allow_undeclared}
     offered = _OFFERED.get(node)
     if offered is None:
-        offered = NodeParameters(node, node.name, {}, now_ns=node.clock.now_ns)
+        now_ns = node.clock.now_ns
+        offered = NodeParameters(node, node.name, values, on_set, now_ns=now_ns, **said)
         _OFFERED[node] = offered
-    offered.redefine(values, on_set, descriptors=descriptors, allow_undeclared=allow_undeclared)
+    else:
+        offered.redefine(values, on_set, **said)
     return offered
 
 

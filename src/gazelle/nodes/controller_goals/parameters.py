@@ -82,7 +82,7 @@ def start(
     Raises:
         LaunchError: see `GoalParameters`.
     """
-    node = start_node(arguments, graph)
+    node = start_node(arguments, graph, offers_parameters=False)
     parameters = GoalParameters(parameter_tree(node, arguments), defaults)
     if parameters.value("use_sim_time") in (True, "true", "True"):
         node.clock.use(True)

@@ -20,8 +20,8 @@ _POLL_S = 0.2
 
 
 def start(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[str, Any]]:
-    """Make the graph node; returns it and its parameters, nested."""
-    node = start_node(arguments, graph)
+    """Make the graph node; returns it and its parameters, nested, for `offer_parameters`."""
+    node = start_node(arguments, graph, offers_parameters=False)
     tree = nested(arguments.params)
     if tree.get("use_sim_time") in (True, "true", "True"):
         node.clock.use(True)

@@ -172,7 +172,7 @@ def _ros1_tree(tree: Mapping[str, Any]) -> dict[str, Any]:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Drive until told to stop."""
-    node = start_node(arguments, graph)
+    node = start_node(arguments, graph, offers_parameters=False)
     tree = parameter_tree(node, arguments)
     is_ros2 = arguments.generation == 2
     found = Diagnostics()

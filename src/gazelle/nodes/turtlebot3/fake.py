@@ -117,7 +117,7 @@ class _Setup:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: drive until told to stop."""
-    node = start_node(arguments, graph)
+    node = start_node(arguments, graph, offers_parameters=False)
 
     def name(key: str, default: str) -> str:
         return str(_parameter(node, key, default))
@@ -150,7 +150,7 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
             f"{wheels[1]!r}; the original divides by 0 without them\n"
             "  fix: -p wheels.separation:=0.16 -p wheels.radius:=0.033, or --params-file"
         )
-    node = start_node(arguments, graph)
+    node = start_node(arguments, graph, offers_parameters=False)
     names = {"joint_states_frame": "base_footprint", "odom_frame": "odom"}
     names["base_frame"] = "base_footprint"
     values = {name: str(given.get(name, default)) for name, default in names.items()}

@@ -47,7 +47,7 @@ _STEPS_PER_PICTURE = 2
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Simulate turtles until told to stop."""
     word = _png_of(arguments.rest)
-    node = start_node(arguments, graph)
+    node = start_node(arguments, graph, offers_parameters=False)
     png = word or str(private(node, arguments, "png", ""))
     try:
         simulator = Simulator(node, arguments, png)

@@ -53,7 +53,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     if stop.is_set():
         return 0
     with Keys("turtle_teleop_key", takes_ctrl_c=False) as keys:
-        node = start_node(arguments, graph)
+        node = start_node(arguments, graph, offers_parameters=False)
         is_ros2 = arguments.generation == 2
         scales = _ros2_scales(node, arguments) if is_ros2 else _scales(node)
         drive = _driver(node, scales)
