@@ -82,6 +82,21 @@ def test_publish_rate_of_gazebo_is_the_clocks(
     assert {one % 50 for one in seen} == {0}
 
 
+def test_a_world_says_what_stands_in_for_a_model_of_a_server_without_being_verbose(
+    graph: Graph, start: Callable[..., None], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = tmp_path / "yard.sdf"
+    world.write_text(
+        """<sdf version="1.9"><world name="yard"><include><uri>
+          https://fuel.gazebosim.org/1.0/OpenRobotics/models/Playground
+        </uri></include></world></sdf>"""
+    )
+    start(str(world))
+    call(graph, "/gazebo/get_world_properties", "gazebo_msgs/GetWorldProperties")
+    said = capsys.readouterr().err
+    assert said.count("plain shapes of Gazelle's own stand in for Fuel's model 'Playground'") == 1
+
+
 @pytest.mark.parametrize(
     ("plugins", "started_by", "version"),
     [

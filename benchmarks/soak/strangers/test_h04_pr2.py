@@ -10,10 +10,9 @@ import pytest
 from stage import Stage, robot_parts, roll_pitch_rad
 
 XACRO = "xacro ws/src/pr2_description/robots/pr2.urdf.xacro --inorder KINECT1:=false KINECT2:=false"
-NO_TWIN = (
-    "libgazebo_ros_controller_manager.so", "libgazebo_ros_power_monitor.so",
-    "libgazebo_ros_prosilica.so",
-)  # fmt: skip
+# gazebo_ros_controller_manager and gazebo_ros_prosilica are Gazelle's ros_control and camera.
+NO_TWIN = ("libgazebo_ros_power_monitor.so",)
+SERVED = ("libgazebo_ros_controller_manager.so", "libgazebo_ros_prosilica.so")
 RATES = {
     "/base_scan": 20.0, "/tilt_scan": 40.0, "/base_pose_ground_truth": 100.0,
     "/torso_lift_imu/data": 100.0,
@@ -59,5 +58,10 @@ def test_the_robot_stands_and_its_sensors_run(stage: Stage) -> None:
         assert max(map(abs, roll_pitch_rad(pose.orientation))) < math.radians(5.0)
         for plugin in NO_TWIN:
             assert len(sim.said(f"warning: .*{plugin}")) == 1, plugin
+        for plugin in SERVED:
+            assert not sim.said(plugin), plugin
+        services = stage.run("rosservice list").stdout.split()
+        assert "/controller_manager/list_controllers" in services
+        assert "/prosilica/image_raw" in sim.topics()
         # What it cannot hold of the loops it names.
         assert sim.said("torso_lift_screw_torso_lift_joint") or not sim.said("left out")

@@ -245,9 +245,13 @@ def check_server_plugins(options: ServerOptions, diagnostics: Diagnostics) -> No
 
 
 def _show(node: Any, found: Iterable[Diagnostic], *, verbose: bool = True) -> None:
-    """Print findings on standard error; notices only when asked to be verbose, and summed."""
+    """Print findings on standard error; notices only when asked to be verbose, and summed.
+
+    That another model is in the world than the one it names is always said: lidars and cameras
+    see it.
+    """
     least = Severity.INFO if verbose else Severity.WARNING
-    items = [item for item in found if item.severity >= least]
+    items = [item for item in found if item.severity >= least or item.code == "load.stand-in"]
     shown, kept = brief(items, str(aside_path(node)))
     render(shown if not kept or write_aside(node, map(str, kept)) else items)
 
