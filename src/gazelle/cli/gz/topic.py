@@ -138,8 +138,7 @@ def _echo(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
         fields = contacts_fields(message, name) if is_own else message_fields(message)
         print(protobuf_text(fields), flush=True)
 
-    link.node.create_subscription(topic.name, topic_class(topic.type_name), show)
-    link.ended.wait(duration_s)
+    link.show_each(topic.name, topic_class(topic.type_name), show, duration_s)
 
 
 def _hz(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -53,6 +53,36 @@ class WorldLink:
         if not getattr(response, "success", True):
             raise GzError(response.status_message)
         return response
+
+    def show_each(
+        self, topic: str, kind: type[Any], show: Callable[[Any], None], seconds: float | None
+    ) -> None:
+        """Print the messages of a topic until the command ends.
+
+        Args:
+            topic: its name.
+            kind: the class of its messages.
+            show: prints one; it may set `ended`.
+            seconds: how long at most, None for as long as there is a node.
+
+        Raises:
+            OSError: whoever read the output has gone.
+        """
+        failed: list[OSError] = []
+
+        def take(message: Any) -> None:
+            if self.ended.is_set():
+                return
+            try:
+                show(message)
+            except OSError as error:
+                failed.append(error)
+                self.ended.set()
+
+        self.node.create_subscription(topic, kind, take)
+        self.ended.wait(seconds)
+        if failed:
+            raise failed[0]
 
     def model_names(self) -> list[str]:
         """Return the models of the world.

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -129,6 +132,27 @@ def test_what_cannot_be_done_is_told(
     found = gz("topic", *words)
     assert found.code == 255
     assert said in found.err
+
+
+@pytest.mark.parametrize(
+    "words", [("-e", "-t", "/pose"), ("-e", "-t", "/pose", "-n", "2"), ("-e", "/pose")]
+)
+def test_echo_ends_without_a_word_when_its_reader_has_gone(
+    graph: Graph, words: tuple[str, ...]
+) -> None:
+    node = graph.create_node("robot", rosout=False)
+    talker = node.create_publisher("/pose", "geometry_msgs/PoseStamped", latch=True)
+    talker.publish(talker.message_class())
+    near, far = os.pipe()
+    os.close(near)
+    try:
+        echo = subprocess.run(
+            [sys.executable, "-m", "gazelle.cli", "gz", "topic", *words],
+            stdout=far, stderr=subprocess.PIPE, text=True, timeout=60, check=False,
+        )  # fmt: skip
+    finally:
+        os.close(far)
+    assert (echo.returncode, echo.stderr) == (0, "")
 
 
 def test_topic_is_echoed_and_told(graph: Graph, gz: Run) -> None:

@@ -93,16 +93,13 @@ def _echo(link: WorldLink, topic: TopicInfo, options: Mapping[str, str]) -> None
 
     def show(message: Any) -> None:
         nonlocal left
-        if counts and left <= 0:
-            return
         plain = to_plain(message)
         print(json.dumps(plain) if is_json else protobuf_text(text_fields(plain)), flush=True)
         left -= 1
         if counts and left <= 0:
             link.ended.set()
 
-    link.node.create_subscription(topic.name, message_type(topic.type_name), show)
-    link.ended.wait(seconds(options))
+    link.show_each(topic.name, message_type(topic.type_name), show, seconds(options))
 
 
 def _publish(link: WorldLink, name: str, options: Mapping[str, str]) -> None:
