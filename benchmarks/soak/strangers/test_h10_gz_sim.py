@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
+import shlex
 
 import pytest
 from stage import Stage
 
+from gazelle.engine import JointHandle
 from gazelle.simulator import Simulation
+from gazelle.simulator.messages import message_class
 
 WORLDS = "gz-sim/examples/worlds"
 ENVIRONMENT = {"GZ_VERSION": "harmonic"}
@@ -66,16 +70,77 @@ def test_pendulums_of_sdf_1_11_follow_each_other(stage: Stage) -> None:
         assert apart[names[2]] < 0.01
 
 
-def test_the_trajectory_controllers_of_three_models_are_there(stage: Stage) -> None:
+def test_three_models_follow_the_trajectories_that_their_world_shows(stage: Stage) -> None:
+    world = stage.folder / WORLDS / "joint_trajectory_controller.sdf"
+    shown = re.findall(r'gz topic -t "([^"]*)" -m (\S+) -p \'([^\']*)\'', world.read_text())
+    topics = {
+        "position": "/model/RR_position_control/joint_trajectory",
+        "velocity": "/model/RR_velocity_control/joint_trajectory",
+        "effort": "/custom_topic_effort_control",
+    }
     with stage.launch(f"gz sim -s -r {WORLDS}/joint_trajectory_controller.sdf") as sim:
-        sim.wait_for_topics(
-            "/model/RR_position_control/joint_trajectory",
-            "/model/RR_velocity_control/joint_trajectory",
-            "/custom_topic_effort_control",
-        )
+        sim.wait_for_topics(*topics.values(), *(f"{one}_progress" for one in topics.values()))
         models = stage.run("gz model --list").stdout
-        for kind in ("position", "velocity", "effort"):
+        for kind in topics:
             assert f"RR_{kind}_control" in models, models
+        assert not sim.said("JointTrajectoryController.*compiled code")
+        sent = dict(zip(topics, [one for one in shown if "$" not in one[2]], strict=True))
+        for kind, (topic, gz_type, text) in sent.items():
+            assert topic == topics[kind]
+            progress = sim.topic(f"{topic}_progress")
+            done = stage.run(f"gz topic -t {topic} -m {gz_type} -p {shlex.quote(text)}")
+            assert done.code == 0, done.output
+            count = text.count("points")
+            heard = [one.data for one in progress.messages(count)]
+            assert heard == pytest.approx([(n + 1) / count for n in range(count)])
+        assert not sim.said("Traceback|nan")
+
+
+def test_the_robots_move_as_their_points_say(stage: Stage) -> None:
+    world = stage.folder / WORLDS / "joint_trajectory_controller.sdf"
+    with Simulation.load(world) as simulation:
+
+        def joints(kind: str) -> list[JointHandle]:
+            return [
+                simulation.joint(f"RR_{kind}_control::RR_{kind}_control_joint{n}") for n in (1, 2)
+            ]
+
+        def send(topic: str, kind: str, name: str, *rows: tuple[float, ...]) -> None:
+            message = message_class("trajectory_msgs/JointTrajectory")()
+            message.joint_names = [f"RR_{kind}_control_joint{n}" for n in (1, 2)]
+            for after_s, *values in rows:
+                point = message_class("trajectory_msgs/JointTrajectoryPoint")()
+                setattr(point, name, values)
+                whole_s = int(after_s)
+                point.time_from_start.sec = whole_s
+                point.time_from_start.nanosec = round((after_s - whole_s) * 1e9)
+                message.points.append(point)
+            simulation.publish(topic, message)
+
+        simulation.run(seconds=3.0)
+        begun = [one.position for one in joints("position")]
+        assert begun == pytest.approx([0.7854, -1.5708], abs=0.05)
+        still = [one.velocity for one in joints("velocity")]
+        assert still == pytest.approx([0.0, 0.0], abs=0.05)
+        where = "/model/RR_position_control/joint_trajectory"
+        send(where, "position", "positions", (1.0, -0.7854, 1.5708), (2.0, 0.0, 0.0))
+        simulation.run(seconds=0.99)
+        there = [one.position for one in joints("position")]
+        assert there == pytest.approx([-0.7854, 1.5708], abs=0.1)
+        simulation.run(seconds=3.0)
+        assert [one.position for one in joints("position")] == pytest.approx([0.0, 0.0], abs=0.05)
+
+        where = "/model/RR_velocity_control/joint_trajectory"
+        send(where, "velocity", "velocities", (0.05, 0.7854, -0.7854), (1.05, 3.1416, -3.1416))
+        simulation.run(seconds=2.0)
+        there = [one.velocity for one in joints("velocity")]
+        assert there == pytest.approx([3.1416, -3.1416], abs=0.1)
+
+        before = [one.position for one in joints("effort")]
+        send("/custom_topic_effort_control", "effort", "effort", (1.0, 1.0, 0.5))
+        simulation.run(seconds=1.0)
+        after = [one.position for one in joints("effort")]
+        assert all(abs(new - old) > 0.1 for old, new in zip(before, after, strict=True))
 
 
 def test_sensors_have_their_rates(stage: Stage) -> None:

@@ -162,6 +162,17 @@ def joint_position(trial: Trial) -> None:
     assert trial.sim.joint("one_joint").position == pytest.approx(1.0, abs=1e-3)
 
 
+def joint_trajectory(trial: Trial) -> None:
+    """With a velocity loop alone a joint turns at the velocity of the point."""
+    point = message_class("trajectory_msgs/JointTrajectoryPoint")(velocities=[2.0])
+    message = message_class("trajectory_msgs/JointTrajectory")(
+        joint_names=["one_joint"], points=[point]
+    )
+    trial.sim.publish("/model/thing/joint_trajectory", message)
+    trial.sim.run(seconds=1.0)
+    assert trial.sim.joint("one_joint").velocity == pytest.approx(2.0, rel=1e-3)
+
+
 def lifts(trial: Trial) -> None:
     """What is near rises with the cup, and falls when it is let go."""
     sim, generation = trial.sim, 2 if trial.is_ros2 else 1
@@ -343,6 +354,12 @@ ROWS = (
     FamilyRow("gz-sim joint controller", lever(HERE, KEYS), joint_velocity, (ONE,)),
     FamilyRow(
         "gz-sim joint position controller", lever(HERE, KEYS), joint_position, (ONE + BY_VELOCITY,)
+    ),
+    FamilyRow(
+        "gz-sim joint trajectory controller",
+        lever(HERE, KEYS),
+        joint_trajectory,
+        (ONE + "<velocity_p_gain>0.5</velocity_p_gain>",),
     ),
     FamilyRow(
         "vacuum_gripper",

@@ -173,6 +173,88 @@ def test_joint_position_controller_goes_by_velocity_at_most_at_its_bound(load: L
     assert sim.joint("one_joint").position == pytest.approx(1.0, abs=1e-3)
 
 
+def course(*points: dict[str, Any], joints: tuple[str, ...] = ("one_joint", "two_joint")) -> Any:
+    """A trajectory; ``after`` of a point is its time in seconds."""
+    message = message_class("trajectory_msgs/JointTrajectory")(joint_names=list(joints))
+    for fields in points:
+        point = message_class("trajectory_msgs/JointTrajectoryPoint")()
+        after = fields.pop("after")
+        point.time_from_start.sec = int(after)
+        point.time_from_start.nanosec = round(after % 1 * 1e9)
+        for name, values in fields.items():
+            setattr(point, name, values)
+        message.points.append(point)
+    return message
+
+
+TRAJECTORY = "gz-sim-joint-trajectory-controller-system"
+
+
+def test_trajectory_controller_takes_each_joint_to_the_points_by_its_own_gains(
+    load: Load, listen: Listen
+) -> None:
+    omega = 20.0
+    both = "".join(
+        f"""<joint_name>{name}_joint</joint_name><initial_position>{start}</initial_position>
+        <position_p_gain>{INERTIA * omega**2}</position_p_gain>
+        <position_d_gain>{2 * INERTIA * omega}</position_d_gain>"""
+        for name, start in (("one", 0.3), ("two", -0.2))
+    )
+    sim = load(lever(TRAJECTORY, both))
+    sim.run(seconds=1.0)
+    there = [sim.joint(f"{name}_joint").position for name in ("one", "two")]
+    assert there == pytest.approx([0.3, -0.2], abs=1e-3)
+    progress = listen(sim, "/model/thing/joint_trajectory_progress")
+    sim.publish(
+        "/model/thing/joint_trajectory",
+        course({"positions": [1.0, -1.0], "after": 1.0}, {"positions": [0.5, 2.0], "after": 2.0}),
+    )
+    sim.run(seconds=0.9)
+    there = [sim.joint(f"{name}_joint").position for name in ("one", "two")]
+    assert there == pytest.approx([1.0, -1.0], abs=1e-3)
+    assert [one.data for one in progress] == [0.5]
+    sim.run(seconds=1.1)
+    there = [sim.joint(f"{name}_joint").position for name in ("one", "two")]
+    assert there == pytest.approx([0.5, 2.0], abs=1e-3)
+    assert [one.data for one in progress] == [0.5, 1.0]
+
+
+def test_trajectory_controller_adds_velocity_loop_and_effort_for_all_joints(load: Load) -> None:
+    sim = load(lever(TRAJECTORY, "<topic>go</topic><velocity_p_gain>0.5</velocity_p_gain>"))
+    point = {"velocities": [2.0], "effort": [0.0, 0.2], "after": 0.1}
+    sim.publish("/go", course(point))
+    sim.run(seconds=1.0)
+    # Only the first joint has a gain; the second has its effort alone.
+    assert sim.joint("one_joint").velocity == pytest.approx(2.0, rel=1e-3)
+    assert sim.joint("two_joint").velocity == pytest.approx(0.2 / INERTIA, rel=0.01)
+
+
+def test_time_of_a_trajectory_counts_from_its_stamp_where_the_world_says_so(
+    load: Load, listen: Listen
+) -> None:
+    sim = load(lever(TRAJECTORY, "<use_header_start_time>true</use_header_start_time>"))
+    progress = listen(sim, "/model/thing/joint_trajectory_progress")
+    sim.run(seconds=1.0)
+    message = course(*({"effort": [0.0, 0.0], "after": after} for after in (0.5, 1.5, 2.5)))
+    message.header.stamp.nanosec = 100_000_000
+    sim.publish("/model/thing/joint_trajectory", message)
+    sim.run(seconds=0.5)
+    # 0.9 s after the stamp: the first point is over.
+    assert [one.data for one in progress] == pytest.approx([2 / 3])
+    sim.run(seconds=0.2)
+    assert [one.data for one in progress] == pytest.approx([2 / 3, 1.0])
+
+
+def test_trajectory_for_a_joint_that_is_not_driven_is_told(load: Load) -> None:
+    sim = load(lever(TRAJECTORY, "<joint_name>one_joint</joint_name>"))
+    sim.publish("/model/thing/joint_trajectory", course({"effort": [0.1, 0.1], "after": 0.0}))
+    sim.run(seconds=0.1)
+    assert sim.joint("two_joint").velocity == 0.0
+    assert sim.joint("one_joint").velocity == pytest.approx(0.1 * 0.1 / INERTIA, rel=0.05)
+    (told,) = sim.diagnostics.by_code("plugin.missing-joint")
+    assert "trajectory for joint 'two_joint', which it does not drive" in told.message
+
+
 def gripper(keys: str) -> str:
     """A cup on a lift that hangs on the world."""
     return f"""<robot name="robot"><link name="world"/>

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
 
-__all__ = ["FORCE_TABLE", "POSITION_TABLE", "VELOCITY_TABLE"]
+__all__ = ["FORCE_TABLE", "POSITION_TABLE", "TRAJECTORY_TABLE", "VELOCITY_TABLE"]
 
 _SAME_TOPICS = (
     "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to."
@@ -98,3 +98,48 @@ POSITION_TABLE = PluginTable(
         *_ACTUATORS,
     ),
 )  # fmt: skip
+
+
+def _gains_of(kind: str) -> tuple[Parameter, ...]:
+    rows = (
+        ("p_gain", 0.0, "proportional"),
+        ("i_gain", 0.0, "integral"),
+        ("d_gain", 0.0, "derivative"),
+        ("i_max", -1.0, "upper bound of the integral's term"),
+        ("i_min", 0.0, "lower bound of the integral's term"),
+        ("cmd_max", -1.0, "upper bound of the command"),
+        ("cmd_min", 0.0, "lower bound of the command"),
+        ("cmd_offset", 0.0, "added to the command"),
+    )
+    return tuple(
+        Parameter(f"{kind}_{key}", "number", default, f"{text}, of the {kind}'s PID; one a joint")
+        for key, default, text in rows
+    )
+
+
+TRAJECTORY_TABLE = PluginTable(
+    family="gz-sim joint trajectory controller",
+    summary="Takes joints to the points of a trajectory by PIDs of position and velocity.",
+    filenames=_names("joint-trajectory-controller", "JointTrajectoryController"),
+    behaviour=(
+        "A point is aimed at, without interpolation, from the `time_from_start` of the one before"
+        " it on; what it does not give (positions, velocities, effort) stays as it was."
+        " Accelerations have no effect.",
+        "A joint gets the sum of both PIDs and of the point's effort. The first element of a key"
+        " is the first joint's, and so on; a pair of bounds whose lower one is above the upper"
+        " one bounds nothing.",
+        _SAME_TOPICS,
+    ),
+    topics=(
+        Topic("{topic}", "trajectory_msgs/msg/JointTrajectory", "", "", publishes=False),
+        Topic("{topic}_progress", "std_msgs/msg/Float32", "each point that is aimed at"),
+    ),
+    parameters=(
+        Parameter("topic", "text", "", "trajectories, by default /model/M/joint_trajectory"),
+        Parameter("joint_name", "text", "", "a joint, repeatable; by default all with one axis"),
+        Parameter("initial_position", "number", 0.0, "at the start; one a joint", "rad, m"),
+        Parameter("use_header_start_time", "flag", False, "time counts from the message's stamp"),
+        *_gains_of("position"),
+        *_gains_of("velocity"),
+    ),
+)

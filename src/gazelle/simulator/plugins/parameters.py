@@ -122,6 +122,17 @@ class ParameterReader:
         fallback = self._default(key) if default is None else default
         return self._floats(key, (float(str(fallback)),))[0]
 
+    def numbers(self, key: str) -> tuple[float, ...]:
+        """Return the numbers of all elements of a key, in their order."""
+        default = self.default_number(key)
+        names = self._names(self._row(key))
+        tags = (tag for tag in self.plugin.parameters.children if tag.name in names)
+        return tuple(self._floats_of(tag, (default,))[0] for tag in tags)
+
+    def default_number(self, key: str) -> float:
+        """Return what the table has for a key."""
+        return float(str(self._default(key)))
+
     def vector(self, key: str) -> tuple[float, float, float]:
         """Return three numbers."""
         default = self._default(key)
@@ -182,7 +193,9 @@ class ParameterReader:
         return f" (of ROS {other}{read})"
 
     def _floats(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        tag = self.tag(key)
+        return self._floats_of(self.tag(key), default)
+
+    def _floats_of(self, tag: Tag | None, default: tuple[float, ...]) -> tuple[float, ...]:
         if tag is None or not tag.text:
             return default
         return floats_from(

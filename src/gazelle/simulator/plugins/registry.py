@@ -71,6 +71,7 @@ _FAMILIES = (
     ("gz_joints", "FORCE_TABLE", "load_force"),
     ("gz_joints", "VELOCITY_TABLE", "load_velocity"),
     ("gz_joints", "POSITION_TABLE", "load_position"),
+    ("gz_joint_trajectory", "TRAJECTORY_TABLE", "load"),
     ("vacuum_gripper", "TABLE", "load"),
     ("hand_of_god", "TABLE", "load"),
     ("joint_pose_trajectory", "TABLE", "load"),
