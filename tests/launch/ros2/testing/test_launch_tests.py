@@ -15,6 +15,7 @@ from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2 import child_process
 from gazelle.launch.ros2.testing import command
+from gazelle.workspace.ament_index import known_workspace
 
 Finished = subprocess.CompletedProcess[str]
 _ECHO = """
@@ -85,6 +86,8 @@ def launch_test(
 ) -> Callable[..., Finished]:
     """Runs a file with the command."""
     monkeypatch.chdir(tmp_path)
+    # A process looks once for its workspace, and this one may have looked from elsewhere.
+    known_workspace.cache_clear()
     monkeypatch.delenv("PYTHONUNBUFFERED", raising=False)
 
     def run(text: str, *words: str) -> Finished:
