@@ -352,6 +352,27 @@ def test_sleeping_arm_still_weighs_on_its_joint(build):
     assert engine.link("arm::rod").acceleration_world().linear_m_s2.tolist() == [0.0, 0.0, 0.0]
 
 
+def test_efforts_of_a_moving_robot_do_not_wake_others(build, monkeypatch):
+    alone = build.engine(chain())
+    beside = build.engine(chain(), chain(name="resting"))
+    resting = group_of(beside, name="resting")
+    resting.set_velocity(np.zeros(3), np.full(3, 50.0))
+    beside.step(500)
+    alone.step(500)
+    assert beside.is_asleep(beside.body_id("resting::l1"))
+    monkeypatch.setattr("gazelle.engine.core.waking_copy", pytest.fail)
+    efforts = []
+    for engine in (alone, beside):
+        moving = group_of(engine)
+        for index in range(3):
+            engine.joint(f"chain::j{index}").set_state(0.0, 0.0)
+        moving.set_velocity(np.full(3, 0.4), np.full(3, 50.0))
+        engine.step(20)
+        efforts.append(effort(moving))
+    assert np.abs(efforts[0]).max() > 0.1
+    assert efforts[1] == pytest.approx(efforts[0], rel=1e-9)
+
+
 def test_resting_robot_is_not_woken_by_a_speed_at_which_it_would_rest_again(build):
     """A position servo leaves such speeds: a loaded motor creeps a little."""
     engine = build.engine(chain())

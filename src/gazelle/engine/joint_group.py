@@ -74,11 +74,13 @@ class JointGroup:
         driven = self._tendons is not None and bool(engine.motors.commands)
         if not held and not driven:
             return
-        asleep = self._is_asleep()
+        sleepers = self._sleepers()
+        asleep = bool(sleepers.all())
         if asleep and self._resting_effort is not None:
             out[:] = self._resting_effort
             return
-        data = engine.data_of_everyone()
+        # Who is awake is in the data of the step; waking the others costs a step of the world.
+        data = engine.data_of_everyone() if sleepers.any() else engine.data
         if held:
             out += engine.locks.efforts(data)[self._locks]
         if driven and self._tendons is not None:
@@ -243,9 +245,10 @@ class JointGroup:
             raise EngineError(f"the locks of {list(self.names)} are missing")
         return self._locks
 
-    def _is_asleep(self) -> bool:
+    def _sleepers(self) -> NDArray[np.bool_]:
+        """Tell of each joint's body whether it rests and is not computed."""
         asleep = int(mujoco.mjtSleepState.mjS_ASLEEP)
-        return bool((self._engine.data.body_awake[self._bodies] == asleep).all())
+        return np.asarray(self._engine.data.body_awake[self._bodies] == asleep)
 
     def _check_finite(self, values: Array, chosen: Any) -> None:
         if not np.isfinite(values).all():
