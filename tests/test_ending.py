@@ -149,6 +149,29 @@ def test_an_interrupt_in_the_midst_of_an_import_says_nothing(tmp_path: Path) -> 
 
 
 @_POSIX
+def test_an_interrupt_in_a_librarys_callback_comes_again_when_that_is_done() -> None:
+    text = """
+import contextlib, sys, threading
+from gazelle.ending import called_by_library, raise_interrupts
+raise_interrupts()
+
+@called_by_library
+def callback():
+    print("running", flush=True)
+    sys.stdin.readline()
+
+try:
+    # As the transport does: what a callback raises is printed, and goes no further.
+    with contextlib.suppress(BaseException):
+        callback()
+    threading.Event().wait(60)
+except KeyboardInterrupt:
+    print("caught", flush=True)
+"""
+    assert _interrupted(text, "running") == (0, "caught\n", "")
+
+
+@_POSIX
 def test_an_interrupt_elsewhere_is_the_programs_to_catch() -> None:
     text = """
 import threading

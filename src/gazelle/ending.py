@@ -11,8 +11,8 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType
-from typing import TYPE_CHECKING, NoReturn, TextIO
+from types import CodeType, FrameType
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
 
 if TYPE_CHECKING:
     import socket
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "StopEvent",
     "at_stop_signal",
+    "called_by_library",
     "drop_output",
     "end_at_interrupts",
     "end_with",
@@ -31,6 +32,10 @@ __all__ = [
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _IMPORTING = "<frozen importlib._bootstrap>"
+_AGAIN_S = 0.05
+_called_by_libraries: set[CodeType] = set()
+
+Callback = TypeVar("Callback", bound=Callable[..., Any])
 
 
 class StopEvent(threading.Event):
@@ -103,10 +108,26 @@ def raise_interrupts() -> None:
     signal.signal(signal.SIGINT, raise_or_end)
 
 
+def called_by_library(function: Callback) -> Callback:
+    """Mark a function that a library in C calls back, which prints exceptions and goes on.
+
+    It may do so in the main thread, within a call of ours: an interrupt that is raised there would
+    be lost, and the program never end.
+    """
+    _called_by_libraries.add(function.__code__)
+    return function
+
+
 def raise_or_end(number: int, frame: FrameType | None) -> None:
     """Be the handler that `raise_interrupts` sets."""
     one = frame
     while one is not None:
+        if one.f_code in _called_by_libraries:
+            # What is raised here goes no further than to the library: once more, when it is done.
+            again = threading.Timer(_AGAIN_S, os.kill, (os.getpid(), number))
+            again.daemon = True
+            again.start()
+            return
         if one.f_code.co_filename == _IMPORTING:
             end_at_interrupts()
             os.kill(os.getpid(), signal.SIGINT)

@@ -8,6 +8,8 @@ from contextlib import suppress
 from queue import Empty, SimpleQueue
 from typing import Any
 
+from gazelle.ending import called_by_library
+
 __all__ = ["Mailbox"]
 
 _STOP: Any = object()
@@ -38,6 +40,7 @@ class Mailbox:
         self._closed = False
         self.dropped = 0
 
+    @called_by_library
     def put(self, item: Any) -> None:
         """Add an item, from any thread; never waits."""
         if self._closed:

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.ending import called_by_library
 from gazelle.graph.keys import Entity, Kind, entity_gid, token_selector
 
 if TYPE_CHECKING:
@@ -126,6 +127,7 @@ class Discovery:
                 self._changed.wait(left)
         return True
 
+    @called_by_library
     def _on_token(self, sample: Any) -> None:
         import zenoh
 

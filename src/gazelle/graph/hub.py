@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.ending import called_by_library
 from gazelle.graph.config import hub_config
 from gazelle.graph.relink import Relinker
 
@@ -126,6 +127,7 @@ class HubKeeper:
         if hub is not None:
             close_session(hub)
 
+    @called_by_library
     def _on_transport(self, event: Any) -> None:
         import zenoh
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
+from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import wire
 from gazelle.graph.errors import (
@@ -90,6 +91,7 @@ class ServiceServer:
             self._queryable.undeclare()
             self._graph.forget(self)
 
+    @called_by_library
     def _on_query(self, query: Any) -> None:
         threading.Thread(
             target=self._answer, args=(query,), name=f"service {self.name}", daemon=True

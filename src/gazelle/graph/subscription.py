@@ -6,6 +6,7 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError
 from gazelle.graph import wire
 from gazelle.graph.delivery import Mailbox
@@ -121,6 +122,7 @@ class Subscription:
         """Take a message published in this process."""
         self._take((message, attachment, None))
 
+    @called_by_library
     def _on_sample(self, sample: Any) -> None:
         # The history of a latched topic also holds what this process published itself.
         if self._local.publishers and _attachment_of(sample).gid in self._graph.local.gids:
