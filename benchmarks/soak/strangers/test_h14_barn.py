@@ -52,12 +52,10 @@ def test_the_unmodified_script_runs_a_trial_to_its_score(stage: Stage, tmp_path:
         start = trial.true_pose("jackal").position
         assert math.hypot(start.x + 2.25, start.y - 3.0) < 0.1
         odom = trial.topic("/odometry/filtered")
-        for topic, hz in {
-            "/front/scan": 50.0,
-            "/jackal_velocity_controller/odom": 50.0,
-            "/odometry/filtered": 50.0,
-        }.items():
-            trial.has_rate(topic, hz)
+        for topic in ("/front/scan", "/jackal_velocity_controller/odom"):
+            trial.has_rate(topic, 50.0)
+        # On two cores the filter is late now and then beside simulation and navigation.
+        trial.has_rate("/odometry/filtered", 50.0, share=0.15)
         code = trial.wait(timeout_s=420.0)
         assert code == 0
         assert trial.said(r"Navigation (succeeded|collided|timeout) with time \d+\.\d+")
