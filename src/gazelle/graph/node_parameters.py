@@ -110,20 +110,6 @@ class NodeParameters:
         with node.announced_together():
             self._offer(node, run)
 
-    def redefine(
-        self,
-        values: Mapping[str, Any],
-        on_set: Callable[[dict[str, Any]], str] = lambda changes: "",
-        *,
-        descriptors: Mapping[str, Descriptor] | None = None,
-        allow_undeclared: bool = False,
-    ) -> None:
-        """Offer other parameters by the same services, see the arguments of the class."""
-        self.values = dict(values)
-        self._descriptors = dict(descriptors or {})
-        self._on_set = on_set
-        self._allow_undeclared = allow_undeclared
-
     def declare(self, name: str, value: Any, descriptor: Descriptor = _PLAIN) -> None:
         """Add a parameter and tell others."""
         self.values[name] = value

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
@@ -26,7 +25,6 @@ __all__ = [
 ]
 
 _SIM_TIME = "use_sim_time"
-_OFFERED: WeakKeyDictionary[Node, NodeParameters] = WeakKeyDictionary()
 
 
 def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: bool = True) -> Node:
@@ -72,36 +70,36 @@ def node_parameters(
     descriptors: Mapping[str, Descriptor] | None = None,
     allow_undeclared: bool = False,
 ) -> NodeParameters:
-    """Offer the parameters of a built-in node to ``ros2 param``, in place of those it was given.
+    """Offer the parameters of a built-in node to ``ros2 param``.
 
     Args:
-        node: on the graph.
+        node: on the graph, started with ``offers_parameters=False``.
         values: by name, with dots.
         on_set: hears changes before they count; returns why they are refused, or nothing.
         descriptors: what is said about them.
         allow_undeclared: setting a name that is not declared declares it.
     """
-    said: dict[str, Any] = {"descriptors": descriptors, "allow_undeclared": allow_undeclared}
-    offered = _OFFERED.get(node)
-    if offered is None:
-        now_ns = node.clock.now_ns
-        offered = NodeParameters(node, node.name, values, on_set, now_ns=now_ns, **said)
-        _OFFERED[node] = offered
-    else:
-        offered.redefine(values, on_set, **said)
-    return offered
+    return NodeParameters(
+        node,
+        node.name,
+        values,
+        on_set,
+        descriptors=descriptors,
+        allow_undeclared=allow_undeclared,
+        now_ns=node.clock.now_ns,
+    )
 
 
 def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
     def refused(changes: dict[str, Any]) -> str:
-        for name, value in changes.items():
-            if name == _SIM_TIME:
-                node.clock.use(bool(value))
-                continue
-            return (
-                f"parameter '{name}' is read when {node.name} starts; start it with "
-                f"-p {name}:=… or a file of parameters"
-            )
+        for name in changes:
+            if name != _SIM_TIME:
+                return (
+                    f"parameter '{name}' is read when {node.name} starts; start it with "
+                    f"-p {name}:=… or a file of parameters"
+                )
+        if _SIM_TIME in changes:
+            node.clock.use(bool(changes[_SIM_TIME]))
         return ""
 
     values = {name: value for name, value in flat(nested(given)) if value is not None}
