@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.cli.gz.new.gui_config import lets_world_go
-from gazelle.cli.gz.new.sim import read_sim
+from gazelle.cli.gz.new.sim import _is_let_go, read_sim
 
 CONTROL = """<plugin filename="{file}" name="World control"><gz-gui><title>c</title></gz-gui>
 <play_pause>{buttons}</play_pause>{paused}</plugin>"""
@@ -60,3 +60,25 @@ def test_a_configuration_counts_in_place_of_the_worlds(tmp_path: Path) -> None:
 def test_the_option_is_read_and_not_told_as_idle() -> None:
     start = read_sim(["w.sdf", "--gui-config", "my.config"])
     assert (start.gui_config, start.notes) == ("my.config", [])
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (None, ["--gui-config my.config: No such file or directory", "fix: name a file"]),
+        ("<a/>\n<plugin", ["my.config:2:", "error: "]),
+    ],
+)
+def test_a_configuration_that_cannot_be_read_is_told(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    text: str | None,
+    told: list[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if text is not None:
+        (tmp_path / "my.config").write_text(text)
+    assert _is_let_go(read_sim(["w.sdf", "--gui-config", "my.config"])) is False
+    said = "".join(capsys.readouterr())
+    assert all(words in said for words in told), said

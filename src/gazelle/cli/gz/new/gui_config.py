@@ -18,7 +18,7 @@ _YES = frozenset({"true", "1"})
 _NO = frozenset({"false", "0"})
 
 
-def lets_world_go(world: str, gui_config: str) -> bool:
+def lets_world_go(world: str, gui_config: str, diagnostics: Diagnostics | None = None) -> bool:
     """Tell whether the window's ``WorldControl`` starts a world without ``-r``.
 
     It does where ``<start_paused>`` says no. A file of ``--gui-config`` counts in place of the
@@ -27,15 +27,22 @@ def lets_world_go(world: str, gui_config: str) -> bool:
     Args:
         world: the world's file, empty for the empty world.
         gui_config: the file that is named, empty for none.
+        diagnostics: hears what is wrong in `gui_config`; the world's reader tells of the world.
+
+    Raises:
+        OSError, UnicodeDecodeError: `gui_config` cannot be read.
     """
     file = Path(gui_config or world)
     try:
         text = read_text_limited(file) if str(file) != "." else ""
     except (OSError, UnicodeDecodeError):
+        if gui_config:
+            raise
         return False
-    # A configuration has no root of its own. What is wrong in a world is told when it is read.
+    # A configuration has no root of its own.
     inside = _DECLARATION.sub("", text, count=1)
-    root = parse_xml(f"<gui>{inside}</gui>", str(file), Diagnostics())
+    heard = diagnostics if gui_config and diagnostics is not None else Diagnostics()
+    root = parse_xml(f"<gui>{inside}</gui>", str(file), heard)
     if root is None:
         return False
     guis = (root,) if gui_config else (tag for tag in root.walk() if tag.name == "gui")

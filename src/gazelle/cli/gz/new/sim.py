@@ -12,7 +12,7 @@ from gazelle._version import __version__
 from gazelle.cli.gz.new.gui_config import lets_world_go
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.sdf.sdf_file import say
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import Diagnostics, did_you_mean, render_text
 from gazelle.workspace import Workspace
 
 __all__ = ["SimStart", "read_sim", "run"]
@@ -119,11 +119,27 @@ def run(words: list[str]) -> int:
 
         return run_node(["gazebo_ros/gzclient"])
     start.world = _found_world(start.world)
-    if not start.flags & {"-r", "-s"} and lets_world_go(start.world, start.gui_config):
+    if not start.flags & {"-r", "-s"} and _is_let_go(start):
         start.flags.add("-r")
     if "-r" not in start.flags:
         say(["gazelle: the world is paused, as gz sim has it without -r; gz world -p 0 lets it go"])
     return gzserver.main([*start.server_words, "--gz"])
+
+
+def _is_let_go(start: SimStart) -> bool:
+    """Tell whether the window's configuration starts the world, and what is wrong with it."""
+    diagnostics = Diagnostics()
+    try:
+        lets_go = lets_world_go(start.world, start.gui_config, diagnostics)
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or error
+        say([
+            f"gazelle: --gui-config {start.gui_config}: {why}; the window has no configuration\n"
+            "  fix: name a file that is there, from the folder the command runs in"
+        ])  # fmt: skip
+        return False
+    say(render_text(one) for one in diagnostics)
+    return lets_go
 
 
 def read_sim(words: Iterable[str]) -> SimStart:
