@@ -33,6 +33,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from marked_processes import commands_of, pids_of
 from starts_packages import write_classic, write_gz
 
 from gazelle.errors import GazelleError
@@ -267,22 +268,10 @@ class _Run:
         return round(time.monotonic() - begun_s, 1)
 
     def _pids(self) -> list[int]:
-        wanted = f"{MARK}={self._mark}".encode()
-        found = []
-        for folder in Path("/proc").iterdir():
-            if folder.name.isdigit() and folder.name != str(os.getpid()):
-                with contextlib.suppress(OSError):
-                    if wanted in (folder / "environ").read_bytes().split(b"\0"):
-                        found.append(int(folder.name))
-        return found
+        return pids_of(MARK, self._mark)
 
     def _left(self) -> list[str]:
-        found = []
-        for pid in self._pids():
-            with contextlib.suppress(OSError):
-                words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-                found.append(" ".join(one.decode(errors="replace") for one in words[1:5]))
-        return found
+        return commands_of(self._pids())
 
     def _first(self, pattern: re.Pattern[str]) -> str:
         """Return the first line of the output or of a log that matches."""

@@ -22,6 +22,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
+from marked_processes import commands_of, pids_of
+
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient, ClientGoal
@@ -379,24 +381,11 @@ def roll_pitch_rad(quat: Any) -> tuple[float, float]:
 
 
 def _pids(mark: str) -> list[int]:
-    """Return the processes of a launch, by the environment they were given."""
-    wanted = f"{_MARK}={mark}".encode()
-    found = []
-    for folder in Path("/proc").iterdir():
-        if folder.name.isdigit() and folder.name != str(os.getpid()):
-            with contextlib.suppress(OSError):
-                if wanted in (folder / "environ").read_bytes().split(b"\0"):
-                    found.append(int(folder.name))
-    return found
+    return pids_of(_MARK, mark)
 
 
 def _left(mark: str) -> str:
-    found = []
-    for pid in _pids(mark):
-        with contextlib.suppress(OSError):
-            words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-            found.append(" ".join(one.decode(errors="replace") for one in words[1:5]))
-    return "; ".join(found)
+    return "; ".join(commands_of(_pids(mark)))
 
 
 @contextlib.contextmanager

@@ -123,7 +123,7 @@ def test_the_robot_drives_a_metre_in_ten_seconds(stage: Stage, tmp_path: Path) -
         launch.run_sim(1.0)
         odom.clear()
         way_m = odom.next().pose.pose.position.x - before.pose.pose.position.x
-        assert way_m == pytest.approx(1.0, abs=0.03)
+        assert way_m == pytest.approx(1.0, abs=0.01)
 
 
 def test_joints_that_a_file_adds_are_published_as_it_says(stage: Stage, tmp_path: Path) -> None:
