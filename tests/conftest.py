@@ -11,19 +11,44 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import PATIENCE_S, eventually, stretched
 
 _SHARED = Path(__file__).parents[2] / "shared"
-_PATIENCE_S = 60.0
+_SLOW_S = 10.0
 _OWN_FOLDERS = ("ROS_HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Start the files with the longest tests first, so that no worker ends long after the others.
+
+    ``@pytest.mark.slow(seconds)`` says how long.
+    """
+    lengths: dict[Path, float] = {}
+    for item in items:
+        if marker := item.get_closest_marker("slow"):
+            seconds = marker.args[0] if marker.args else _SLOW_S
+            lengths[item.path] = lengths.get(item.path, 0.0) + seconds
+    items.sort(key=lambda item: -lengths.get(item.path, 0.0))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Keep a file's tests in one worker, for what they share; files in the order collected."""
+    from xdist.scheduler import LoadFileScheduling
+
+    if config.getoption("dist") != "load":
+        return None
+    config.option.loadscopereorder = False
+    return LoadFileScheduling(config, log)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -65,6 +90,18 @@ def shared_dir() -> Path:
 def workspaces_dir(shared_dir: Path) -> Path:
     """The documents' own packages, unmodified."""
     return shared_dir / "workspaces"
+
+
+@pytest.fixture(scope="session")
+def own_workspaces_dir() -> Path:
+    """Small packages of the tests' own: ``ros1/src`` and ``ros2/src``; also in a clone alone."""
+    return Path(__file__).parent / "workspaces"
+
+
+@pytest.fixture(scope="session")
+def examples_dir() -> Path:
+    """The workspaces that the documentation shows."""
+    return Path(__file__).parents[1] / "examples"
 
 
 @pytest.fixture(scope="session")
@@ -118,19 +155,21 @@ class Launched:
             self._node = self.graph.create_node("test", anonymous=True, rosout=False)
         return self._node
 
-    def wait_for_line(self, pattern: str, timeout_s: float = _PATIENCE_S) -> str:
+    def wait_for_line(self, pattern: str, timeout_s: float = PATIENCE_S) -> str:
         """Return the first line that a regular expression finds something in."""
 
         def found() -> str:
             return next((line for line in self.lines if re.search(pattern, line)), "")
 
         with self._changed:
-            assert self._changed.wait_for(lambda: found() or self._ended, timeout_s), self.text
+            assert self._changed.wait_for(lambda: found() or self._ended, stretched(timeout_s)), (
+                self.text
+            )
             assert found(), f"no line matches {pattern!r}:\n{self.text}"
             return found()
 
     def messages(
-        self, wanted: dict[str, int], timeout_s: float = _PATIENCE_S
+        self, wanted: dict[str, int], timeout_s: float = PATIENCE_S
     ) -> dict[str, list[Any]]:
         """Return so many messages of each topic, all gathered at the same time."""
         got: dict[str, list[Any]] = {topic: [] for topic in wanted}
@@ -152,7 +191,7 @@ class Launched:
             return all(len(got[topic]) >= count for topic, count in wanted.items())
 
         with done:
-            in_time = done.wait_for(complete, timeout_s)
+            in_time = done.wait_for(complete, stretched(timeout_s))
             counts = {topic: len(items) for topic, items in got.items()}
         assert in_time, f"{counts} of {wanted}\n{self.text}"
         for subscription in listening:
@@ -177,25 +216,21 @@ class Launched:
         from gazelle.interfaces import fill, service_type
 
         kind = service_type(type_name)
-        client = self.node.create_client(offered_name(self.graph, service, _PATIENCE_S), kind)
-        assert client.wait_for_service(_PATIENCE_S), f"no {service}\n{self.text}"
+        limit_s = stretched()
+        client = self.node.create_client(offered_name(self.graph, service, limit_s), kind)
+        assert client.wait_for_service(limit_s), f"no {service}\n{self.text}"
         request = kind.Request()
         fill(request, fields)
-        return client.call(request, timeout_s=_PATIENCE_S)
+        return client.call(request, timeout_s=limit_s)
 
-    def eventually(self, condition: Callable[[], Any], timeout_s: float = _PATIENCE_S) -> Any:
+    def eventually(self, condition: Callable[[], Any], timeout_s: float = PATIENCE_S) -> Any:
         """Return what a condition gives as soon as that is true."""
-        deadline = time.monotonic() + timeout_s
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, f"did not happen in time\n{self.text}"
-            pause.wait(0.01)
-        return found
+        return eventually(condition, timeout_s, why=lambda: self.text)
 
-    def wait(self, timeout_s: float = _PATIENCE_S) -> int:
+    def wait(self, timeout_s: float = PATIENCE_S) -> int:
         """Wait for the end and return the exit code."""
-        code = self.popen.wait(timeout_s)
-        self._reader.join(timeout_s)
+        code = self.popen.wait(stretched(timeout_s))
+        self._reader.join(stretched(timeout_s))
         return code
 
     def stop(self, number: int = signal.SIGINT) -> int:
@@ -222,11 +257,11 @@ class Launched:
         if self.popen.poll() is None:
             self.popen.send_signal(signal.SIGTERM)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self.popen.wait(_PATIENCE_S)
+                self.popen.wait(stretched())
         for pid in self.processes():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
-        self.popen.wait(_PATIENCE_S)
+        self.popen.wait(stretched())
 
     def _joined(self) -> Any:
         from gazelle.graph import Graph, NoGraphError

@@ -9,7 +9,7 @@ import pytest
 from tests.tutorial.turtlebot3_run import scripted_run
 from tests.tutorial.turtlebot3_session import Session
 
-pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow(145)]
 
 _TOLERANCE_M, _TOLERANCE_RAD = 0.05, 0.17
 # Localisation goes on after the end of a goal, and may see it a little differently then.

@@ -1,0 +1,91 @@
+"""How long the tests wait for what is to happen, in one place.
+
+A test waits for an event or for simulated time; a limit in wall time only ends a wait that would
+never end. Limits are written as seconds of an ordinary machine that has nothing else to do, and
+stretched by what this machine takes for a fixed piece of work and by how many others want its
+cores just now. Nothing outside this module compares wall time with a number.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
+
+__all__ = ["PATIENCE_S", "at_most", "eventually", "scale", "stretched"]
+
+PATIENCE_S = 60.0
+"""What is waited for unless a test has a reason to say another number."""
+
+_WORK_ROUNDS = 200_000
+_ORDINARY_WORK_S = 0.02
+_LOOKS = 5
+_HIGHEST_SCALE = 20.0
+_PAUSE_S = 0.005
+
+
+def scale() -> float:
+    """Return how many times longer than on an idle, ordinary machine things may take now; ≥ 1."""
+    slowness = _measured_work_s() / _ORDINARY_WORK_S
+    # Where the system tells no load (Windows), twice the time is allowed for.
+    load = os.getloadavg()[0] / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 2.0
+    return min(max(1.0, slowness) * max(1.0, load), _HIGHEST_SCALE)
+
+
+def stretched(limit_s: float = PATIENCE_S) -> float:
+    """Return a limit of an idle, ordinary machine as the limit of this one now, in seconds."""
+    return limit_s * scale()
+
+
+def eventually(
+    condition: Callable[[], Any],
+    limit_s: float = PATIENCE_S,
+    *,
+    why: Callable[[], str] = lambda: "",
+) -> Any:
+    """Return what a condition gives as soon as that is true.
+
+    Args:
+        condition: asked again and again.
+        limit_s: how long, on an idle, ordinary machine.
+        why: asked for more to say when it never becomes true.
+    """
+    begin = time.monotonic()
+    pause = threading.Event()
+    while not (found := condition()):
+        waited_s = time.monotonic() - begin
+        # The load may have grown since the wait began.
+        assert waited_s < limit_s or waited_s < stretched(limit_s), (
+            f"did not happen in {waited_s:.0f} s\n{why()}"
+        )
+        pause.wait(_PAUSE_S)
+    return found
+
+
+@contextmanager
+def at_most(limit_s: float) -> Iterator[None]:
+    """Let a block take so many seconds of an idle, ordinary machine, and no more."""
+    begin = time.monotonic()
+    yield
+    took_s = time.monotonic() - begin
+    assert took_s < limit_s or took_s < stretched(limit_s), (
+        f"took {took_s:.1f} s; allowed are {limit_s:g} s, {stretched(limit_s):.1f} s here and now"
+    )
+
+
+@cache
+def _measured_work_s() -> float:
+    """The fastest of a few looks: the machine's speed, not what else runs on it."""
+
+    def look() -> float:
+        begin = time.perf_counter()
+        total = 0
+        for number in range(_WORK_ROUNDS):
+            total += number & 7
+        return time.perf_counter() - begin
+
+    return min(look() for _ in range(_LOOKS))
