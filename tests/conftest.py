@@ -10,6 +10,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -23,6 +24,11 @@ _SLOW_S = 10.0
 _OWN_FOLDERS = ("ROS_HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
+# Where Python is told to keep no bytecode, every program that a test starts would compile all of
+# Gazelle again: more work than what it does then. Workers get these two variables from here.
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+    _bytecode = tempfile.TemporaryDirectory(prefix="gazelle-bytecode-")
+    os.environ["PYTHONPYCACHEPREFIX"] = _bytecode.name
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
 
 
