@@ -19,8 +19,8 @@ def run() -> NoReturn:
     shorten_library_warnings()
     raise_interrupts()
     if "GAZELLE_PARENT_PID" in os.environ:
-        # Started by a launch: most commands are not, and need nothing of the graph for this.
-        from gazelle.graph.parent import end_with_parent
+        # Started by a launch: most commands are not, and do without the module.
+        from gazelle.parent import end_with_parent
 
         end_with_parent()
     end_with(main)

@@ -20,8 +20,8 @@ def main(words: list[str]) -> int:
         return 2
     end_at_interrupts()
     from gazelle.compat.finder import install
-    from gazelle.graph.parent import end_with_parent
     from gazelle.launch.environment import drop_in_folder
+    from gazelle.parent import end_with_parent
 
     end_with_parent()
     sys.excepthook = _tell

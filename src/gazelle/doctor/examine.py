@@ -67,7 +67,7 @@ def examine(
 
 def _findings(examination: Examination) -> list[Diagnostic]:
     packages = examination.workspace.packages
-    own = [item for item in packages.values() if not item.is_builtin]
+    own = examination.workspace.user_packages
     known = {*packages, *(name for item in own for name in item.depends)}
     found = _once(without_superseded(tuple(strict(examination.diagnostics))))
     return condensed(found, known)

@@ -61,7 +61,7 @@ def find_target(words: Sequence[str], workspace: Workspace, cwd: Path) -> Target
 def package_at(folder: Path, workspace: Workspace) -> Package | None:
     """Return the package that a folder is or lies in, None when there is none."""
     place = folder.resolve()
-    own = {item.path.resolve(): item for item in workspace.packages.values() if not item.is_builtin}
+    own = {item.path.resolve(): item for item in workspace.user_packages}
     return next((own[path] for path in (place, *place.parents) if path in own), None)
 
 
@@ -94,8 +94,8 @@ def _folder(word: str, path: Path, workspace: Workspace) -> Target:
             return Target(word, (path / file,))
     inside = [
         item
-        for item in workspace.packages.values()
-        if not item.is_builtin and place in (item.path.resolve(), *item.path.resolve().parents)
+        for item in workspace.user_packages
+        if place in (item.path.resolve(), *item.path.resolve().parents)
     ]
     if inside:
         return Target(word, packages=tuple(inside))
@@ -107,7 +107,7 @@ def _around(cwd: Path, workspace: Workspace) -> Target:
     package = package_at(cwd, workspace)
     if package is not None:
         return Target(package.name, packages=(package,))
-    own = tuple(item for item in workspace.packages.values() if not item.is_builtin)
+    own = workspace.user_packages
     around = (cwd.resolve(), *cwd.resolve().parents)
     here = tuple(
         item for item in own if any(path in item.path.resolve().parents for path in around[:1])

@@ -13,7 +13,7 @@ __all__ = ["main"]
 def main(words: list[str]) -> int:
     """Replace this process by the command; the parent-death signal survives exec."""
     end_at_interrupts()
-    from gazelle.graph.parent import end_with_parent
+    from gazelle.parent import end_with_parent
 
     end_with_parent()
     try:

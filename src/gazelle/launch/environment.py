@@ -147,7 +147,7 @@ def ros_home(environ: Mapping[str, str]) -> Path:
 
 
 def _source_folders(workspace: Workspace) -> list[str]:
-    folders = {str(item.path.parent) for item in workspace.packages.values() if not item.is_builtin}
+    folders = {str(item.path.parent) for item in workspace.user_packages}
     return sorted(folders)
 
 

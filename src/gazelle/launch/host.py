@@ -12,9 +12,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.process import node_words
+from gazelle.parent import PARENT_VARIABLE
 
 __all__ = ["HostEnded", "NodeEnded", "NodeHost", "NodeReady"]
 

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import IO
 
 from gazelle.ending import interrupts_held
-from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.executables import Executable
+from gazelle.parent import PARENT_VARIABLE
 
 __all__ = ["LaunchedProcess", "code_text", "end_text", "node_words", "start_process"]
 

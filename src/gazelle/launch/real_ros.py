@@ -18,9 +18,9 @@ from urllib.parse import urlsplit
 
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, NoGraphError
-from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.executables import Executable
+from gazelle.parent import PARENT_VARIABLE
 
 if TYPE_CHECKING:
     from gazelle.launch.console import Console

@@ -19,7 +19,7 @@ _PATIENCE_S = 3.0
 def main(words: list[str]) -> int:
     """Run a node, or a host of nodes, in this process."""
     end_at_interrupts()
-    from gazelle.graph.parent import end_with_parent
+    from gazelle.parent import end_with_parent
 
     end_with_parent()
     if words and words[0] == "--host":

@@ -15,7 +15,7 @@ def learn_workspace_types() -> None:
     from gazelle.interfaces import add_package, known_types
     from gazelle.workspace import Workspace
 
-    for package in Workspace.discover().packages.values():
+    for package in Workspace.discover().user_packages:
         if not any((package.path / part).is_dir() for part in _PARTS):
             continue
         if not any(known_types(part, package.name) for part in _PARTS):

@@ -174,8 +174,8 @@ def _folder_off_the_path(workspace: Workspace, name: str, base_dir: Path | None)
     Packages leave it to the user's shell or to a launch file to put their ``models`` folder
     into ``GAZEBO_MODEL_PATH``.
     """
-    packages = (package.path for package in workspace.packages.values() if not package.is_builtin)
-    folders = (*folders_around(base_dir), *(path / "models" for path in packages))
+    models = (package.path / "models" for package in workspace.user_packages)
+    folders = (*folders_around(base_dir), *models)
     return next((path / name for path in folders if is_model_folder(path / name)), None)
 
 

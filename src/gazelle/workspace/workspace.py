@@ -69,6 +69,11 @@ class Workspace:
         """All packages by name, sorted; the first place found wins, as in ROS."""
         return self._packages
 
+    @property
+    def user_packages(self) -> tuple[Package, ...]:
+        """Those packages that do not come with Gazelle, whose many manifests stay unread."""
+        return self._packages.of_users()
+
     def package(self, name: str) -> Package:
         """Return a package.
 
@@ -151,7 +156,7 @@ class Workspace:
         return resolver.resolve_world(self, name, None if base_dir is None else Path(base_dir))
 
     def _exported(self, *attributes: str) -> Iterator[Path]:
-        for package in self._packages.values():
+        for package in self.user_packages:
             for tag in ("gazebo_ros", "gazebo_ros_paths", "gazebo"):
                 for attribute in attributes:
                     yield from package.exported_paths(tag, attribute)
@@ -184,6 +189,10 @@ class _Packages(Mapping[str, Package]):
         while self._waiting:
             self._crawl_next()
         return len(self._found)
+
+    def of_users(self) -> tuple[Package, ...]:
+        """Return the packages that are not built in, sorted by name."""
+        return tuple(self[name] for name in self if not self._found[name][1])
 
     def _crawl_next(self) -> None:
         source = self._waiting.pop(0)

@@ -92,7 +92,7 @@ def _keys(options: argparse.Namespace) -> tuple[dict[str, list[str]], frozenset[
         render(diagnostics)
     workspace = Workspace.discover()
     if options.all:
-        mine = (item for item in workspace.packages.values() if not item.is_builtin)
+        mine = workspace.user_packages
         needs |= {item.name: item.depends for item in mine}
     for name in options.names:
         try:

@@ -16,11 +16,11 @@ from typing import Self
 from gazelle.cli.rostest.results import Case, missing_result, read_cases
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
-from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.config import LaunchConfig, TestSpec
 from gazelle.launch.environment import node_environment, ros_home
 from gazelle.launch.executables import find_executable
 from gazelle.launch.process import node_words
+from gazelle.parent import PARENT_VARIABLE
 from gazelle.workspace import Workspace
 
 __all__ = ["TestRun"]

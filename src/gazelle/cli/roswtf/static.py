@@ -23,7 +23,7 @@ def look_at_folder(folder: Path, found: Findings, *, everything: bool) -> None:
     """Examine the package of a folder; the whole workspace with `everything`."""
     workspace = Workspace.discover()
     here = {folder.resolve(), *folder.resolve().parents}
-    own = [item for item in workspace.packages.values() if not item.is_builtin]
+    own = list(workspace.user_packages)
     package = next((item for item in own if item.path.resolve() in here), None)
     if package is None:
         print("No package or stack in the current directory")

@@ -97,10 +97,5 @@ def _start_of(path: Path) -> str:
 
 def _knows_gz(workspace: Workspace) -> bool:
     """Tell whether the user's packages depend on the new Gazebo, alone or beside the old one."""
-    names = {
-        name
-        for package in workspace.packages.values()
-        if not package.is_builtin
-        for name in package.depends
-    }
+    names = {name for package in workspace.user_packages for name in package.depends}
     return any(_NEW_PACKAGES.fullmatch(name) for name in names)

@@ -45,8 +45,7 @@ def find_python_controller(type_name: str, workspace: Workspace) -> type[Control
     package = workspace.packages.get(prefix.partition("/")[0])
     places = [] if package is None else list(_places(package, name))
     if not places:
-        packages = [one for one in workspace.packages.values() if not one.is_builtin]
-        places = [place for one in packages for place in _places(one, name)]
+        places = [place for one in workspace.user_packages for place in _places(one, name)]
     if not places:
         return None
     if len(places) > 1:

@@ -14,13 +14,12 @@ from typing import Any
 from gazelle.ending import interrupts_held
 from gazelle.launch.environment import is_own_command
 from gazelle.launch.guard import Guard
+from gazelle.parent import PARENT_VARIABLE
 
 __all__ = ["ChildProcess", "Guarded", "start_child"]
 
 # What a process wrote last is awaited so long, since a child of it may hold its output open.
 _LAST_WORDS_S = 0.5
-# gazelle.graph.parent's, which would bring all of the graph along.
-_PARENT_VARIABLE = "GAZELLE_PARENT_PID"
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,10 +204,10 @@ async def start_child(
     """
     loop = asyncio.get_running_loop()
     variables = dict(os.environ if env is None else env)
-    variables.pop(_PARENT_VARIABLE, None)
+    variables.pop(PARENT_VARIABLE, None)
     if cmd[0] == sys.executable and not shell:
         # Behind a shell or a prefix a node would take these for its launcher, and end at once.
-        variables[_PARENT_VARIABLE] = str(os.getpid())
+        variables[PARENT_VARIABLE] = str(os.getpid())
     terminals = [(fd, *pty.openpty()) for fd in (1, 2)] if emulate_tty else []
     outputs = {fd: far for fd, _near, far in terminals}
     options: dict[str, Any] = {

@@ -54,7 +54,7 @@ class Source(NamedTuple):
 def all_sources(named: Iterable[Source], workspace: Workspace) -> dict[str, Source]:
     """Return all panels by name: those that were named, the workspace's, installed ones."""
     found: dict[str, Source] = {}
-    own = (package for package in workspace.packages.values() if not package.is_builtin)
+    own = workspace.user_packages
     for package in own:
         for source in sources_of_package(package):
             _keep(found, source)

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.graph.parent import PARENT_VARIABLE
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2 import child_process
 from gazelle.launch.ros2.testing import command
+from gazelle.parent import PARENT_VARIABLE
 from gazelle.workspace.ament_index import known_workspace
 
 Finished = subprocess.CompletedProcess[str]

@@ -110,7 +110,7 @@ def compiled_plugin(filename: str, workspace: Workspace | None) -> CompiledPlugi
 
 def _own_packages(workspace: Workspace | None) -> Iterator[Package]:
     if workspace is not None:
-        yield from (package for package in workspace.packages.values() if not package.is_builtin)
+        yield from workspace.user_packages
 
 
 def _files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
