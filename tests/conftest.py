@@ -30,6 +30,13 @@ if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
     _bytecode = tempfile.TemporaryDirectory(prefix="gazelle-bytecode-")
     os.environ["PYTHONPYCACHEPREFIX"] = _bytecode.name
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
+if sys.dont_write_bytecode:
+    # Some containers say so, and each of some thousand processes would compile all modules anew.
+    # Nothing is written beside the sources all the same.
+    sys.pycache_prefix = str(Path(__file__).parents[1] / ".pytest_cache" / "bytecode")
+    sys.dont_write_bytecode = False
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
 
 @pytest.hookimpl(tryfirst=True)
