@@ -7,10 +7,10 @@ import itertools
 import os
 import re
 import signal
+import site
 import socket
 import subprocess
 import sys
-import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -21,18 +21,15 @@ from tests.patience import PATIENCE_S, eventually, stretched
 
 _SHARED = Path(__file__).parents[2] / "shared"
 _SLOW_S = 10.0
-_OWN_FOLDERS = ("ROS_HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
+_OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
+# What programs that tests need find by the true home.
+_FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
-# Where Python is told to keep no bytecode, every program that a test starts would compile all of
-# Gazelle again: more work than what it does then. Workers get these two variables from here.
-if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
-    _bytecode = tempfile.TemporaryDirectory(prefix="gazelle-bytecode-")
-    os.environ["PYTHONPYCACHEPREFIX"] = _bytecode.name
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
 if sys.dont_write_bytecode:
     # Some containers say so, and each of some thousand processes would compile all modules anew.
-    # Nothing is written beside the sources all the same.
+    # Nothing is written beside the sources all the same; workers get the variables from here.
     sys.pycache_prefix = str(Path(__file__).parents[1] / ".pytest_cache" / "bytecode")
     sys.dont_write_bytecode = False
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -66,8 +63,12 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.fixture(scope="session", autouse=True)
 def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Logs, caches and settings of the person who runs the tests are neither read nor written."""
+    """What the person who runs the tests has at home is neither read nor written."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONUSERBASE", site.getuserbase())
+        for variable, folder in _FOUND_BY_HOME.items():
+            if variable not in os.environ and (found := Path.home() / folder).is_dir():
+                patch.setenv(variable, str(found))
         for variable in _OWN_FOLDERS:
             patch.setenv(variable, str(tmp_path_factory.mktemp(variable.lower())))
         yield
