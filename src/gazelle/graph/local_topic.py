@@ -13,12 +13,24 @@ __all__ = ["LocalTopic", "LocalTopics"]
 
 
 class LocalTopic:
-    """One topic's ends in this process; the tuples are replaced, never changed."""
+    """One topic's ends in this process; the tuples are replaced, never changed.
 
-    __slots__ = ("lock", "publishers", "subscriptions")
+    Attributes:
+        lock: held while the tuples change and while a latched message is handed over.
+        transport: held while one of the publishers uses the transport.
+        publishers: of this process.
+        subscriptions: of this process.
+    """
+
+    __slots__ = ("lock", "publishers", "subscriptions", "transport")
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
+        # zenoh stamps what it sends with the time and the session; a subscription that also asks
+        # for latched messages drops those of a session that are older than one it has. So two
+        # threads must not send on one topic at once: the later stamp could be on its way first.
+        # It also refuses to undeclare what another thread is just using.
+        self.transport = threading.Lock()
         self.publishers: tuple[Publisher, ...] = ()
         self.subscriptions: tuple[Subscription, ...] = ()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -51,8 +50,6 @@ class Publisher:
         self._copy_local = copy_local
         self._is_mute = is_mute
         self._closed = is_mute()
-        # zenoh refuses to undeclare what another thread is just using.
-        self._transport = threading.Lock()
         self._last: Any = None
         self._sequence = 0
         self._unsure = True
@@ -61,6 +58,7 @@ class Publisher:
         self.gid = entity_gid(text)
         key = topic_key(graph.domain, self.topic, entity.type_name, entity.type_hash)
         self._local = graph.local.topic(self.topic)
+        self._transport = self._local.transport
         if self._closed:
             return
         graph.local.gids.add(self.gid)
