@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests import patience
+from tests.patience import PATIENCE_S, stretched
 
 from gazelle.graph import Graph
-
-PATIENCE_S = 30.0
 
 
 class Inbox:
@@ -28,17 +27,9 @@ class Inbox:
 
     def wait_for(self, count: int, timeout_s: float = PATIENCE_S) -> list[Any]:
         with self._changed:
-            assert self._changed.wait_for(lambda: len(self.items) >= count, timeout_s), self.items
+            in_time = self._changed.wait_for(lambda: len(self.items) >= count, stretched(timeout_s))
+            assert in_time, self.items
             return list(self.items)
-
-
-def _eventually(condition: Callable[[], Any], timeout_s: float = PATIENCE_S) -> Any:
-    deadline = time.monotonic() + timeout_s
-    pause = threading.Event()
-    while not (found := condition()):
-        assert time.monotonic() < deadline, "did not happen in time"
-        pause.wait(0.002)
-    return found
 
 
 @pytest.fixture
@@ -84,4 +75,4 @@ def make_inbox() -> type[Inbox]:
 @pytest.fixture
 def eventually() -> Callable[..., Any]:
     """Waits until a condition gives something true, and returns it."""
-    return _eventually
+    return patience.eventually

@@ -32,13 +32,21 @@ class Repeats:
         self._size = 0
         self._lock = threading.Lock()
 
-    def answer(self, client: bytes, sequence: int, handle: Callable[[], Answer]) -> Answer:
+    def answer(
+        self,
+        client: bytes,
+        sequence: int,
+        handle: Callable[[], Answer],
+        *,
+        on_repeat: Callable[[], None] | None = None,
+    ) -> Answer:
         """Return the answer to a request, handling it unless that is done or under way.
 
         Args:
             client: who asks.
             sequence: number of the client's request, 0 where it does not count them.
             handle: handles the request.
+            on_repeat: called before waiting for the end of a request that is under way.
         """
         if sequence == 0:
             return handle()
@@ -53,6 +61,8 @@ class Repeats:
                 # Whoever repeats it must not wait for ever, even if the handler ended its thread.
                 self._note_end(key, call)
                 call.done.set()
+        elif on_repeat is not None:
+            on_repeat()
         call.done.wait()
         return call.answer
 

@@ -6,7 +6,8 @@ import itertools
 import threading
 import time
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
@@ -32,6 +33,7 @@ from gazelle.graph.keys import (
 from gazelle.graph.names import is_hidden
 from gazelle.graph.relink import hub_knows
 from gazelle.graph.repeats import Answer, Repeats
+from gazelle.graph.turns import InTurn, Turn, Turns
 from gazelle.graph.world import other_version_hint
 
 if TYPE_CHECKING:
@@ -49,7 +51,10 @@ _BACK_S = 30.0
 
 
 class ServiceServer:
-    """Answers one service; each request is handled in a thread of its own, as in ROS 1."""
+    """Answers one service; each request is handled in a thread of its own, as in ROS 1.
+
+    A handler that is `InTurn` begins with one client's requests in the order in which they came.
+    """
 
     def __init__(
         self,
@@ -70,10 +75,12 @@ class ServiceServer:
         self.entity = entity
         self._graph = graph
         self._handler = handler
+        self._begin = handler.begin if isinstance(handler, InTurn) else None
         self._with_caller = with_caller
         self._on_error = on_error
         self._closed = is_mute
         self._repeats = Repeats()
+        self._turns = Turns()
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
         self._key = service_key(graph.domain, self.name, entity.type_name, entity.type_hash)
@@ -93,15 +100,21 @@ class ServiceServer:
 
     @called_by_library
     def _on_query(self, query: Any) -> None:
-        threading.Thread(
-            target=self._answer, args=(query,), name=f"service {self.name}", daemon=True
-        ).start()
-
-    def _answer(self, query: Any) -> None:
         asked = _attachment_of(query)
-        answer, error = self._repeats.answer(
-            asked.gid, asked.sequence, lambda: self._handled(query)
-        )
+        turn = self._turns.take(asked.gid) if self._begin is not None else None
+        name = f"service {self.name}"
+        words = (query, asked, turn)
+        threading.Thread(target=self._answer, args=words, name=name, daemon=True).start()
+
+    def _answer(self, query: Any, asked: Attachment, turn: Turn | None) -> None:
+        end_turn = turn.end if turn is not None else None
+        try:
+            answer, error = self._repeats.answer(
+                asked.gid, asked.sequence, lambda: self._handled(query, turn), on_repeat=end_turn
+            )
+        finally:
+            if end_turn is not None:
+                end_turn()
         if self._closed:
             return
         if answer:
@@ -112,9 +125,9 @@ class ServiceServer:
             query.reply_err(error, encoding=_ERROR_ENCODING)
         query.drop()
 
-    def _handled(self, query: Any) -> Answer:
+    def _handled(self, query: Any, turn: Turn | None) -> Answer:
         try:
-            return self._response_to(query), ""
+            return self._response_to(query, turn), ""
         except ServiceRefusedError as refused:
             return b"", str(refused)
         except Exception as raised:  # noqa: BLE001 - a user's handler may raise anything
@@ -124,12 +137,17 @@ class ServiceServer:
                 )
             return b"", f"error processing request: {raised}"
 
-    def _response_to(self, query: Any) -> bytes:
+    def _response_to(self, query: Any, turn: Turn | None) -> bytes:
         """Return the response's bytes, none when the handler gave no response."""
         data = query.payload.to_bytes() if query.payload is not None else b""
         request = wire.decode(wire.request_type(self.service_class), data)
         words = (request, self._caller_of(query)) if self._with_caller else (request,)
-        response = self._handler(*words)
+        if self._begin is None or turn is None:
+            response = self._handler(*words)
+        else:
+            with turn:
+                finish = self._begin(*words)
+            response = finish()
         if response is None:
             return b""
         wanted = wire.response_type(self.service_class)
@@ -187,30 +205,49 @@ class ServiceClient:
             ServiceTimeoutError: no response in time.
             ServiceCallError: the handler failed.
         """
+        return self.send(request, timeout_s)()
+
+    def send(self, request: Any, timeout_s: float | None = None) -> Callable[[], Any]:
+        """Send a request, and return a function that waits for the response; see `call`.
+
+        Requests arrive in the order in which they were sent.
+        """
         wanted = wire.request_type(self.service_class)
         if not isinstance(request, wanted):
             raise GraphError(
                 f"service [{self.name}]: the request is a {type(request).__qualname__}, "
                 f"not a {wanted.__qualname__}"
             )
-        import zenoh
-
-        try:
-            return self._call(wire.encode(request), timeout_s)
-        except zenoh.ZError as error:
-            # This process may leave the graph while another thread of it waits here.
-            raise ServiceUnavailableError(f"service [{self.name}]: {error}") from error
-
-    def _call(self, payload: bytes, timeout_s: float | None) -> Any:
-        """Ask until there is an answer: links are lost, and servers know what they did already."""
+        payload = wire.encode(request)
         attachment = Attachment(next(self._numbers), time.time_ns(), self._gid).to_bytes()
         deadline_s = time.monotonic() + (_FOR_EVER_S if timeout_s is None else timeout_s)
         self._noted(self._is_offered(self._graph.discovery.known()))
+
+        def ask() -> Callable[[], Any]:
+            left_s = max(deadline_s - time.monotonic(), _RETRY_S)
+            return self._ask(payload, attachment, left_s)
+
+        with self._told_errors():
+            first = ask()
+
+        def response() -> Any:
+            with self._told_errors():
+                return self._response(first, ask, timeout_s, deadline_s)
+
+        return response
+
+    def _response(
+        self,
+        asked: Callable[[], Any],
+        ask: Callable[[], Callable[[], Any]],
+        timeout_s: float | None,
+        deadline_s: float,
+    ) -> Any:
+        """Ask until there is an answer: links are lost, and servers know what they did already."""
         lost_s = 0.0
         while True:
             asked_s = time.monotonic()
-            left_s = max(deadline_s - asked_s, _RETRY_S)
-            reply = self._ask(payload, attachment, left_s)
+            reply = asked()
             if reply is not None:
                 return self._read(reply, timeout_s)
             now_s = time.monotonic()
@@ -219,6 +256,17 @@ class ServiceClient:
             if now_s > deadline_s:
                 raise self._late(timeout_s)
             self._await_server(now_s - lost_s, deadline_s)
+            asked = ask()
+
+    @contextmanager
+    def _told_errors(self) -> Iterator[None]:
+        import zenoh
+
+        try:
+            yield
+        except zenoh.ZError as error:
+            # This process may leave the graph while another thread of it waits here.
+            raise ServiceUnavailableError(f"service [{self.name}]: {error}") from error
 
     def _await_server(self, since_s: float, deadline_s: float) -> None:
         """Wait before the next question.
@@ -259,7 +307,8 @@ class ServiceClient:
             self._token.undeclare()
             self._graph.forget(self)
 
-    def _ask(self, payload: bytes, attachment: bytes, timeout_s: float) -> Any:
+    def _ask(self, payload: bytes, attachment: bytes, timeout_s: float) -> Callable[[], Any]:
+        """Ask once, and return a function that waits for the reply, None when there is none."""
         import zenoh
 
         asking = zenoh.CancellationToken()
@@ -275,10 +324,18 @@ class ServiceClient:
                 timeout=timeout_s,
                 cancellation_token=asking,
             )
-            with self._graph.calls.waiting():
-                return next(iter(replies), None)
-        finally:
+        except BaseException:
             self._asking.discard(asking)
+            raise
+
+        def reply() -> Any:
+            try:
+                with self._graph.calls.waiting():
+                    return next(iter(replies), None)
+            finally:
+                self._asking.discard(asking)
+
+        return reply
 
     def _read(self, reply: Any, timeout_s: float | None) -> Any:
         if reply.ok is not None:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import Graph
@@ -21,6 +22,7 @@ from gazelle.graph.actions.comm_state import TRANSITIONS, steps
 from gazelle.interfaces import message_type, ros1_message_type
 
 FIBONACCI = "actionlib_tutorials/Fibonacci"
+_MANY = 20
 BOTH = pytest.mark.parametrize("generation", [1, 2])
 
 
@@ -284,3 +286,15 @@ def test_client_passes_the_states_of_actionlib(state: str) -> None:
         wanted = None if text == "!" else [LETTERS[one] for one in text if one != "_"]
         assert (None if found is None else [one.name for one in found]) == wanted, column
     assert steps(CommState.LOST, ActionlibStatus.ACTIVE) is None
+
+
+@BOTH
+def test_goals_arrive_in_the_order_in_which_they_were_sent(
+    served: Served, client: ActionClient, generation: Any
+) -> None:
+    served.offer(generation)
+    client.require_server(stretched())
+    for order in range(_MANY):
+        client.send_goal({"order": order})
+    served.goal(_MANY - 1)
+    assert [goal.request.order for goal in served.goals.items] == list(range(_MANY))

@@ -16,6 +16,7 @@ from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, RawMessage
+from gazelle.graph.turns import InTurn, Turn, Turns
 from gazelle.interfaces import from_cdr
 
 if TYPE_CHECKING:
@@ -192,7 +193,7 @@ class Service:
         self._node = node
         group.add_entity(self)
         full = node.resolve_service_name(srv_name, only_expand=True)
-        self._impl = node.graph_node.create_service(full, srv_type, self._on_request)
+        self._impl = node.graph_node.create_service(full, srv_type, InTurn(self._on_request))
 
     @property
     def service_name(self) -> str:
@@ -203,8 +204,8 @@ class Service:
         """Stop answering."""
         self._impl.unregister()
 
-    def _on_request(self, request: Any) -> Any:
-        return self._node.run_and_wait(self.callback_group, lambda: self._respond(request))
+    def _on_request(self, request: Any) -> Callable[[], Any]:
+        return self._node.run(self.callback_group, lambda: self._respond(request))
 
     async def _respond(self, request: Any) -> Any:
         response = self.callback(request, self.srv_type.Response())
@@ -221,6 +222,7 @@ class Client:
         self._node = node
         full = node.resolve_service_name(srv_name, only_expand=True)
         self._impl = node.graph_node.create_client(full, srv_type)
+        self._turns = Turns()
 
     @property
     def service_name(self) -> str:
@@ -248,7 +250,10 @@ class Client:
             )
         future = Future(executor=self._node.executor)
         threading.Thread(
-            target=self._call, args=(request, future), name="service call", daemon=True
+            target=self._call,
+            args=(request, future, self._turns.take()),
+            name="service call",
+            daemon=True,
         ).start()
         return future
 
@@ -277,14 +282,16 @@ class Client:
         """Give the client up."""
         self._impl.unregister()
 
-    def _call(self, request: Any, future: Future) -> None:
+    def _call(self, request: Any, future: Future, turn: Turn) -> None:
         finish: Callable[[], Any]
         try:
-            # As in ROS 2 a request to a service that comes later is answered then.
-            while not self._impl.wait_for_service(0.2):
-                if not self._node.context.ok() or future.cancelled():
-                    return
-            response = self._impl.call(request)
+            with turn:
+                # As in ROS 2 a request to a service that comes later is answered then.
+                while not self._impl.wait_for_service(0.2):
+                    if not self._node.context.ok() or future.cancelled():
+                        return
+                answered = self._impl.send(request)
+            response = answered()
         except GazelleError as raised:
             error = raised
 

@@ -413,11 +413,10 @@ class Node(ParameterHolder, GraphQueries):
             work.callback_group.ending_execution(work)
         return None
 
-    def run_and_wait(self, group: CallbackGroup, callback: Callable[[], Any]) -> Any:
-        """Let the executor run a function or coroutine and wait for its value.
+    def run(self, group: CallbackGroup, callback: Callable[[], Any]) -> Callable[[], Any]:
+        """Let the executor run a function or coroutine; return what waits for its value.
 
-        Raises:
-            ServiceRefusedError: the node was destroyed meanwhile.
+        That raises `ServiceRefusedError` when the node is destroyed meanwhile.
         """
         done = threading.Event()
         found: list[Any] = []
@@ -429,15 +428,18 @@ class Node(ParameterHolder, GraphQueries):
             finally:
                 done.set()
 
+        def value() -> Any:
+            try:
+                done.wait()
+            finally:
+                self._answers.discard(done)
+            if not found:
+                raise ServiceRefusedError(f"node {self._full} could not answer")
+            return found[0]
+
         self._answers.add(done)
-        try:
-            self.post(Once(group, run))
-            done.wait()
-        finally:
-            self._answers.discard(done)
-        if not found:
-            raise ServiceRefusedError(f"node {self._full} could not answer")
-        return found[0]
+        self.post(Once(group, run))
+        return value
 
     @property
     def _full(self) -> str:
@@ -479,7 +481,7 @@ class Node(ParameterHolder, GraphQueries):
         """Handle a request in the thread that spins, so that callbacks meet no other thread."""
         if self.executor is None:
             return command()
-        return self.run_and_wait(self._default_callback_group, command)
+        return self.run(self._default_callback_group, command)()
 
     def _take_effect(self, changes: dict[str, Any]) -> None:
         if _SIM_TIME in changes:

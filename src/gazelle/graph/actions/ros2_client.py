@@ -15,6 +15,7 @@ from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import Kind
+from gazelle.graph.turns import Turn, Turns
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
@@ -30,6 +31,7 @@ class Ros2Client:
         self._node = node
         self._types = types
         self._goals: dict[str, ClientGoal] = {}
+        self._turns = Turns()
         self._lock = threading.RLock()
         folder = f"{name}/_action"
         self._send = node.create_client(f"{folder}/send_goal", types.SendGoal)
@@ -58,7 +60,7 @@ class Ros2Client:
         goal = ClientGoal(self, uuid.uuid4().hex, request, Ros2Status.UNKNOWN, **callbacks)
         with self._lock:
             self._goals[goal.goal_id] = goal
-        self._start(self._follow, goal)
+        self._start(self._follow, goal, self._turns.take())
         return goal
 
     def cancel_goal(self, goal: ClientGoal) -> None:
@@ -83,13 +85,15 @@ class Ros2Client:
     def _start(self, work: Callable[..., None], *args: Any) -> None:
         threading.Thread(target=work, args=args, name="action client", daemon=True).start()
 
-    def _follow(self, goal: ClientGoal) -> None:
-        """Send a goal and wait for its result."""
+    def _follow(self, goal: ClientGoal, turn: Turn) -> None:
+        """Send a goal, behind those before it, and wait for its result."""
         request = self._types.SendGoal.Request(goal=goal.request)
         request.goal_id.uuid = bytes.fromhex(goal.goal_id)
         answer, status, text = None, Ros2Status.UNKNOWN, ""
         try:
-            if not self._send.call(request).accepted:
+            with turn:
+                answered = self._send.send(request)
+            if not answered().accepted:
                 status = Ros2Status.REJECTED
             else:
                 self._news.put(lambda: self._set(goal, Ros2Status.ACCEPTED))

@@ -5,12 +5,14 @@ Source: https://design.ros2.org/articles/actions.html and ros2/rcl's ``rcl_actio
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.goal import ServerGoal
 from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.errors import ServiceRefusedError
+from gazelle.graph.turns import InTurn
 
 if TYPE_CHECKING:
     from gazelle.graph.actions.ports import ActionNode
@@ -35,7 +37,7 @@ class Ros2Wire:
             self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
             self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
             self._services = (
-                node.create_service(f"{name}/send_goal", types.SendGoal, self._on_goal),
+                node.create_service(f"{name}/send_goal", types.SendGoal, InTurn(self._on_goal)),
                 node.create_service(f"{name}/cancel_goal", types.CancelGoal, self._on_cancel),
                 node.create_service(f"{name}/get_result", types.GetResult, self._on_result),
             )
@@ -74,18 +76,23 @@ class Ros2Wire:
         for one in (*self._services, self._status, self._feedback):
             one.unregister()
 
-    def _on_goal(self, request: Any) -> Any:
+    def _on_goal(self, request: Any) -> Callable[[], Any]:
         goal_id = _hex(request.goal_id)
         response = self._types.SendGoal.Response(accepted=False)
         goal = ServerGoal(self._server, goal_id, self._server.now_ns(), request.goal)
-        if not self._server.ask(lambda: self._server.take(goal)):
+        taken = self._server.asked(lambda: self._server.take(goal))
+
+        def decided() -> Any:
+            if not taken():
+                return response
+            with self._server.waiting(goal.decided):
+                self._wait(goal.decided.is_set(), "decided on")
+                goal.decided.wait()
+            response.accepted = goal.status > Ros2Status.UNKNOWN
+            set_stamp(response.stamp, goal.stamp_ns)
             return response
-        with self._server.waiting(goal.decided):
-            self._wait(goal.decided.is_set(), "decided on")
-            goal.decided.wait()
-        response.accepted = goal.status > Ros2Status.UNKNOWN
-        set_stamp(response.stamp, goal.stamp_ns)
-        return response
+
+        return decided
 
     def _on_cancel(self, request: Any) -> Any:
         server = self._server

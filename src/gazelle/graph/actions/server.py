@@ -220,20 +220,34 @@ class ActionServer:
         Raises:
             ServiceRefusedError: the server was closed meanwhile.
         """
+        return self.asked(work)()
+
+    def asked(self, work: Callable[[], _T]) -> Callable[[], _T]:
+        """Let something be done in the owner's thread; return a function that waits for its value.
+
+        What is asked for first is done first.
+        """
         found: list[_T] = []
-        with self.waiting() as done:
+        done = threading.Event()
+        self._waiting.add(done)
+        if self._closed:
+            done.set()
 
-            def do() -> None:
-                try:
-                    found.append(work())
-                finally:
-                    done.set()
+        def do() -> None:
+            try:
+                found.append(work())
+            finally:
+                done.set()
 
-            self._run(do)
-            done.wait()
-        if not found:
-            raise ServiceRefusedError(f"action server {self.name} could not answer")
-        return found[0]
+        def value() -> _T:
+            with self.waiting(done):
+                done.wait()
+            if not found:
+                raise ServiceRefusedError(f"action server {self.name} could not answer")
+            return found[0]
+
+        self._run(do)
+        return value
 
     @contextmanager
     def waiting(self, event: threading.Event | None = None) -> Iterator[threading.Event]:
