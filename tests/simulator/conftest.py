@@ -74,7 +74,7 @@ def drive_keys() -> str:
     return DRIVE
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def bare_workspace() -> Workspace:
     """Built-in packages only."""
     return Workspace.discover(environ={}, cwd=Path("/"))
@@ -98,7 +98,7 @@ def load(bare_workspace: Workspace) -> Iterator[Callable[..., Simulation]]:
         sim.close()
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def documents(workspaces_dir: Path) -> Workspace:
     """The documents' own packages and models, unmodified."""
     environ = {

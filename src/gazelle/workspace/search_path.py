@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from gazelle.workspace.crawler import FoundPackage, crawl_prefix, crawl_source, manifest_in
@@ -83,8 +83,7 @@ def package_sources(
                     PackageSource(f"{variable}: {prefix}", partial(crawl_prefix, prefix))
                 )
     sources.extend(_around(cwd))
-    own = BUILTIN / "packages"
-    sources.append(PackageSource("packages of Gazelle", partial(crawl_source, own), True))
+    sources.append(PackageSource("packages of Gazelle", _builtin_packages, True))
     return tuple(sources)
 
 
@@ -102,6 +101,12 @@ def resource_folders(environ: Mapping[str, str]) -> ResourceFolders:
     return ResourceFolders(
         tuple(dict.fromkeys(models)), tuple(fuel), tuple(dict.fromkeys(resources))
     )
+
+
+@cache
+def _builtin_packages() -> tuple[FoundPackage, ...]:
+    """Gazelle's own packages stay what they are while a process runs."""
+    return tuple(crawl_source(BUILTIN / "packages"))
 
 
 def _fuel_root(environ: Mapping[str, str], home: Path, brand: str) -> Path:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
@@ -176,7 +176,10 @@ class _Packages(Mapping[str, Package]):
             self._crawl_next()
         if name not in self._parsed:
             found, is_builtin = self._found[name]
-            manifest = self._manifest(found)
+            if is_builtin and found.manifest is not None:
+                manifest = _builtin_manifest(found.manifest)
+            else:
+                manifest = self._manifest(found)
             self._parsed[name] = package_from(found, manifest, is_builtin=is_builtin)
         return self._parsed[name]
 
@@ -231,3 +234,9 @@ class _Packages(Mapping[str, Package]):
                 SourceSpan(str(found.manifest), 1),
             )
         return manifest
+
+
+@cache
+def _builtin_manifest(path: Path) -> Manifest:
+    """Return the manifest of one of Gazelle's own packages, which no process sees change."""
+    return read_manifest(path)
