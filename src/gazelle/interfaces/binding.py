@@ -7,9 +7,11 @@ A class of either generation can be written in the layout of either, so a ROS 1 
 from __future__ import annotations
 
 import enum
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from gazelle.errors import InterfaceError
+from gazelle.interfaces import library
 from gazelle.interfaces.definition import (
     FORMATS,
     Array,
@@ -103,6 +105,12 @@ def bind(name: str, generation: Generation, wire: Wire) -> Layout:
         NotFoundError: nothing defines the type.
         InterfaceError: the two definitions give one field two kinds of values.
     """
+    return _bound(name, generation, wire, library.revision())
+
+
+@lru_cache(maxsize=2048)
+def _bound(name: str, generation: Generation, wire: Wire, _revision: int) -> Layout:
+    """Messages hold the same few others, which writer and reader of each need."""
     own = definition(name, generation)
     target = _wire_definition(name, generation, wire)
     own_fields = {item.name: item for item in own.fields}
