@@ -25,6 +25,9 @@ _FULL = 255
 _MOST = 256
 # Points between two looks at whether the rest can still matter.
 _PART = 40
+# So many are sorted by insertion; so many parts wait at most.
+_FEW = 15
+_DEEPEST = 100
 
 
 @njit(cache=True, nogil=True)
@@ -187,6 +190,67 @@ def _best_of_block(values, words, cells, box, ox, oy, reach, done, best, sums):
 
 
 @njit(cache=True, nogil=True)
+def _descending(bounds):
+    """Return the order of bounds from the greatest on.
+
+    It is that of numba's ``argsort``, equal ones included, which takes seconds to compile.
+    """
+    count = bounds.shape[0]
+    order = np.arange(count)
+    stack = np.empty((_DEEPEST, 2), np.int64)
+    stack[0, 0], stack[0, 1] = 0, count - 1
+    depth = 1
+    while depth > 0:
+        depth -= 1
+        low, high = stack[depth, 0], stack[depth, 1]
+        while high - low >= _FEW:
+            at = _divided(bounds, order, low, high)
+            # The longer part waits.
+            if high - at > at - low:
+                stack[depth, 0], stack[depth, 1] = at + 1, high
+                high = at - 1
+            else:
+                stack[depth, 0], stack[depth, 1] = low, at - 1
+                low = at + 1
+            depth += 1
+        for i in range(low + 1, high + 1):
+            one = order[i]
+            j = i
+            while j > low and bounds[one] > bounds[order[j - 1]]:
+                order[j] = order[j - 1]
+                j -= 1
+            order[j] = one
+    return order
+
+
+@njit(cache=True, nogil=True)
+def _divided(bounds, order, low, high):
+    """Put what is greater than a middle one before it, the rest after it; return its place."""
+    mid = (low + high) >> 1
+    if bounds[order[mid]] > bounds[order[low]]:
+        order[low], order[mid] = order[mid], order[low]
+    if bounds[order[high]] > bounds[order[mid]]:
+        order[high], order[mid] = order[mid], order[high]
+    if bounds[order[mid]] > bounds[order[low]]:
+        order[low], order[mid] = order[mid], order[low]
+    pivot = bounds[order[mid]]
+    order[high], order[mid] = order[mid], order[high]
+    i, j = low, high - 1
+    while True:
+        while i < high and bounds[order[i]] > pivot:
+            i += 1
+        while j >= low and pivot > bounds[order[j]]:
+            j -= 1
+        if i >= j:
+            break
+        order[i], order[j] = order[j], order[i]
+        i += 1
+        j -= 1
+    order[i], order[high] = order[high], order[i]
+    return i
+
+
+@njit(cache=True, nogil=True)
 def bound_search(values, words, levels, cells, boxes, reach, done, least):
     """Branch and bound over turns and whole-cell shifts (Hess et al. 2016).
 
@@ -217,7 +281,7 @@ def bound_search(values, words, levels, cells, boxes, reach, done, least):
             if worth > best:
                 roots[count], bounds[count] = t * m + k, worth
                 count += 1
-    order = np.argsort(-bounds[:count])
+    order = _descending(bounds[:count])
     stack = np.empty((4 * depth + 4, 3), np.int64)
     worths = np.empty(4 * depth + 4)
     sums = np.empty((_SIDE, _SIDE), np.int64)
@@ -261,7 +325,9 @@ def bound_search(values, words, levels, cells, boxes, reach, done, least):
                     at = top
                     while at > first and worths[at - 1] > worth:
                         worths[at] = worths[at - 1]
-                        stack[at] = stack[at - 1]
+                        # One by one: an assignment of rows takes seconds to compile.
+                        for k in range(3):
+                            stack[at, k] = stack[at - 1, k]
                         at -= 1
                     worths[at] = worth
                     stack[at, 0], stack[at, 1], stack[at, 2] = h - 1, x, y
