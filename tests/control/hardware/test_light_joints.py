@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from tests.control.hardware.rig import block, joint, ros1_rig, ros2_rig, transmission
+from tests.sets import few
 
 from gazelle.control.pid import Pid, PidGains
 
@@ -36,10 +39,17 @@ def follow(rig, gains, target, steps):
     return np.array(seen).T
 
 
+FRICTIONS, INERTIAS = (0.0, 1.0, 10.0), (1e-8, 1e-6, 1e-4)
+GAINS = ((100.0, 10.0), (100.0, 1.0), (1000.0, 0.1))
+# Any two of the three values meet in a part of them already.
+SQUARE = [
+    (FRICTIONS[k], INERTIAS[n], *GAINS[(k + n) % 3]) for k in range(3) for n in range(3)
+]  # fmt: skip
+CUBE = [(*some, *gains) for some in itertools.product(FRICTIONS, INERTIAS) for gains in GAINS]
+
+
 @pytest.mark.parametrize("build", [ros1_rig, ros2_rig])
-@pytest.mark.parametrize("friction", [0.0, 1.0, 10.0])
-@pytest.mark.parametrize("inertia", [1e-8, 1e-6, 1e-4])
-@pytest.mark.parametrize(("p", "d"), [(100.0, 10.0), (100.0, 1.0), (1000.0, 0.1)])
+@pytest.mark.parametrize(("friction", "inertia", "p", "d"), few(SQUARE, CUBE))
 def test_light_joint_reaches_its_target_and_stays(build, friction, inertia, p, d):
     drive = transmission("j") if build is ros1_rig else block(joint("j", ("effort",)))
     rig = build(light(inertia, friction), drive)
