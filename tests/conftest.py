@@ -311,7 +311,7 @@ class Launched:
 
 
 @contextlib.contextmanager
-def _reserved_port() -> Iterator[int]:
+def reserved_port() -> Iterator[int]:
     """A port nobody listens on, and that no other test of this machine gets meanwhile.
 
     It lies below the range that the system hands out by itself: a port asked for with number 0
@@ -334,7 +334,7 @@ def _reserved_port() -> Iterator[int]:
 def next_port() -> Iterator[Callable[[], int]]:
     """Gives ports that nobody else gets before the test has ended."""
     with contextlib.ExitStack() as reserved:
-        yield lambda: reserved.enter_context(_reserved_port())
+        yield lambda: reserved.enter_context(reserved_port())
 
 
 @pytest.fixture
@@ -346,24 +346,21 @@ def free_port(next_port: Callable[[], int]) -> int:
 Run = Callable[..., Launched]
 
 
-@pytest.fixture
-def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
-    """Runs ``gazelle WORDS…`` on a port of the test's own; everything ends with the test.
-
-    `module` is run in place of ``gazelle``, as ``python -m`` does.
-    """
+@contextlib.contextmanager
+def commands(folder: Path, graph_port: int) -> Iterator[Run]:
+    """What the fixture `gazelle` gives, in a folder and on a port; for fixtures of modules."""
     running: list[Launched] = []
 
     def run(
         *words: str,
-        cwd: Path = tmp_path,
-        port: int = free_port,
+        cwd: Path = folder,
+        port: int = graph_port,
         stdin: Any = None,
         module: str = "gazelle.cli",
         **environ: str,
     ) -> Launched:
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
-        own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(tmp_path / "ros_home")}
+        own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(folder / "ros_home")}
         own |= {"GAZELLE_STUDIO": "0", **environ}
         command = [sys.executable, "-m", module, *words]
         running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
@@ -372,6 +369,16 @@ def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
     yield run
     for one in reversed(running):
         one.close()
+
+
+@pytest.fixture
+def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
+    """Runs ``gazelle WORDS…`` on a port of the test's own; everything ends with the test.
+
+    `module` is run in place of ``gazelle``, as ``python -m`` does.
+    """
+    with commands(tmp_path, free_port) as run:
+        yield run
 
 
 @pytest.fixture

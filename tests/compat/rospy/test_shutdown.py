@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import signal
-import subprocess
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.conftest import commands, reserved_port
+from tests.patience import eventually
 
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.interfaces import service_type
 
 Run = Callable[..., Any]
@@ -89,62 +92,87 @@ _WAITS = {
 }
 
 
-@pytest.mark.parametrize("wait", sorted(_WAITS))
-def test_interrupt_ends_every_wait_without_a_traceback(program: Run, node: Node, wait: str) -> None:
-    """By itself nothing waited for here comes within a test's patience."""
+_HEAD = (
+    "import os, signal, subprocess, sys, threading, time\nimport actionlib, rospy\n"
+    "from actionlib_tutorials.msg import FibonacciAction\n"
+    "from std_msgs.msg import String\nfrom std_srvs.srv import Empty\n"
+    "rospy.init_node('waiting', anonymous=True)\nrospy.wait_for_service('hold')\n"
+    "sleeper = threading.Thread(target=time.sleep, args=(300,))\n"
+    "def saves():\n"
+    "    while not os.path.exists('go_on'):\n        rospy.sleep(0.01)\n"
+    "    print('saved', flush=True)\n"
+)
+_SAVES = {
+    "knows": "print('ready', flush=True)\nrospy.spin()\nsaves()\n",
+    # The second Ctrl-C comes as soon as the first one has shut the node down.
+    "asked twice": "def again(_):\n    os.kill(os.getpid(), signal.SIGINT)\n"
+    "rospy.core.add_shutdown_hook(again)\n"
+    "print('ready', flush=True)\n"
+    "try:\n    while True:\n        time.sleep(0.01)\n"
+    "except KeyboardInterrupt:\n    print('interrupted', flush=True)\n    saves()\n",
+}
+
+
+@dataclass
+class _Interrupted:
+    """Programs that all have heard Ctrl-C at the same time, and what there is of them."""
+
+    programs: dict[str, Any]
+    go_on: Path
+
+
+@pytest.fixture(scope="module")
+def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Iterator[_Interrupted]:
+    """Interrupted once they wait: together, as each may go on for a while of wall time."""
+    folder = tmp_path_factory.mktemp("interrupted")
     asked, held = threading.Event(), threading.Event()
 
     def hold(_request: Any) -> Any:
         asked.set()
         held.wait()
 
-    node.create_service("/hold", Empty, hold)
-    waiting = program(
-        "import subprocess, sys, threading, time\nimport actionlib, rospy\n"
-        "from actionlib_tutorials.msg import FibonacciAction\n"
-        "from std_msgs.msg import String\nfrom std_srvs.srv import Empty\n"
-        "rospy.init_node('waiting')\nrospy.wait_for_service('hold')\n"
-        "sleeper = threading.Thread(target=time.sleep, args=(300,))\n"
-        f"print('ready', flush=True)\n{_WAITS[wait]}\n"
-    )
-    waiting.wait_for_line("^ready$")
-    if wait == "call":
-        waiting.eventually(asked.is_set)
-    assert waiting.stop(signal.SIGINT) == (9 if wait == "action" else 130), waiting.text
-    held.set()
+    texts = {name: f"print('ready', flush=True)\n{wait}\n" for name, wait in _WAITS.items()}
+    programs: dict[str, Any] = {}
+    with (
+        reserved_port() as port,
+        Graph.open(port=port, role="hub", environ={}) as graph,
+        commands(folder, port) as run,
+    ):
+        graph.create_node("test", rosout=False).create_service("/hold", Empty, hold)
+        for name, text in (texts | _SAVES).items():
+            file = folder / f"{name}.py"
+            file.write_text(_HEAD + text, encoding="utf-8")
+            programs[name] = run(str(file), module="gazelle.compat.runner")
+        for one in programs.values():
+            one.wait_for_line("^ready$")
+        eventually(asked.is_set)
+        for one in programs.values():
+            one.popen.send_signal(signal.SIGINT)
+        yield _Interrupted(programs, folder / "go_on")
+        held.set()
+
+
+@pytest.mark.parametrize("wait", sorted(_WAITS))
+def test_interrupt_ends_every_wait_without_a_traceback(
+    interrupted: _Interrupted, wait: str
+) -> None:
+    """By itself nothing waited for here comes within a test's patience."""
+    waiting = interrupted.programs[wait]
+    assert waiting.wait() == (9 if wait == "action" else 130), waiting.text
     assert TRACEBACK not in waiting.text
 
 
-def test_program_that_knows_of_the_shutdown_is_left_to_its_end(program: Run, tmp_path: Any) -> None:
-    go_on = tmp_path / "go_on"
-    saving = program(
-        "import os, rospy\nrospy.init_node('saving')\nprint('ready', flush=True)\n"
-        "rospy.spin()\n"
-        f"while not os.path.exists({str(go_on)!r}):\n    rospy.sleep(0.01)\n"
-        "print('saved', flush=True)\n"
-    )
-    saving.wait_for_line("^ready$")
-    saving.popen.send_signal(signal.SIGINT)
-    with pytest.raises(subprocess.TimeoutExpired):
-        # Longer than one that does not know may take.
-        saving.popen.wait(4.0)
-    go_on.touch()
-    assert saving.wait() == 0 and "saved" in saving.lines
-
-
-def test_second_interrupt_ends_a_program_that_does_not_listen(program: Run) -> None:
-    deaf = program(
-        "import rospy, time\nrospy.init_node('deaf')\n"
-        "rospy.core.add_shutdown_hook(lambda _: print('first', flush=True))\n"
-        "print('ready', flush=True)\n"
-        "try:\n    while True:\n        time.sleep(0.01)\n"
-        "except KeyboardInterrupt:\n    print('interrupted', flush=True)\n"
-    )
-    deaf.wait_for_line("^ready$")
-    deaf.popen.send_signal(signal.SIGINT)
-    deaf.wait_for_line("^first$")
-    assert deaf.stop(signal.SIGINT) == 0, deaf.text
-    assert "interrupted" in deaf.lines
+def test_program_that_knows_of_its_end_is_left_to_it(interrupted: _Interrupted) -> None:
+    """It has seen the shutdown, or a second Ctrl-C; those that have not are ended meanwhile."""
+    for wait in _WAITS:
+        interrupted.programs[wait].wait()
+    for name in _SAVES:
+        assert interrupted.programs[name].popen.poll() is None, interrupted.programs[name].text
+    interrupted.go_on.touch()
+    for name in _SAVES:
+        saving = interrupted.programs[name]
+        assert saving.wait() == 0 and "saved" in saving.lines, saving.text
+    assert "interrupted" in interrupted.programs["asked twice"].lines
 
 
 def test_waiting_for_a_service_for_no_time_is_refused(passes: Run) -> None:

@@ -50,6 +50,7 @@ class NodeState:
         self.stopping = threading.Event()
         self._aware: set[int] = set()
         self._cut_short: set[int] = set()
+        self._asked_twice = False
         self._finished = threading.Event()
         self.reason = ""
         self._hooks: list[Callable[[], Any]] = []
@@ -244,6 +245,7 @@ class NodeState:
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if number == signal.SIGINT and self.stopping.is_set():
             # Who asks once more does not want to wait.
+            self._asked_twice = True
             signal.default_int_handler(number, frame)
         if number == signal.SIGINT:
             threading.Thread(target=self._end_what_waits, daemon=True).start()
@@ -269,7 +271,8 @@ class NodeState:
         main = threading.main_thread().ident
         assert main is not None
         if not _has_code(sys._current_frames().get(main), _JOINING):
-            if main not in self._aware:
+            # One that was interrupted already may be busy with its own end.
+            if main not in self._aware and not self._asked_twice:
                 signal.pthread_kill(main, signal.SIGINT)
             return
         others = [one for one in threading.enumerate() if one.ident != main and not one.daemon]
