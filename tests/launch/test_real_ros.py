@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 from tests.bridge.ros1.real import Ros1
 
-from gazelle.launch.real_ros import real_ros
+from gazelle.launch import real_ros as module
+from gazelle.launch.real_ros import RealRos, join, real_ros
 
 Run = Callable[..., Any]
 _WORLD = '<sdf version="1.6"><world name="w"/></sdf>'
@@ -76,7 +77,32 @@ def test_a_simulator_joins_and_takes_the_bridge_along(
     run.eventually(lambda: run.processes() == {})
 
 
-def test_what_is_no_master_is_left_alone() -> None:
+def test_a_bridge_that_has_ended_is_not_waited_for() -> None:
+    class Supervisor:
+        def start(self, spec: Any, executable: Any, *, core: bool) -> bool:
+            return True
+
+        def runs(self, spec: Any) -> bool:
+            return False
+
+    lines: list[str] = []
+
+    class Console:
+        plain = warning = lines.append
+
+    class NoParameters:
+        def has(self, name: str) -> bool:
+            return False
+
+    graph: Any = type("Graph", (), {"parameters": NoParameters()})
+    supervisor: Any = Supervisor()
+    console: Any = Console()
+    join([RealRos("ros1", "a ROS 1 master runs", run_id="r")], supervisor, graph, console)
+    assert lines[-1] == "the bridge to ros1 is not ready; the launch goes on"
+
+
+def test_what_is_no_master_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_ANSWER_S", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         uri = f"http://127.0.0.1:{silent.getsockname()[1]}"
         assert real_ros({"ROS_MASTER_URI": uri}, tuple) == []

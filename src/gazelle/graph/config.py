@@ -74,12 +74,17 @@ def peer_config(port: int) -> zenoh.Config:
     )
 
 
-def client_config(port: int) -> zenoh.Config:
-    """Return the setting of a command-line tool: opens only when a hub is there."""
+def client_config(port: int, patience_s: float = 0.5) -> zenoh.Config:
+    """Return the setting of a command-line tool: opens only when a hub is there.
+
+    Args:
+        port: the hub's.
+        patience_s: how long who listens there may take to answer as a hub does.
+    """
     return _config(
         "client",
         connect=[_endpoint(port)],
-        settings={"connect/timeout_ms": 500, "connect/exit_on_failure": True},
+        settings={"connect/timeout_ms": round(patience_s * 1000), "connect/exit_on_failure": True},
     )
 
 

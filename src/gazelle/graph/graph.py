@@ -401,7 +401,8 @@ def _open_client(port: int) -> zenoh.Session:
             "ROS_DOMAIN_ID and ROS_MASTER_URI must be the same in all shells"
         )
     try:
-        return zenoh.open(client_config(port))
+        # A hub on a busy machine is silent as a stranger is, for a second and more.
+        return zenoh.open(client_config(port, _HUB_S))
     except zenoh.ZError as error:
         raise _port_taken(port) from error
 

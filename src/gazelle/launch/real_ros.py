@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
@@ -32,8 +33,10 @@ NodeNames = Callable[[], Collection[str]]
 
 _VARIABLE = "GAZELLE_BRIDGE"
 _NO = frozenset({"0", "no", "off", "false"})
-_ANSWER_S = 0.5
-_JOIN_S = 10.0
+_CONNECT_S = 0.5
+# Who has taken the connection is there, and may have much else to do.
+_ANSWER_S = 3.0
+_JOIN_S = 60.0
 _LOOK_AGAIN_S = 0.01
 _CALLER = "/roslaunch"
 _ROSOUT = "/rosout"
@@ -111,21 +114,26 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
         )
         spec = NodeSpec("gazelle", "bridge", f"{one.bridge}_bridge", output="screen")
         supervisor.start(spec, _bridge_command(one.bridge), core=True)
-        if not _is_joined(one, graph):
+        if not _is_joined(one, graph, partial(supervisor.runs, spec)):
             console.warning(f"the bridge to {one.bridge} is not ready; the launch goes on")
 
 
-def _is_joined(one: RealRos, graph: Graph) -> bool:
-    """Wait until a bridge has brought parameters and nodes of a real ROS over."""
+def _is_joined(one: RealRos, graph: Graph, goes_on: Callable[[], bool]) -> bool:
+    """Wait until a bridge has brought parameters and nodes of a real ROS over.
+
+    A launch that went on before a slow bridge would lose its parameters to it, so it is given all
+    the time that a busy machine may need; one that has ended is not waited for.
+    """
     deadline, pause = time.monotonic() + _JOIN_S, threading.Event()
     while not (_has_parameters(one, graph) and _has_rosout(one, graph)):
-        if time.monotonic() > deadline:
+        if time.monotonic() > deadline or not goes_on():
             return False
         pause.wait(_LOOK_AGAIN_S)
     return True
 
 
 def _has_parameters(one: RealRos, graph: Graph) -> bool:
+    # The bridge brings this one last.
     store = graph.parameters
     return not one.run_id or (store.has("/run_id") and store.get("/run_id") == one.run_id)
 
@@ -165,7 +173,7 @@ def _somebody_listens(uri: str) -> bool:
     try:
         parts = urlsplit(uri)
         place = (parts.hostname or "", parts.port or 0)
-        socket.create_connection(place, _ANSWER_S).close()
+        socket.create_connection(place, _CONNECT_S).close()
     except (OSError, ValueError):
         return False
     return True

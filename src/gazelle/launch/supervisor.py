@@ -124,6 +124,11 @@ class Supervisor:
             self._core.add(label)
         return self._start(label, spec)
 
+    def runs(self, spec: NodeSpec) -> bool:
+        """Return whether a node that was started in a process of its own has not ended."""
+        started = [item.popen for item in self._running if item.spec is spec]
+        return any(popen is not None and popen.poll() is None for popen in started)
+
     def _start(self, label: str, spec: NodeSpec) -> bool:
         try:
             process = self._begin(label, spec)

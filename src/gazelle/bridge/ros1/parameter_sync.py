@@ -15,6 +15,7 @@ from gazelle.graph.parameter_tree import ParameterTree
 __all__ = ["ParameterSync"]
 
 _ROOT = "/"
+_RUN_ID = "/run_id"
 _MISSING: Any = object()
 
 
@@ -49,6 +50,9 @@ class ParameterSync:
     def start(self, uri: str) -> None:
         """Bring both together; where both have a value the master's counts.
 
+        The master's ``/run_id`` comes last: a launch sets its own parameters when it sees that,
+        and nothing of the master's may arrive behind them.
+
         Args:
             uri: slave server that is told of changes.
 
@@ -60,13 +64,16 @@ class ParameterSync:
         self._known.replace(theirs if isinstance(theirs, dict) else {}, 0)
         ours = ParameterTree(self._store.get(_ROOT, {}))
         for name in self._known.names():
-            self._store_value(name, self._known.get(name))
+            if name != _RUN_ID:
+                self._store_value(name, self._known.get(name))
         for name in ours.names():
             if not self._known.has(name):
                 self._send(name)
         if not self._listens:
             self._listens = True
             self._store.on_change(lambda name: self._mailbox.put((self._send, name)))
+        if self._known.has(_RUN_ID):
+            self._store_value(_RUN_ID, self._known.get(_RUN_ID))
 
     def changed(self, name: str, value: Any) -> None:
         """Take a change that the master tells of; an empty dictionary means it was deleted."""
