@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 _GAZELLE = f"{sys.executable} -m gazelle.cli"
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="devices and pipes are files elsewhere")
@@ -15,7 +16,7 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="devices and pipes are f
 
 def _run(words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        ["bash", "-c", words], capture_output=True, text=True, timeout=60, check=False
+        ["bash", "-c", words], capture_output=True, text=True, timeout=stretched(), check=False
     )
 
 

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import ros1_message_type
@@ -30,7 +31,7 @@ def test_hz_ends_with_ctrl_c_and_no_traceback(robot: Node, pump, started: list[s
         assert process.stdout.readline() == "subscribed to [/chat]\n"
         assert process.stdout.readline().startswith("average rate: ")
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=20)
+        _, err = process.communicate(timeout=stretched())
     assert (process.returncode, err) == (0, "")
 
 
@@ -41,7 +42,7 @@ def test_echo_ends_when_its_reader_goes(robot: Node, pump) -> None:
     pump(lambda: publisher.publish(kind(data="hi")))
     command = f"{sys.executable} -m gazelle.cli rostopic echo /chat | head -n 1"
     found = subprocess.run(
-        ["/bin/sh", "-c", command], capture_output=True, text=True, timeout=20, check=True
+        ["/bin/sh", "-c", command], capture_output=True, text=True, timeout=stretched(), check=True
     )
     assert (found.stdout, found.stderr) == ('data: "hi"\n', "")
 
@@ -73,7 +74,7 @@ def test_a_reader_that_has_gone_is_no_error(words: list[str], unbuffered: str) -
         stdout=writer,
         stderr=subprocess.PIPE,
         text=True,
-        timeout=60,
+        timeout=stretched(),
         check=False,
         env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
     )
@@ -86,7 +87,7 @@ def test_a_reader_that_has_gone_is_no_error(words: list[str], unbuffered: str) -
 
 def test_unknown_topic_is_exit_code_1(graph: Graph) -> None:
     words = [*_GAZELLE, "rostopic", "info", "/nothing"]
-    found = subprocess.run(words, capture_output=True, text=True, timeout=20, check=False)
+    found = subprocess.run(words, capture_output=True, text=True, timeout=stretched(), check=False)
     assert (found.returncode, found.stderr) == (1, "ERROR: Unknown topic /nothing\n")
 
 
@@ -98,5 +99,5 @@ def test_commands_start_without_the_heavy_modules(graph: Graph) -> None:
         f"print(code, [name for name in {heavy!r} if name in sys.modules])"
     )
     words = [sys.executable, "-c", text]
-    found = subprocess.run(words, capture_output=True, text=True, timeout=20, check=True)
+    found = subprocess.run(words, capture_output=True, text=True, timeout=stretched(), check=True)
     assert found.stdout.splitlines()[-1] == "0 []"

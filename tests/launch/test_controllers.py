@@ -59,7 +59,7 @@ def test_lockstep_launches_with_controllers_have_one_state(in_workspace, tmp_pat
     file = tmp_path / "mira.launch"
     file.write_text(LAUNCH)
     hashes = set()
-    for _ in range(3):
+    for _ in range(2):
         words = ("roslaunch", "--lockstep", "--iters", "400", str(file))
         launched = in_workspace(*words, port=next_port())
         started = launched.wait_for_line("Started controllers: ")

@@ -11,8 +11,8 @@ from typing import Any
 
 import psutil
 import pytest
+from tests.patience import stretched
 
-PATIENCE_S = 60.0
 _ROS1 = '<launch><node pkg="tests_pkg" type="does" name="stays" args="{args}"/></launch>'
 _ROS2 = """
 from launch import LaunchDescription
@@ -62,9 +62,9 @@ def test_launch_ends_with_its_reader(
         next(line for line in launch.stdout if "started with pid" in line)
         everything = psutil.Process(launch.pid).children(recursive=True)
         launch.stdout.close()
-        assert launch.wait(PATIENCE_S) == 0
+        assert launch.wait(stretched()) == 0
     finally:
         launch.kill()
-    assert not psutil.wait_procs(everything, PATIENCE_S)[1]
+    assert not psutil.wait_procs(everything, stretched())[1]
     told = (tmp_path / "errors").read_text()
     assert "BrokenPipeError" not in told and "Traceback" not in told, told

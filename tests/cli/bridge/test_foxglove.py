@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.cli.bridge import main
 
@@ -22,11 +23,11 @@ def test_bridge_says_where_it_listens(needs_sdk: None, gazelle: Run) -> None:
     run = gazelle("bridge", "foxglove", "--port", "0")
     port = int(run.wait_for_line(r"^the bridge listens at ws://127\.0\.0\.1:\d+$").split(":")[-1])
     run.wait_for_line("in Foxglove: Open connection, Foxglove WebSocket, this address")
-    socket.create_connection(("127.0.0.1", port), timeout=30).close()
+    socket.create_connection(("127.0.0.1", port), timeout=stretched()).close()
     assert run.stop() == 0
     assert "gazelle bridge foxglove:" not in run.text
     with pytest.raises(OSError):
-        socket.create_connection(("127.0.0.1", port), timeout=30)
+        socket.create_connection(("127.0.0.1", port), timeout=stretched())
 
 
 @pytest.mark.parametrize(

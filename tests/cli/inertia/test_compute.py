@@ -6,6 +6,7 @@ import json
 import math
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ M, R, L = 3.0, 0.4, 1.5
 PI = math.pi
 XYZ, RPY = (0.3, -0.2, 0.7), (0.4, -0.9, 1.3)
 T_link_body = Pose.from_xyz_rpy(XYZ, RPY)
-_STEPS = 160
+_STEPS = 112
 
 ROUND = ["--radius", str(R), "--length", str(L)]
 BALL = ["--radius", str(R)]
@@ -159,6 +160,12 @@ FINE: dict[str, tuple[list[str], Callable[[], np.ndarray]]] = {
 }
 
 
+@cache
+def fine(name: str) -> np.ndarray:
+    """The triangles of a body, which several tests write."""
+    return FINE[name][1]()
+
+
 def write_stl(file: Path, triangles: np.ndarray) -> None:
     rows = np.zeros(len(triangles), [("n", "<f4", 3), ("v", "<f4", (3, 3)), ("x", "<u2")])
     rows["v"] = triangles
@@ -167,8 +174,8 @@ def write_stl(file: Path, triangles: np.ndarray) -> None:
 
 @pytest.mark.parametrize("name", FINE)
 def test_fine_mesh_translated_and_rotated(capsys, tmp_path: Path, name: str) -> None:
-    options, make = FINE[name]
-    triangles = T_link_body.transform(make().reshape(-1, 3)).reshape(-1, 3, 3)
+    options, _ = FINE[name]
+    triangles = T_link_body.transform(fine(name).reshape(-1, 3)).reshape(-1, 3, 3)
     file = tmp_path / "body.stl"
     write_stl(file, triangles)
     pose = ["--xyz", *map(str, XYZ), "--rpy", *map(str, RPY)]
@@ -183,9 +190,9 @@ def test_fine_mesh_translated_and_rotated(capsys, tmp_path: Path, name: str) -> 
 
 @pytest.mark.parametrize("name", [name for name in FINE if name != "slender rod"])
 def test_density_times_volume_or_area(capsys, tmp_path: Path, name: str) -> None:
-    options, make = FINE[name]
+    options, _ = FINE[name]
     file = tmp_path / "body.stl"
-    write_stl(file, make())
+    write_stl(file, fine(name))
     shell = ["--shell"] if "shell" in name else []
     body = run(capsys, *name.split(), *options, "--density", "500")
     mesh = run(capsys, str(file), "--density", "500", *shell)

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from tests.control.manager_world import manager_world
+from tests.patience import stretched
 
 from gazelle.cli import controller_manager
 from gazelle.cli.ros2 import control
@@ -286,10 +287,11 @@ def test_a_manager_that_is_named_is_waited_for_and_said_once(ros1, capsys, monke
         target=lambda: client.find(may_be_another=False, late=told.set), daemon=True
     )
     asking.start()
-    assert told.wait(30)
+    assert told.wait(stretched())
     stop.wait(0.3)
     stop.set()
-    asking.join(30)
+    asking.join(stretched())
+    assert not asking.is_alive()
     line = "waiting for /leg/controller_manager; controller managers are: /mira/controller_manager"
     assert capsys.readouterr().err.splitlines() == [line]
 

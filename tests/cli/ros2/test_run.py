@@ -19,10 +19,12 @@ _NODES = """
 import signal, sys
 
 def talk():
+    # Held before the word that lets the test send it.
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
     print(*sys.argv[1:], flush=True)
     if "wait" in sys.argv:
-        signal.signal(signal.SIGTERM, lambda *_: sys.exit(5))
-        signal.pause()
+        signal.sigwait({signal.SIGTERM})
+        sys.exit(5)
     sys.exit(3 if "fail" in sys.argv else 0)
 """
 

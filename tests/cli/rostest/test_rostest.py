@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.cli.rostest.results import Case, read_cases, write_suite
 from gazelle.compat.rostest import rosrun
@@ -22,7 +23,7 @@ class TestIt(unittest.TestCase):
         self.assertEqual(rospy.get_param("/limit"), 7)
     def test_hears(self):
         if rospy.get_param("~listens", False):
-            self.assertEqual(rospy.wait_for_message("/count", Int32, 20).data, 5)
+            self.assertEqual(rospy.wait_for_message("/count", Int32, PATIENCE_S).data, 5)
     def test_slow(self):
         time.sleep(rospy.get_param("~sleep", 0))
     def test_equal(self):
@@ -52,7 +53,10 @@ def package(tmp_path: Path) -> Path:
         "</package>",
         encoding="utf-8",
     )
-    for name, text in (("it.py", _TEST), ("talker.py", _TALKER)):
+    for name, text in (
+        ("it.py", _TEST.replace("PATIENCE_S", str(stretched()))),
+        ("talker.py", _TALKER),
+    ):
         (folder / "test" / name).write_text(text, encoding="utf-8")
         (folder / "test" / name).chmod(0o755)
     return folder

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import PATIENCE_S, at_most
 
 from gazelle.launch.ros2 import Action, LaunchContext, LaunchDescription, LaunchDescriptionSource
 from gazelle.launch.ros2 import actions as a
@@ -227,16 +228,15 @@ def UnregisterEventHandler(run: Run) -> None:
 def Shutdown(run: Run) -> None:
     reasons = []
     told = OnShutdown(on_shutdown=lambda event, _context: reasons.append(event.reason))
-    began = time.monotonic()
-    ran = run(
-        a.RegisterEventHandler(told),
-        a.ExecuteProcess(cmd=["sleep", "60"]),
-        a.TimerAction(period=60.0, actions=[]),
-        a.Shutdown(reason="enough"),
-    )
+    with at_most(PATIENCE_S):
+        ran = run(
+            a.RegisterEventHandler(told),
+            a.ExecuteProcess(cmd=["sleep", "3600"]),
+            a.TimerAction(period=3600.0, actions=[]),
+            a.Shutdown(reason="enough"),
+        )
     assert ran.code == 0
     assert reasons == ["enough"]
-    assert time.monotonic() - began < 30
 
 
 @_row
@@ -313,7 +313,7 @@ def TimerAction(run: Run) -> None:
     late = a.TimerAction(period=0.2, actions=[a.LogInfo(msg="late")])
     ran = run(late, a.TimerAction(period=0.1, actions=[a.LogInfo(msg="early")]))
     assert _said(ran) == ["early", "late"]
-    assert 0.2 <= time.monotonic() - began < 10
+    assert time.monotonic() - began >= 0.2
     cancelled = a.TimerAction(period=60.0, actions=[a.LogInfo(msg="never")])
     cancel = a.OpaqueFunction(function=lambda _context: cancelled.cancel())
     assert _said(run(cancelled, cancel)) == []

@@ -14,6 +14,7 @@ from typing import Any
 
 import psutil
 import pytest
+from tests.patience import PATIENCE_S, at_most, stretched
 
 from gazelle.launch.ros2 import LaunchDescription, LaunchService, child_process, logging
 from gazelle.launch.ros2 import actions as a
@@ -166,11 +167,10 @@ def test_a_process_is_respawned_as_often_as_allowed(run: Run) -> None:
 
 
 def test_respawn_waits_its_delay_and_ends_with_the_launch(run: Run) -> None:
-    began = time.monotonic()
-    slow = a.ExecuteProcess(cmd=["true"], respawn=True, respawn_delay=60.0)
-    ran = run(slow, a.TimerAction(period=0.3, actions=[a.Shutdown()]))
+    slow = a.ExecuteProcess(cmd=["true"], respawn=True, respawn_delay=3600.0)
+    with at_most(PATIENCE_S):
+        ran = run(slow, a.TimerAction(period=0.3, actions=[a.Shutdown()]))
     assert ran.text.count("process started with pid") == 1
-    assert time.monotonic() - began < 30
 
 
 def test_on_exit_ends_the_launch(run: Run) -> None:
@@ -331,7 +331,7 @@ def test_no_process_survives_a_launcher_that_is_killed() -> None:
         pids = [int(word) for _ in range(2) for word in next(lines).split()[-2:]]
         launcher.kill()
         gone, alive = psutil.wait_procs(
-            [psutil.Process(pid) for pid in pids if psutil.pid_exists(pid)], timeout=20
+            [psutil.Process(pid) for pid in pids if psutil.pid_exists(pid)], timeout=stretched()
         )
     assert [one for one in alive if one.status() != psutil.STATUS_ZOMBIE] == []
     assert len(gone) + len(alive) <= 4

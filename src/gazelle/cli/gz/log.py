@@ -6,6 +6,7 @@ The record is a bag of ``/gazebo/model_states`` and ``/gazebo/link_states``, whe
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -37,6 +38,7 @@ COMMAND = GzCommand(
 )
 _NODE = "/gz_log"
 _START_S = 10.0
+_END_S = 30.0
 _PAUSE_S = 0.02
 _HEAD_BYTES = 200
 
@@ -126,12 +128,27 @@ def _default_path() -> Path:
 def _stop(link: WorldLink) -> None:
     if _NODE not in link.graph.node_names():
         raise GzError("no recorder runs; gz log -d 1 starts one")
+    pid = link.graph.node_info(_NODE).pid
     link.graph.kill_node(_NODE)
-    end_s = time.monotonic() + _START_S
-    while _NODE in link.graph.node_names():
+    end_s = time.monotonic() + _END_S
+    # Its node leaves the graph first; the bag is whole when the process has ended.
+    while _NODE in link.graph.node_names() or _runs(pid):
         if time.monotonic() > end_s:
             raise GzError(f"the recorder does not end; try rosnode kill {_NODE}")
         link.ended.wait(_PAUSE_S)
+
+
+def _runs(pid: int) -> bool:
+    if not pid:
+        return False
+    try:
+        # For who started it in this very process: a child stays until it is asked for.
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(pid, os.WNOHANG)
+        os.kill(pid, 0)
+    except (ProcessLookupError, PermissionError):
+        return False
+    return True
 
 
 def _step(states: Iterator[str]) -> None:

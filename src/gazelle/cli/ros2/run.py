@@ -66,12 +66,13 @@ def _run(options: argparse.Namespace) -> int:
 
 def _run_words(words: Sequence[str], environment: dict[str, str]) -> int:
     sys.stdout.flush()
+    signals = _SignalsPassedOn()
     try:
         with interrupts_held() if is_own_command(words, None) else nullcontext():
             process = subprocess.Popen(words, env=environment)
     except OSError as error:
         return fail(f"cannot run '{words[0]}': {error.strerror}")
-    _pass_signals_on(process)
+    signals.pass_to(process)
     while process.returncode is None:
         try:
             process.wait()
@@ -86,11 +87,26 @@ def _run_words(words: Sequence[str], environment: dict[str, str]) -> int:
     return code
 
 
-def _pass_signals_on(process: subprocess.Popen[bytes]) -> None:
-    """Let the node end when this process is told to; ros2run leaves it behind."""
+class _SignalsPassedOn:
+    """Lets the node end when this process is told to; ros2run leaves it behind.
 
-    def send(number: int, _frame: FrameType | None) -> None:
-        process.send_signal(number)
+    It listens before the node is there, which would be left behind else by who ends us meanwhile.
+    """
 
-    for one in _PASSED_ON:
-        signal.signal(one, send)
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._early: list[int] = []
+        for one in _PASSED_ON:
+            signal.signal(one, self._on_signal)
+
+    def pass_to(self, process: subprocess.Popen[bytes]) -> None:
+        """Send the node what came so far and what comes."""
+        self._process = process
+        for number in self._early:
+            process.send_signal(number)
+
+    def _on_signal(self, number: int, _frame: FrameType | None) -> None:
+        if self._process is None:
+            self._early.append(number)
+        else:
+            self._process.send_signal(number)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.cli.gz.new.front import is_new
 from gazelle.cli.gz.new.messages import message_of, ros_types_of
@@ -36,7 +37,7 @@ class Inbox:
         self._came.set()
 
     def first(self) -> Any:
-        assert self._came.wait(30), "no message came"
+        assert self._came.wait(stretched()), "no message came"
         return self.messages[0]
 
 
@@ -148,7 +149,7 @@ def test_echo_ends_without_a_word_when_its_reader_has_gone(
     try:
         echo = subprocess.run(
             [sys.executable, "-m", "gazelle.cli", "gz", "topic", *words],
-            stdout=far, stderr=subprocess.PIPE, text=True, timeout=60, check=False,
+            stdout=far, stderr=subprocess.PIPE, text=True, timeout=stretched(), check=False,
         )  # fmt: skip
     finally:
         os.close(far)

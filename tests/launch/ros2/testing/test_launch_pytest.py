@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.patience import stretched
+
 _HEAD = """
 import sys
 import launch, launch_pytest, pytest
@@ -25,18 +27,18 @@ def description(hello):
 @pytest.mark.launch(fixture=description)
 def test_sync(hello, launch_context):
     def check(text): assert text == 'hello\\n', text
-    process_tools.assert_output_sync(launch_context, hello, check, timeout=30)
+    process_tools.assert_output_sync(launch_context, hello, check, timeout=PATIENCE_S)
     bad = lambda text: 'bad' in text
-    assert process_tools.wait_for_stderr_sync(launch_context, hello, bad, timeout=30)
+    assert process_tools.wait_for_stderr_sync(launch_context, hello, bad, timeout=PATIENCE_S)
     assert not process_tools.wait_for_exit_sync(launch_context, hello, timeout=0.05)
     yield
     assert hello.return_code == -2
 
 @pytest.mark.launch(fixture=description)
 async def test_async(hello, launch_context):
-    assert await process_tools.wait_for_start(launch_context, hello, timeout=30)
+    assert await process_tools.wait_for_start(launch_context, hello, timeout=PATIENCE_S)
     good = lambda text: text == 'hello\\n'
-    assert await process_tools.wait_for_output(launch_context, hello, good, timeout=30)
+    assert await process_tools.wait_for_output(launch_context, hello, good, timeout=PATIENCE_S)
     with pytest.raises(AssertionError):
         def never(text): assert text == 'x'
         await process_tools.assert_output(launch_context, hello, never, timeout=0.05)
@@ -74,13 +76,13 @@ _PLUGINS = ("-p", "no:cacheprovider")
 
 def _pytest(folder: Path, text: str) -> str:
     path = folder / "test_it.py"
-    path.write_text(_HEAD + text, encoding="utf-8")
+    path.write_text(f"{_HEAD}\nPATIENCE_S = {stretched()}\n{text}", encoding="utf-8")
     ran = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", *_PLUGINS, path.name],
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=stretched(),
         check=False,
     )
     return ran.stdout + ran.stderr

@@ -10,11 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.launch.environment import drop_in_folder
-from gazelle.launch.ros2 import child_process
 from gazelle.launch.ros2.testing import command
-from gazelle.parent import PARENT_VARIABLE
 from gazelle.workspace.ament_index import known_workspace
 
 Finished = subprocess.CompletedProcess[str]
@@ -23,7 +22,7 @@ import sys, threading
 try:
     print("warn", file=sys.stderr, flush=True)
     print("start " + sys.argv[1], flush=True)
-    threading.Event().wait(60)
+    threading.Event().wait()
 except KeyboardInterrupt:
     print("end " + sys.argv[1], flush=True)
 """
@@ -47,18 +46,20 @@ def generate_test_description(word):
 
 class Beside(unittest.TestCase):
     def test_output(self, proc_output, process, word):
-        proc_output.assertWaitFor("start " + word, process=process, timeout=20, stream="stdout")
-        proc_output.assertWaitFor("warn", process=process, timeout=20)
+        proc_output.assertWaitFor(
+            "start " + word, process=process, timeout=PATIENCE_S, stream="stdout"
+        )
+        proc_output.assertWaitFor("warn", process=process, timeout=PATIENCE_S)
     def test_start(self, proc_info, process):
-        proc_info.assertWaitForStartup("python", cmd_args=process.cmd[-1], timeout=20)
+        proc_info.assertWaitForStartup("python", cmd_args=process.cmd[-1], timeout=PATIENCE_S)
         assert len(proc_info.process_names()) == 1
     def test_starting_another(self, launch_service, proc_info, proc_output):
         with launch_testing.tools.launch_process(
             launch_service, echo("more"), proc_info, proc_output
         ) as proxy:
-            assert proxy.wait_for_output(lambda text: "start more" in text, timeout=20)
+            assert proxy.wait_for_output(lambda text: "start more" in text, timeout=PATIENCE_S)
             assert proxy.running and not proxy.terminated
-        assert proxy.wait_for_shutdown(timeout=20)
+        assert proxy.wait_for_shutdown(timeout=PATIENCE_S)
         assert proxy.exit_code == 0
         assert "end more" in proxy.stdout and "warn" in proxy.stderr
 
@@ -76,6 +77,11 @@ class Behind(unittest.TestCase):
             launch_testing.asserts.assertInStdout(proc_output, "nope", process)
 """
 
+
+def _head() -> str:
+    return f"{_HEAD}\nPATIENCE_S = {stretched()}\n"
+
+
 _PLUGINS = ("-p", "no:cacheprovider")
 _PYTEST = ("-m", "pytest", "-q", *_PLUGINS, "check.py")
 
@@ -91,7 +97,7 @@ def launch_test(
     monkeypatch.delenv("PYTHONUNBUFFERED", raising=False)
 
     def run(text: str, *words: str) -> Finished:
-        (tmp_path / "check.py").write_text(_HEAD + text, encoding="utf-8")
+        (tmp_path / "check.py").write_text(_head() + text, encoding="utf-8")
         sys.modules.pop("check", None)
         try:
             code = command.main(["check.py", *words])
@@ -104,13 +110,13 @@ def launch_test(
 
 
 def _pytest(folder: Path, text: str, *more: str) -> Finished:
-    (folder / "check.py").write_text(_HEAD + text, encoding="utf-8")
+    (folder / "check.py").write_text(_head() + text, encoding="utf-8")
     return subprocess.run(
         [sys.executable, *_PYTEST, *more],
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=stretched(),
         check=False,
     )
 
@@ -131,7 +137,7 @@ def test_each_value_has_its_launch_and_its_tests(
 
 def test_pytest_runs_marked_files(tmp_path: Path) -> None:
     failing = _TWO_RUNS.replace('checker.assertInStdout("end', 'checker.assertInStdout("never')
-    (tmp_path / "good.py").write_text(_HEAD + _TWO_RUNS, encoding="utf-8")
+    (tmp_path / "good.py").write_text(_head() + _TWO_RUNS, encoding="utf-8")
     ran = _pytest(tmp_path, failing, "good.py")
     assert ran.returncode == 1
     assert "1 failed, 1 passed" in ran.stdout, ran.stdout + ran.stderr
@@ -152,7 +158,7 @@ class Beside(unittest.TestCase):
             launch_service, node, proc_info, proc_output
         ):
             with self.assertRaisesRegex(AssertionError, "compiled code that is not here"):
-                proc_info.assertWaitForShutdown(process=node, timeout=200)
+                proc_info.assertWaitForShutdown(process=node, timeout=PATIENCE_S)
 """
 
 
@@ -205,7 +211,7 @@ def generate_test_description():
 class Beside(unittest.TestCase):
     def test_nothing(self):
         import threading
-        threading.Event().wait(5)
+        threading.Event().wait(PATIENCE_S)
 """
 
 
@@ -292,7 +298,7 @@ def generate_test_description():
 class Beside(unittest.TestCase):
     def test_all_end(self, proc_info, tests):
         for one in tests:
-            proc_info.assertWaitForShutdown(one, timeout=30)
+            proc_info.assertWaitForShutdown(one, timeout=PATIENCE_S)
 @launch_testing.post_shutdown_test()
 class Behind(unittest.TestCase):
     def test_codes(self, proc_info, tests):
@@ -319,7 +325,3 @@ def test_drop_in_has_the_paths_of_ros() -> None:
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )
     assert ran.stdout == "130 True\n", ran.stderr
-
-
-def test_nodes_know_their_launcher_by_the_same_variable() -> None:
-    assert child_process._PARENT_VARIABLE == PARENT_VARIABLE

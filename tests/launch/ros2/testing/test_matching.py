@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.events.process import (
@@ -118,7 +119,7 @@ def test_output_is_waited_for_in_another_thread() -> None:
     output, talk = ActiveIoHandler(), _process("talk")
     later = threading.Timer(0.1, lambda: output.append(_event(ProcessStdout, talk, text=b"hello")))
     later.start()
-    assert output.waitFor("hello", process="talk", stream="stdout", timeout=20)
+    assert output.waitFor("hello", process="talk", stream="stdout", timeout=stretched())
     assert [one.text for one in output] == [b"hello"]
     assert (output.process_names(), output.processes()) == (["talk-1"], [talk])
     with pytest.raises(AssertionError, match="Waiting for output timed out"):
@@ -153,7 +154,7 @@ def test_ends_are_waited_for_in_another_thread() -> None:
     with pytest.raises(AssertionError, match="Timed out waiting for process 'talk' to finish"):
         info.assertWaitForShutdown("talk", timeout=0.01)
     threading.Timer(0.1, lambda: info.append(_event(ProcessExited, talk, returncode=3))).start()
-    info.assertWaitForShutdown("talk", timeout=20)
+    info.assertWaitForShutdown("talk", timeout=stretched())
     assert info["talk"].returncode == 3
     asserts.assertExitCodes(info, [3])
     with pytest.raises(AssertionError, match="Proc talk-1 exited with code 3"):
