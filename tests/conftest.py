@@ -21,6 +21,10 @@ from tests.patience import PATIENCE_S, eventually, stretched
 
 _SHARED = Path(__file__).parents[2] / "shared"
 _SLOW_S = 10.0
+_NOT_QUICK = ("slow", "tutorial")
+# What starts processes: fixtures by name, and names that a test's function speaks of.
+_STARTING_FIXTURES = {"gazelle", "gazelle_launch", "in_workspace", "pytester", "browser"}
+_STARTING_NAMES = {"subprocess", "Popen", "multiprocessing"}
 _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 # What programs that tests need find by the true home.
 _FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
@@ -48,6 +52,25 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             seconds = marker.args[0] if marker.args else _SLOW_S
             lengths[item.path] = lengths.get(item.path, 0.0) + seconds
     items.sort(key=lambda item: -lengths.get(item.path, 0.0))
+    _mark_quick(items)
+
+
+def _mark_quick(items: list[pytest.Item]) -> None:
+    """Mark a test of every file ``quick``: the first that is not long and starts no process."""
+    touched: set[Path] = set()
+    for item in items:
+        if item.path in touched or any(map(item.get_closest_marker, _NOT_QUICK)):
+            continue
+        if isinstance(item, pytest.Function) and not _starts_processes(item):
+            touched.add(item.path)
+            item.add_marker(pytest.mark.quick)
+
+
+def _starts_processes(item: pytest.Function) -> bool:
+    named = set(item.function.__code__.co_names)
+    for function in map(vars(item.module).get, tuple(named)):
+        named |= set(getattr(getattr(function, "__code__", None), "co_names", ()))
+    return bool(named & _STARTING_NAMES or _STARTING_FIXTURES & set(item.fixturenames))
 
 
 @pytest.hookimpl(optionalhook=True)
