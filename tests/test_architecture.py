@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "gazelle"
@@ -23,9 +26,43 @@ def _layers() -> dict[str, int]:
     return rank
 
 
-def _modules() -> list[Path]:
+class Module(NamedTuple):
+    """What the tests look at in a file: that of two thousand syntax trees is not kept."""
+
+    path: Path
+    lines: int
+    imports: frozenset[str]
+    long_functions: tuple[str, ...]
+
+
+@cache
+def _modules() -> tuple[Module, ...]:
     drop_ins = SOURCE / "compat" / "modules"
-    return sorted(path for path in SOURCE.rglob("*.py") if drop_ins not in path.parents)
+    paths = sorted(path for path in SOURCE.rglob("*.py") if drop_ins not in path.parents)
+    return tuple(map(_read, paths))
+
+
+def _read(path: Path) -> Module:
+    text = path.read_text(encoding="utf-8")
+    statements = list(_statements(ast.parse(text)))
+    functions = (
+        one for one in statements if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)
+    )
+    long = tuple(
+        f"{path.relative_to(ROOT)}:{words}" for words in map(_too_long, functions) if words
+    )
+    return Module(path, len(text.splitlines()), _imports(statements), long)
+
+
+def _statements(tree: ast.Module) -> Iterator[ast.stmt]:
+    """Yield all statements; expressions, the most of a tree, hold none."""
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        for block in ("body", "orelse", "finalbody", "handlers", "cases"):
+            children = getattr(node, block, ())
+            waiting += children
+            yield from (child for child in children if isinstance(child, ast.stmt))
 
 
 def _module_name(path: Path) -> str:
@@ -42,9 +79,9 @@ def _layer_of(module: str, layers: dict[str, int]) -> str:
     raise AssertionError(f"{module} belongs to no layer of docs/architecture.md")
 
 
-def _imports(tree: ast.AST) -> set[str]:
+def _imports(statements: list[ast.stmt]) -> frozenset[str]:
     found: set[str] = set()
-    for node in ast.walk(tree):
+    for node in statements:
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -53,19 +90,25 @@ def _imports(tree: ast.AST) -> set[str]:
                 if node.module == "gazelle"
                 else {node.module}
             )
-    return {name for name in found if name.split(".")[0] == "gazelle"}
+    return frozenset(name for name in found if name.split(".")[0] == "gazelle")
+
+
+def _too_long(node: ast.FunctionDef | ast.AsyncFunctionDef) -> str:
+    body = node.body[1:] if ast.get_docstring(node) else node.body
+    length = (node.end_lineno or 0) - body[0].lineno + 1 if body else 0
+    is_long = length > LONGEST_FUNCTION and not _is_compiled(node)
+    return f"{node.lineno} {node.name}: {length}" if is_long else ""
 
 
 def test_no_layer_imports_a_higher_one() -> None:
     layers = _layers()
     wrong = []
-    for path in _modules():
+    for path, _, imports, _ in _modules():
         module = _module_name(path)
         if module == "gazelle":
             continue
         own = _layer_of(module, layers)
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for name in sorted(_imports(tree)):
+        for name in sorted(imports):
             other = _layer_of("gazelle._version" if name == "gazelle.__version__" else name, layers)
             if other != own and layers[other] > layers[own]:
                 wrong.append(f"{module} ({own}) imports {name} ({other})")
@@ -80,16 +123,10 @@ def test_every_subpackage_is_a_layer() -> None:
 
 def test_files_and_functions_stay_short() -> None:
     wrong = []
-    for path in _modules():
-        text = path.read_text(encoding="utf-8")
-        if len(text.splitlines()) > LONGEST_FILE:
+    for path, lines, _, long_functions in _modules():
+        if lines > LONGEST_FILE:
             wrong.append(f"{path.relative_to(ROOT)} has more than {LONGEST_FILE} lines")
-        for node in ast.walk(ast.parse(text)):
-            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-                body = node.body[1:] if ast.get_docstring(node) else node.body
-                length = (node.end_lineno or 0) - body[0].lineno + 1 if body else 0
-                if length > LONGEST_FUNCTION and not _is_compiled(node):
-                    wrong.append(f"{path.relative_to(ROOT)}:{node.lineno} {node.name}: {length}")
+        wrong += long_functions
     assert not wrong, "\n".join(wrong)
 
 
@@ -100,4 +137,4 @@ def _is_compiled(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
 
 def test_nothing_imports_by_a_forbidden_name() -> None:
     forbidden = {"utils", "helpers", "misc", "manager", "common"}
-    assert not [path for path in _modules() if path.stem in forbidden]
+    assert not [path for path, *_ in _modules() if path.stem in forbidden]
