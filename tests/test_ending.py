@@ -9,6 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.ending import interrupts_held
 
@@ -77,7 +78,7 @@ def _run(text: str) -> subprocess.CompletedProcess[str]:
         [sys.executable, "-c", _HEAD + text],
         capture_output=True,
         text=True,
-        timeout=30,
+        timeout=stretched(),
         check=False,
     )
 
@@ -120,7 +121,7 @@ def _interrupted(
         assert program.stdout is not None
         assert program.stdout.readline() == f"{line}\n"
         program.send_signal(signal.SIGINT)
-        out, err = program.communicate("\n", timeout=30)
+        out, err = program.communicate("\n", timeout=stretched())
     return program.returncode, out, err
 
 

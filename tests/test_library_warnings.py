@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy
 import pytest
+from tests.patience import stretched
 
 from gazelle import engine
 from gazelle.library_warnings import library_of, shorten_library_warnings
@@ -71,6 +72,10 @@ sys.argv = ["gazelle"]
 runpy.run_module({module!r}, run_name="__main__")
 """
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=stretched(),
+        check=False,
     )
     assert done.stderr == "loud warns: too loud (UserWarning)\n"

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.cli.commands import COMMANDS
 
@@ -42,7 +43,7 @@ def test_example_drives_senses_and_repeats(tmp_path: Path) -> None:
             capture_output=True,
             text=True,
             check=False,
-            timeout=120,
+            timeout=stretched(120),
         )
         assert done.returncode == 0, done.stderr
         outputs.append(done.stdout)

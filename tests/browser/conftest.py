@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import fill, message_type
@@ -25,7 +26,6 @@ from gazelle.studio import Server, Studio
 # `pytest tests/browser`, not beside them in the processes of `pytest -n 2`.
 collect_ignore_glob = ["*"] if "PYTEST_XDIST_WORKER" in os.environ else []
 
-_PATIENCE_S = 60.0
 _CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
 _FLAGS = (
     "--no-sandbox",
@@ -116,7 +116,7 @@ def look(browser: Any, request: pytest.FixtureRequest, tmp_path: Path) -> Iterat
         context = browser.new_context(
             viewport={"width": size[0], "height": size[1]}, accept_downloads=True
         )
-        context.set_default_timeout(_PATIENCE_S * 1000)
+        context.set_default_timeout(stretched() * 1000)
         name = re.sub(r"\W+", "_", request.node.name)
         found = Look(context, folder, name if not opened else f"{name}-{len(opened) + 1}")
         opened.append((context, found))
@@ -179,12 +179,7 @@ class Bench:
 
     def eventually(self, condition: Callable[[], Any]) -> Any:
         """Return what a condition gives as soon as that is true."""
-        deadline = time.monotonic() + _PATIENCE_S
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, "did not happen in time"
-            pause.wait(0.02)
-        return found
+        return eventually(condition)
 
     def close(self) -> None:
         """End the threads and the node."""

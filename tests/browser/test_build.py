@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 _ROOT = Path(__file__).parents[2]
 _SOURCES = _ROOT / "studio"
@@ -53,6 +54,11 @@ def _files(folder: Path) -> list[Path]:
 
 def _npm(*words: str) -> None:
     done = subprocess.run(
-        ["npm", *words], cwd=_SOURCES, capture_output=True, text=True, timeout=300, check=False
+        ["npm", *words],
+        cwd=_SOURCES,
+        capture_output=True,
+        text=True,
+        timeout=stretched(300),
+        check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.studio import Server, Studio
 from gazelle.studio.plugins.shows import Desk
@@ -233,13 +234,15 @@ def test_the_scouts_panel_drives_the_running_robot(gazelle: Any, look: Any) -> N
     panel.get_by_label("Speed value").fill("0.5")
     panel.get_by_label("Speed value").press("Enter")
     expect = pytest.importorskip("playwright.sync_api").expect
-    expect(panel.get_by_label("Free way ahead", exact=True)).not_to_have_text("–", timeout=60_000)
+    expect(panel.get_by_label("Free way ahead", exact=True)).not_to_have_text(
+        "–", timeout=stretched() * 1000
+    )
     go.click()
     expect(stop).to_be_enabled()
     driven = panel.get_by_label("driven", exact=True)
-    expect(driven).to_have_text(re.compile(r"0\.[345]\d*"), timeout=60_000)
+    expect(driven).to_have_text(re.compile(r"0\.[345]\d*"), timeout=stretched() * 1000)
     seen.shot("driving")
     panel.get_by_label("Stop before value").fill("2")
     panel.get_by_label("Stop before value").press("Enter")
-    expect(go).to_be_enabled(timeout=60_000)
-    expect(driven).to_have_text(re.compile(r"-?(0\.0\d*|0|.*e-\d+)"), timeout=60_000)
+    expect(go).to_be_enabled(timeout=stretched() * 1000)
+    expect(driven).to_have_text(re.compile(r"-?(0\.0\d*|0|.*e-\d+)"), timeout=stretched() * 1000)

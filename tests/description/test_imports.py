@@ -5,6 +5,8 @@ from __future__ import annotations
 import subprocess
 import sys
 
+from tests.patience import stretched
+
 
 def test_reading_a_plain_file_brings_no_module_that_only_xacro_needs() -> None:
     names = ("collada", "scipy", "xacro", "xml.dom.minidom", "yaml")
@@ -12,5 +14,5 @@ def test_reading_a_plain_file_brings_no_module_that_only_xacro_needs() -> None:
         f"import gazelle.description.loader, sys; print([n for n in {names} if n in sys.modules])"
     )
     words = [sys.executable, "-c", code]
-    found = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60)
+    found = subprocess.run(words, capture_output=True, text=True, check=True, timeout=stretched())
     assert found.stdout == "[]\n"

@@ -6,13 +6,11 @@ import contextlib
 import itertools
 import os
 import socket
-import threading
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from tests.studio.page import PATIENCE_S, Page
+from tests.studio.page import Page
 
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import fill, message_type
@@ -82,16 +80,6 @@ def talk(node: Node) -> Talk:
         return publishers[topic]
 
     return publish
-
-
-def eventually(condition: Callable[[], Any]) -> Any:
-    """Return what a condition gives as soon as that is true."""
-    deadline = time.monotonic() + PATIENCE_S
-    pause = threading.Event()
-    while not (found := condition()):
-        assert time.monotonic() < deadline, "did not happen in time"
-        pause.wait(0.01)
-    return found
 
 
 def _free_port() -> int:

@@ -10,10 +10,10 @@ import struct
 import threading
 from typing import Any, NamedTuple, Self
 
+from tests.patience import PATIENCE_S, stretched
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-PATIENCE_S = 10.0
 _HEADER = struct.Struct("<HHId")
 
 
@@ -53,7 +53,7 @@ class Stream:
 
     def next(self, timeout_s: float = PATIENCE_S) -> Any:
         """Return the next item: a JSON value or a `Binary`."""
-        item = self.items.get(timeout=timeout_s)
+        item = self.items.get(timeout=stretched(timeout_s))
         if self._acks:
             self.ack()
         return item
@@ -84,10 +84,10 @@ class Page:
             compression=None,
             max_size=None,
             additional_headers=headers,
-            open_timeout=PATIENCE_S,
+            open_timeout=stretched(),
         )
         self.socket = self._stack.enter_context(opening)
-        self.hello: dict[str, Any] = json.loads(self.socket.recv(PATIENCE_S))
+        self.hello: dict[str, Any] = json.loads(self.socket.recv(stretched()))
         self.shown: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self._numbers = itertools.count(1)
         self._answers: dict[int | None, queue.SimpleQueue[dict[str, Any]]] = {
@@ -105,7 +105,7 @@ class Page:
 
     def close(self) -> None:
         self._stack.close()
-        self._reader.join(PATIENCE_S)
+        self._reader.join(stretched())
 
     def send(self, **value: Any) -> None:
         self.socket.send(json.dumps(value))
@@ -123,7 +123,7 @@ class Page:
 
     def answer(self, number: int) -> Any:
         """Return the value of a call, or raise its error."""
-        answer = self._answers[number].get(timeout=PATIENCE_S)
+        answer = self._answers[number].get(timeout=stretched())
         if answer["op"] == "error":
             raise RefusedError(answer["error"])
         return answer["value"]
@@ -131,14 +131,14 @@ class Page:
     def raw(self, text: str) -> dict[str, Any]:
         """Send any text and return the answer that belongs to no call."""
         self.socket.send(text)
-        return self._answers[None].get(timeout=PATIENCE_S)
+        return self._answers[None].get(timeout=stretched())
 
     def open(self, stream: str, *, acks: bool = True, **params: Any) -> Stream:
         """Return an open stream."""
         made = Stream(self, next(self._numbers), acks=acks)
         self._streams[made.number] = made
         self.send(op="open", ch=made.number, stream=stream, params=params)
-        answer = made.answer.get(timeout=PATIENCE_S)
+        answer = made.answer.get(timeout=stretched())
         if answer["op"] == "failed":
             raise RefusedError(answer["error"])
         made.info = answer["info"]

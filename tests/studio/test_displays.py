@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
-from tests.studio.conftest import Talk, eventually
-from tests.studio.page import PATIENCE_S, Binary, Page, RefusedError
+from tests.patience import eventually, stretched
+from tests.studio.conftest import Talk
+from tests.studio.page import Binary, Page, RefusedError
 
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
@@ -177,12 +178,12 @@ def test_broken_pictures_are_a_status(page: Page, talk: Talk, fields: Any, text:
     good = {"encoding": "rgb8", "height": 4, "width": 4, "step": 12, "data": bytes(48)}
     stream = page.open("image", topic="/broken")
     talk("/broken", "sensor_msgs/Image", **(good | fields))
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert status["level"] == "error"
     assert text in status["text"]
     talk("/broken", "sensor_msgs/Image", **good)
     assert stream.next().kind == 10
-    assert stream.status.get(timeout=PATIENCE_S)["level"] == "ok"
+    assert stream.status.get(timeout=stretched())["level"] == "ok"
 
 
 def test_points_come_with_pose_and_intensity_colours(page: Page, talk: Talk, move: Move) -> None:
@@ -258,7 +259,7 @@ def test_broken_clouds_are_a_status(
     stream = page.display("PointCloud2", "/bad_cloud")
     talk("/bad_cloud", "sensor_msgs/PointCloud2",
          **(_cloud([(1, 2, 3, 4)], "intensity") | change))  # fmt: skip
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert status["level"] == "error"
     assert text in status["text"]
 
@@ -394,12 +395,12 @@ def test_plain_displays_carry_the_pose_of_their_frame(page: Page, talk: Talk, mo
 def test_a_display_waits_for_its_transform(page: Page, talk: Talk, move: Move) -> None:
     stream = page.display("PointStamped", "/early")
     talk("/early", "geometry_msgs/PointStamped", header={"frame_id": "late_frame"})
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert status["level"] == "error"
     assert status["text"].startswith("No transform from [late_frame] to [map]")
     move("map", "late_frame", (0, 0, 1))
     assert stream.next()["pose"] == [0, 0, 1, 0, 0, 0, 1]
-    assert stream.status.get(timeout=PATIENCE_S) == {
+    assert stream.status.get(timeout=stretched()) == {
         "op": "status", "ch": stream.number, "level": "ok", "text": ""
     }  # fmt: skip
 
@@ -410,7 +411,7 @@ def test_camera_tells_where_it_is_before_its_picture(page: Page, talk: Talk, mov
     picture = {"height": 2, "width": 2, "encoding": "mono8", "step": 2, "data": bytes(4)}
     talk("/front/image_raw", "sensor_msgs/Image", header={"frame_id": "lens"}, **picture)
     assert stream.next().kind == 10
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert status["text"].startswith("No CameraInfo received on [/front/camera_info].")
     talk("/front/camera_info", "sensor_msgs/CameraInfo", width=2, height=2)
     for expected in (True, False):
@@ -452,7 +453,7 @@ def test_markers_wait_for_their_frames_and_bring_meshes(
     (marker,) = item["message"]["markers"]
     assert marker["id"] == 0
     assert len(marker["mesh"][0]["key"]) == 32
-    assert stream.status.get(timeout=PATIENCE_S)["text"].startswith("No transform from [far]")
+    assert stream.status.get(timeout=stretched())["text"].startswith("No transform from [far]")
     move("map", "far", (3, 0, 0))
     item = stream.next()
     assert [one["id"] for one in item["message"]["markers"]] == [1]
@@ -534,7 +535,7 @@ def test_a_message_of_the_wrong_type_is_a_status(
 ) -> None:
     stream = page.display(display, "/just_words")
     talk("/just_words", "std_msgs/String", data="x")
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert (status["level"], status["text"]) == ("error", text)
 
 
@@ -549,7 +550,7 @@ def test_bytes_of_another_definition_are_a_status(page: Page, graph: Graph, disp
         eventually(lambda: publisher.matched)
         publisher.publish_raw(b"\x00\x01\x00\x00" + b"\xff" * 40)
         for one in (stream, echo):
-            status = one.status.get(timeout=PATIENCE_S)
+            status = one.status.get(timeout=stretched())
             assert status["level"] == "error"
             assert "44 bytes are not a visualization_msgs/msg/MarkerArray" in status["text"]
 

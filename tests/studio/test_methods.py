@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.studio.conftest import eventually
-from tests.studio.page import PATIENCE_S, Page, RefusedError
+from tests.patience import eventually, stretched
+from tests.studio.page import Page, RefusedError
 
 from gazelle.graph import Graph, Node, offer_loggers
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
@@ -89,7 +89,7 @@ def test_publish_reads_texts_as_yaml(page: Page, heard: Any) -> None:
     value = page.call("topic.publish", topic="/goal", type="geometry_msgs/PoseStamped",
                       message=message)  # fmt: skip
     assert value == {}
-    got = messages.get(timeout=PATIENCE_S)
+    got = messages.get(timeout=stretched())
     assert (got.pose.position.x, got.pose.position.y, got.pose.orientation.w) == (1.5, 2.0, 1.0)
     assert got.header.frame_id == "3"
     assert got.header.stamp.sec > 0
@@ -99,7 +99,7 @@ def test_publish_takes_what_echo_spells(page: Page, heard: Any) -> None:
     messages = heard("/limits", "std_msgs/Float64MultiArray")
     page.call("topic.publish", topic="/limits", type="std_msgs/Float64MultiArray",
               message={"data": ["Infinity", "-Infinity", "NaN", "2.5", 1]})  # fmt: skip
-    data = list(messages.get(timeout=PATIENCE_S).data)
+    data = list(messages.get(timeout=stretched()).data)
     assert data[:2] == [math.inf, -math.inf]
     assert math.isnan(data[2])
     assert data[3:] == [2.5, 1.0]
@@ -133,7 +133,7 @@ def test_publisher_follows_expressions(page: Page, heard: Any) -> None:
         "enabled": True,
     }
     assert page.call("publisher.set", **settings)["count"] >= 0
-    got = [messages.get(timeout=PATIENCE_S) for _ in range(3)]
+    got = [messages.get(timeout=stretched()) for _ in range(3)]
     assert [one.linear.x for one in got] == [0.0, 2.0, 4.0]
     assert all(0 <= one.linear.y < 1 for one in got)
     assert {one.angular.z for one in got} == {0.5}
@@ -150,7 +150,7 @@ def test_publisher_of_rate_0_publishes_once(page: Page, heard: Any) -> None:
     messages = heard("/once", "std_msgs/Int16")
     settings = {"topic": "/once", "type": "std_msgs/Int16", "message": {"data": 4}, "rate_hz": 0}
     page.call("publisher.set", id="once", enabled=True, **settings)
-    assert messages.get(timeout=PATIENCE_S).data == 4
+    assert messages.get(timeout=stretched()).data == 4
     eventually(lambda: page.call("publisher.list")[0]["count"] == 1)
     assert page.call("publisher.list")[0]["enabled"] is False
     page.call("publisher.remove", id="once")
@@ -211,7 +211,7 @@ def test_a_service_that_fails_or_sleeps_is_told(page: Page, node: Node) -> None:
         raise ValueError("no coal")
 
     def sleep(_request: Any) -> Any:
-        going.wait(PATIENCE_S)
+        going.wait(stretched())
         return kind.Response()
 
     node.log_level = 16  # type: ignore[assignment]
@@ -322,7 +322,7 @@ def test_node_info_and_kill(page: Page, graph: Graph, server: Server) -> None:
 def test_joint_sliders_publish_joint_states(page: Page, heard: Any) -> None:
     messages = heard("/joint_states", "sensor_msgs/JointState")
     page.call("joints.publish", names=["a", "b"], positions=[0.5, 1])
-    message = messages.get(timeout=PATIENCE_S)
+    message = messages.get(timeout=stretched())
     assert list(message.name) == ["a", "b"]
     assert list(message.position) == [0.5, 1.0]
     assert message.header.stamp.sec > 0
@@ -345,7 +345,7 @@ def test_saved_files_are_fetched_once(page: Page, server: Server) -> None:
 
 
 def _get(server: Server, path: str) -> tuple[int, Any, bytes]:
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE_S)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
     connection.request("GET", path)
     answer = connection.getresponse()
     body = answer.read()

@@ -9,8 +9,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from tests.studio.conftest import Talk, eventually
-from tests.studio.page import PATIENCE_S, Page, RefusedError, Stream
+from tests.patience import eventually, stretched
+from tests.studio.conftest import Talk
+from tests.studio.page import Page, RefusedError, Stream
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
@@ -87,7 +88,7 @@ def test_a_channel_number_is_used_once(page: Page) -> None:
     stream = page.open("graph")
     stream.close()
     page.send(op="open", ch=stream.number, stream="graph")
-    answer = stream.answer.get(timeout=PATIENCE_S)
+    answer = stream.answer.get(timeout=stretched())
     assert answer["op"] == "failed"
     assert answer["error"]["message"].endswith("was used before on this connection")
 
@@ -165,7 +166,7 @@ def _flood(deaf: ClientConnection, quick: Stream, talk: Talk) -> None:
         seen += len(quick.next())
     texts: list[str] = []
     while not any('"ended"' in text for text in texts[-1:]):
-        texts.append(str(deaf.recv(PATIENCE_S)))
+        texts.append(str(deaf.recv(stretched())))
     assert "the page is more than 8 MiB behind on this stream" in texts[-1]
 
 
@@ -182,7 +183,7 @@ def test_parameters_change_without_a_gap(page: Page, talk: Talk) -> None:
 def test_a_wrong_change_leaves_the_stream_as_it_was(page: Page, talk: Talk) -> None:
     stream = page.open("topic.echo", topic="/steady")
     stream.change(topic=3)
-    status = stream.status.get(timeout=PATIENCE_S)
+    status = stream.status.get(timeout=stretched())
     assert status["level"] == "error"
     assert status["text"] == "topic.echo: parameter 'topic' is a text, not 3"
     talk("/steady", "std_msgs/String", data="on")
@@ -211,7 +212,7 @@ def test_calls_that_hang_are_bounded(page: Page, server: Server, monkeypatch: An
     from gazelle.studio import catalogue, connection
 
     going = threading.Event()
-    methods = {**catalogue.METHODS, "slow": lambda _studio, _params: going.wait(PATIENCE_S)}
+    methods = {**catalogue.METHODS, "slow": lambda _studio, _params: going.wait(stretched())}
     monkeypatch.setattr(connection, "METHODS", methods)
     for number in range(256):
         page.expect(1000 + number)
@@ -244,10 +245,10 @@ def test_show_reaches_pages_or_the_first_that_comes(
         own.studio.show("rqt_plot", {"curves": ["/odom"]})
         page = Page(own.port)
         assert page.hello["panels"] == ["rqt_plot"]
-        shown = page.shown.get(timeout=PATIENCE_S)
+        shown = page.shown.get(timeout=stretched())
         assert shown == {"op": "show", "panel": "rqt_plot", "params": {"curves": ["/odom"]}}
         own.studio.show("rqt_graph")
-        assert page.shown.get(timeout=PATIENCE_S)["panel"] == "rqt_graph"
+        assert page.shown.get(timeout=stretched())["panel"] == "rqt_graph"
         page.close()
         again = Page(own.port)
         assert again.hello["panels"] == []

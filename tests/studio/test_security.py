@@ -8,7 +8,8 @@ import socket
 from typing import Any, NamedTuple
 
 import pytest
-from tests.studio.page import PATIENCE_S, Page
+from tests.patience import stretched
+from tests.studio.page import Page
 from websockets.exceptions import InvalidStatus
 
 from gazelle.errors import GazelleError
@@ -29,7 +30,7 @@ class Answer(NamedTuple):
 
 def get(server: Server, path: str, method: str = "GET", **headers: str) -> Answer:
     """Send one request with these headers and no others."""
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE_S)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
     connection.putrequest(method, path, skip_host="Host" in headers, skip_accept_encoding=True)
     for name, value in headers.items():
         connection.putheader(name.replace("_", "-"), value)
@@ -135,7 +136,7 @@ def test_the_socket_path_without_a_websocket(server: Server) -> None:
 
 def test_rubbish_on_the_port_does_no_harm(server: Server) -> None:
     for data in (b"\x16\x03\x01\x02\x00", b"GET\r\n\r\n", b"GET / HTTP/9\r\n\r\n", b"\0" * 9000):
-        with socket.create_connection(("127.0.0.1", server.port), PATIENCE_S) as raw:
+        with socket.create_connection(("127.0.0.1", server.port), stretched()) as raw:
             raw.sendall(data)
             raw.shutdown(socket.SHUT_WR)
             while raw.recv(4096):

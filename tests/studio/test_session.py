@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tests.studio.conftest import eventually
+from tests.patience import eventually
 from tests.studio.page import Page
 
 from gazelle.graph import Graph

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from tests.browser.scene.gazebo_page import GazeboPage
 from tests.browser.scene.rviz_page import RvizPage
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
@@ -16,8 +17,6 @@ from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.viewing import offer_views
 from gazelle.studio import Server, Studio
-
-_WAIT_S = 20.0
 
 
 @pytest.fixture
@@ -61,14 +60,5 @@ def gazebo(free_port: int, look: Any) -> Iterator[GazeboPage]:
         seen.expect_problem("ERR_CONNECTION_REFUSED|ERR_EMPTY_RESPONSE|ERR_CONNECTION_RESET")
         yield GazeboPage(seen, server, eventually)
     server.close()
-    running.join(_WAIT_S)
+    running.join(stretched())
     graph.close()
-
-
-def eventually(condition: Any) -> Any:
-    pause = threading.Event()
-    for _ in range(int(_WAIT_S / 0.05)):
-        if found := condition():
-            return found
-        pause.wait(0.02)
-    raise AssertionError("did not happen in time")

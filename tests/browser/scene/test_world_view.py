@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 from PIL import Image
-from tests.browser.scene.conftest import eventually
 from tests.browser.scene.gazebo_page import GazeboPage
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
@@ -43,7 +43,7 @@ def page(free_port: int, look: Any, tmp_path: Path) -> Iterator[Any]:
         seen.expect_problem("ERR_CONNECTION_REFUSED|ERR_EMPTY_RESPONSE|ERR_CONNECTION_RESET")
         yield seen
     server.close()
-    running.join(20)
+    running.join(stretched())
     graph.close()
 
 

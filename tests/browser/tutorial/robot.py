@@ -9,7 +9,6 @@ from typing import Any
 __all__ = ["Robot", "choose_panel"]
 
 _STARTING_S = 90.0
-_PATIENCE_S = 60.0
 
 
 class Robot:
@@ -35,11 +34,11 @@ class Robot:
 
     def eventually(self, condition: Callable[[], Any]) -> Any:
         """Return what a condition gives as soon as that is true."""
-        return self.launched.eventually(condition, timeout_s=_PATIENCE_S)
+        return self.launched.eventually(condition)
 
     def message(self, topic: str) -> Any:
         """Return a topic's next message."""
-        return self.launched.messages({topic: 1}, _PATIENCE_S)[topic][0]
+        return self.launched.messages({topic: 1})[topic][0]
 
     def model_pose(self, name: str) -> Any:
         """Where the simulation has a model."""

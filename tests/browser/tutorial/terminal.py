@@ -7,8 +7,6 @@ from typing import Any
 
 __all__ = ["Session", "open_panel"]
 
-_PATIENCE_S = 60.0
-
 
 class Session:
     """What a person has open: ``roscore`` or a launch file first, windows beside it.
@@ -35,14 +33,14 @@ class Session:
 
     def shows(self, command: Any, panel: str) -> None:
         """Wait until a command has said where its panel is."""
-        said = command.wait_for_line(rf"{panel}: http://127\.0\.0\.1:\d+/$", _PATIENCE_S)
+        said = command.wait_for_line(rf"{panel}: http://127\.0\.0\.1:\d+/$")
         url = said.split(f"{panel}: ")[1].strip()
         assert self.url in ("", url)
         self.url = url
 
     def eventually(self, condition: Callable[[], Any]) -> Any:
         """Return what a condition gives as soon as that is true."""
-        return self.first.eventually(condition, _PATIENCE_S)
+        return self.first.eventually(condition)
 
     def listen(self, topic: str, type_name: str) -> list[Any]:
         """Return a list that a topic's messages are added to, its first one already in it."""

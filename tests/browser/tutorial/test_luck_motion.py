@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from tests.browser.motion.motion_panel import MotionPanel
+from tests.patience import stretched
 
 pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
@@ -38,7 +39,7 @@ class Arm:
         launched.wait_for_line("You can start planning now!", _STARTING_S)
         line = launched.wait_for_line(r"gazebo: http://127\.0\.0\.1:\d+/$", _STARTING_S)
         seen = look(line.split("gazebo: ")[1].strip(), size=(1440, 900))
-        seen.page.set_default_timeout(_PATIENCE_S * 1000)
+        seen.page.set_default_timeout(stretched(_PATIENCE_S) * 1000)
         self.ui = MotionPanel(seen, self)
         self.ui.well()
 

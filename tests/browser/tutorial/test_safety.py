@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from tests.browser.tutorial.terminal import Session, open_panel
+from tests.patience import stretched
 
 pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
@@ -78,7 +79,9 @@ def test_strangers_and_paths_outside_are_refused(
     bench: Any, path: str, headers: dict[str, str], status: int
 ) -> None:
     address = urlsplit(bench.url)
-    asking = http.client.HTTPConnection(address.hostname or "", address.port or 0, timeout=60)
+    asking = http.client.HTTPConnection(
+        address.hostname or "", address.port or 0, timeout=stretched()
+    )
     asking.request("GET", path, headers=headers)
     assert asking.getresponse().status == status
     asking.close()
@@ -99,7 +102,7 @@ def test_page_works_without_a_network_and_asks_nobody_else(bench: Any, browser: 
     page.on("request", lambda request: asked.append(request.url))
     bench.keep_publishing("/count", "std_msgs/msg/Float64", lambda t: {"data": t})
     page.goto(f"{bench.url}?panels=rviz,rqt_plot,rqt_graph")
-    page.locator("[data-panel=rviz] canvas").first.wait_for(timeout=60_000)
+    page.locator("[data-panel=rviz] canvas").first.wait_for(timeout=stretched() * 1000)
     page.get_by_label("Topic field").fill("/count/data")
     page.keyboard.press("Enter")
     value = page.locator("[data-panel=rqt_plot]").get_by_role("listitem").locator("output")

@@ -12,6 +12,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.description.sdformat import Release
 from gazelle.description.sdformat.document import read_document, to_text
@@ -110,7 +111,7 @@ def _really_printed(file: Path) -> str:
     if program is None:
         pytest.skip("ign is not installed (apt-get install ignition-tools sdformat-sdf)")
     words = [program, "sdf", "-p", str(file)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=stretched())
     if "<sdf" not in done.stdout:
         pytest.skip(f"this ign converts nothing: {done.stderr[:200]}")
     return done.stdout

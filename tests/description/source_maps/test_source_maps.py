@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.dom import minidom
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.description.loader import load_models
 from gazelle.description.source_maps import SourceMap, placed, remember, source_map_of
@@ -138,7 +139,7 @@ def test_another_process_finds_the_places(expanded: Expanded, tmp_path: Path) ->
     )
     done = subprocess.run(
         [sys.executable, "-c", script, "pair.urdf"],
-        cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60,
+        cwd=tmp_path, capture_output=True, text=True, check=True, timeout=stretched(),
     )  # fmt: skip
     assert done.stdout.strip() == f"{tmp_path}/part.xacro:3:5"
 

@@ -16,6 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
+from tests.patience import stretched
+
 __all__ = ["Outcome", "run_official"]
 
 
@@ -35,7 +37,7 @@ def run_official(
     task = json.dumps({"calls": [list(words) for words in calls], "packages": packages or {}})
     done = subprocess.run(
         [sys.executable, __file__], input=task, capture_output=True, text=True, check=True,
-        cwd=folder, env=environ, timeout=120,
+        cwd=folder, env=environ, timeout=stretched(120),
     )  # fmt: skip
     return [Outcome(*item) for item in json.loads(done.stdout)]
 

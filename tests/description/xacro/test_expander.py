@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.description.xacro import Expanded, expand_xacro
 from gazelle.diagnostics import Diagnostics, Severity
@@ -90,7 +91,7 @@ def _as_recorded(text: str) -> str:
 def test_bytes_equal_those_of_the_command(text: str, tmp_path: Path) -> None:
     expanded, _ = _expand(text, tmp_path)
     command = [sys.executable, "-c", "import xacro; xacro.main()", str(tmp_path / "one.xacro")]
-    real = subprocess.run(command, capture_output=True, check=True, timeout=60)
+    real = subprocess.run(command, capture_output=True, check=True, timeout=stretched())
     assert expanded is not None
     assert expanded.text.encode() == real.stdout
 

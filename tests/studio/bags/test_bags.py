@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.bag import open_bag
 from gazelle.graph import Graph, Node
@@ -17,7 +18,6 @@ from gazelle.studio.bags.recording import Recording
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 
-_WAIT_S = 15.0
 _TEXT: Any = message_type("std_msgs/String")
 
 
@@ -49,7 +49,7 @@ class _Ear:
 
     def wait(self, wanted: Callable[[list[str]], bool]) -> list[str]:
         with self._changed:
-            assert self._changed.wait_for(lambda: wanted(self.heard), _WAIT_S), self.heard
+            assert self._changed.wait_for(lambda: wanted(self.heard), stretched()), self.heard
             return list(self.heard)
 
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.studio.conftest import Talk, eventually
+from tests.patience import eventually
+from tests.studio.conftest import Talk
 from tests.studio.page import Page, RefusedError
 
 from gazelle.graph import Graph, Node

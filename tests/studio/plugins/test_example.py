@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.studio.conftest import eventually
+from tests.patience import eventually
 
 from gazelle.graph import Node
 from gazelle.interfaces import message_type

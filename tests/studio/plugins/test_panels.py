@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.studio.conftest import eventually
+from tests.patience import eventually, stretched
 from tests.studio.page import Page, RefusedError, Stream
 
 from gazelle.graph import Graph, Node
@@ -429,7 +429,7 @@ def test_a_module_outside_the_panels_folder_is_not_served(
 
 
 def _get(server: Server, path: str) -> tuple[int, str, bytes]:
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
     try:
         connection.request("GET", path)
         answer = connection.getresponse()

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
@@ -22,8 +23,6 @@ from gazelle.studio.errors import error_value
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel
-
-_WAIT_S = 20.0
 
 
 class Page:
@@ -68,7 +67,7 @@ class Page:
 
         Every frame is acknowledged, as a page does that has drawn it.
         """
-        deadline = time.monotonic() + _WAIT_S
+        deadline = time.monotonic() + stretched()
         seen: list[Any] = []
         while True:
             with self._changed:
@@ -115,7 +114,7 @@ def server(free_port: int) -> Iterator[WorldServer]:
     running.start()
     yield server
     server.close()
-    running.join(_WAIT_S)
+    running.join(stretched())
     graph.close()
 
 

@@ -8,6 +8,8 @@ import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
+from tests.patience import stretched
+
 __all__ = ["IGN", "INPUTS", "Output", "inputs", "neutral", "recorded", "run_ign"]
 
 INPUTS = Path(__file__).parent / "inputs"
@@ -34,7 +36,7 @@ def run_ign(option: str, file: Path) -> Output:
     environ = os.environ | {"SDF_PATH": str(INPUTS / "models")}
     words = [str(IGN), "sdf", option, str(file)]
     done = subprocess.run(
-        words, capture_output=True, text=True, env=environ, timeout=60, check=False
+        words, capture_output=True, text=True, env=environ, timeout=stretched(), check=False
     )
     return Output(done.stdout, neutral(done.stderr))
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 from tests.studio.plugins.rqt.package import UI, write_package
 
 from gazelle.launch.environment import drop_in_folder
@@ -138,6 +139,6 @@ def _run(code: str, *folders: Path) -> subprocess.CompletedProcess[str]:
         env={**os.environ, "PYTHONPATH": path},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=stretched(),
         check=False,
     )
