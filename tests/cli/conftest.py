@@ -150,11 +150,17 @@ def pump() -> Iterator[Callable[[Callable[[], Any]], None]]:
 
 
 @pytest.fixture
-def recorded(oracles_dir: Path) -> Callable[[str], Result]:
-    """What the real command printed: ``recorded("ros_live/topic_list")``."""
+def ros1_dir(own_workspaces_dir: Path) -> Path:
+    """What real commands of ROS 1 printed, and two bags that they recorded."""
+    return own_workspaces_dir / "recorded" / "ros1"
+
+
+@pytest.fixture
+def recorded(ros1_dir: Path) -> Callable[[str], Result]:
+    """What the real command printed: ``recorded("topic_list")``."""
 
     def read(name: str) -> Result:
-        text = (oracles_dir / f"{name}.txt").read_text(encoding="utf-8")
+        text = (ros1_dir / f"{name}.txt").read_text(encoding="utf-8")
         match = re.fullmatch(
             r"\$ [^\n]*\n\[exit (\d+)\]\n\[stdout\]\n(.*?)\[stderr\]\n?(.*)", text, re.DOTALL
         )

@@ -34,8 +34,8 @@ def test_get_prints_yaml(graph: Graph, run, value, text: str) -> None:
     assert run("rosparam", "get", "v") == (0, text, "")
 
 
-def test_get_prints_what_gazebo_had(graph: Graph, run, oracles_dir) -> None:
-    text = (oracles_dir / "gazebo_slambot" / "params_values.txt").read_text(encoding="utf-8")
+def test_get_prints_what_gazebo_had(graph: Graph, run, own_workspaces_dir) -> None:
+    text = (own_workspaces_dir / "recorded/gazebo/params_values.txt").read_text("utf-8")
     camera, gazebo = text.split("\n\n")[:2]
     graph.parameters.set("/depth_camera", yaml.safe_load(camera))
     graph.parameters.set("/gazebo", yaml.safe_load(gazebo))

@@ -30,11 +30,11 @@ def test_joint_state_is_that_of_ros(robot: Node, run, recorded) -> None:
     )
     for _ in range(42):
         publisher.publish(_joint_state(1795226371_809584379))
-    assert run("rostopic", "echo", "-n", "1", "/joint_states") == recorded("ros_live/topic_echo_js")
+    assert run("rostopic", "echo", "-n", "1", "/joint_states") == recorded("topic_echo_js")
 
 
 def test_transforms_are_those_of_ros(robot: Node, run, recorded) -> None:
-    real = recorded("ros_live/topic_echo_tf")
+    real = recorded("topic_echo_tf")
     kind = ros1_message_type("geometry_msgs/TransformStamped")
     transforms = []
     for child, xyz, quat in (
@@ -63,7 +63,7 @@ def test_plot_format_is_that_of_ros(robot: Node, run, recorded, when_heard) -> N
     for _ in range(314):
         publisher.publish(_joint_state(0))
     when_heard("/joint_states", lambda: [publisher.publish(_joint_state(one)) for one in stamps])
-    real = recorded("ros_live/echo_csv")
+    real = recorded("echo_csv")
     assert run("rostopic", "echo", "-n", "2", "-p", "/joint_states") == real
 
 

@@ -22,7 +22,7 @@ def _like_ros_live(graph: Graph) -> None:
 
 def test_verbose_list_is_that_of_ros(graph, run, recorded) -> None:
     _like_ros_live(graph)
-    real = recorded("ros_live/topic_list")
+    real = recorded("topic_list")
     ours = run("rostopic", "list", "-v")
     # The master lists topics in the order they came; we sort them.
     assert sorted(ours.out.splitlines()) == sorted(real.out.splitlines())
@@ -68,7 +68,7 @@ def test_wrong_options_end_with_2(graph, run) -> None:
 
 def test_info_is_that_of_ros(graph, run, recorded) -> None:
     _like_ros_live(graph)
-    real = recorded("ros_live/topic_info").out
+    real = recorded("topic_info").out
     ours = run("rostopic", "info", "joint_states").out
     assert re.sub(r"\(.*\)", "(URI)", ours) == re.sub(r"\(.*\)", "(URI)", real)
 

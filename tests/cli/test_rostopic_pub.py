@@ -62,7 +62,7 @@ def test_all_forms_of_arguments_are_taken(robot: Node, run, words: list[str]) ->
 
 def test_once_says_what_ros_says(robot: Node, run, recorded, monkeypatch) -> None:
     Ear(robot, "/cmd_vel", "geometry_msgs/Twist")
-    real = recorded("ros_live/pub")
+    real = recorded("pub")
     monkeypatch.setattr(pub, "_ONCE_S", 3.0)
     start_s = time.monotonic()
     assert (
@@ -73,7 +73,7 @@ def test_once_says_what_ros_says(robot: Node, run, recorded, monkeypatch) -> Non
 
 
 def test_a_wrong_field_is_reported_as_by_ros_and_explained(graph, run, recorded) -> None:
-    real = recorded("ros_live/pub_bad")
+    real = recorded("pub_bad")
     ours = run("rostopic", "pub", "-1", "/cmd_vel", "geometry_msgs/Twist", "{linear: {q: 0.5}}")
     assert (ours.code, ours.out) == (real.code, real.out)
     lines = ours.err.splitlines()

@@ -82,7 +82,7 @@ def test_hz_prints_as_ros_does(robot: Node, run_until, recorded, pump) -> None:
     pump(lambda: publisher.publish(kind()))
     out = run_until("average rate", "rostopic", "hz", "/joint_states")
     assert out.splitlines()[0] == "subscribed to [/joint_states]"
-    assert _blocks(out) == _blocks(recorded("ros_live/hz").out)
+    assert _blocks(out) == _blocks(recorded("hz").out)
 
 
 def test_hz_counts_simulated_time(graph: Graph, robot: Node, run_until, pump, capfd) -> None:
@@ -127,7 +127,7 @@ def test_bandwidth_prints_as_ros_does(robot: Node, run_until, recorded, pump) ->
     message = kind(data="x" * 93)
     pump(lambda: publisher.publish(message))
     out = run_until("average", "rostopic", "bw", "/chat")
-    real = {one.replace("KB", "B") for one in _blocks(recorded("ros_live/bw").out)}
+    real = {one.replace("KB", "B") for one in _blocks(recorded("bw").out)}
     assert {one.replace("KB", "B") for one in _blocks(out)} == real
 
 

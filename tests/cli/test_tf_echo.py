@@ -31,7 +31,7 @@ def _transforms(child: str = "laser_tip") -> Any:
 def test_output_is_that_of_ros(robot: Node, run_until, recorded) -> None:
     robot.create_publisher("/tf", "tf2_msgs/TFMessage", latch=True).publish(_transforms())
     out = run_until("degree", "tf_echo", "base_link", "/laser_tip", "100")
-    block = "".join(recorded("ros_live/tf_echo").out.splitlines(keepends=True)[:5])
+    block = "".join(recorded("tf_echo").out.splitlines(keepends=True)[:5])
     assert out.startswith(block)
 
 

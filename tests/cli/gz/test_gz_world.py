@@ -112,8 +112,8 @@ def test_stats_of_a_paused_world(world: Simulation, gz: Run) -> None:
     assert "realtime is counted from here on" in found.err
 
 
-def test_stats_lines_are_those_of_gazebo(oracles_dir: Path) -> None:
-    text = (oracles_dir / "gazebo_classic" / "gzserver_tools.txt").read_text(encoding="utf-8")
+def test_stats_lines_are_those_of_gazebo(own_workspaces_dir: Path) -> None:
+    text = (own_workspaces_dir / "recorded/gazebo/gzserver_tools.txt").read_text("utf-8")
     assert stats_line(1.03, 7.833, 8.156617, paused=False, plot=True) in text.splitlines()
     assert pose_line((-0.000119, -3.2e-05, 0.15, 0.0, -1e-9, 3.7e-05)) in text.splitlines()
     line = stats_line(1.0, 2.5, 2.75, paused=True, plot=False)

@@ -14,14 +14,14 @@ pytestmark = pytest.mark.reference
 
 
 @pytest.fixture
-def live(oracles_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def live(ros1_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the recorded bags to work in; its sibling holds what the real ones printed."""
     for name in ("t.bag", "tf.bag"):
-        shutil.copy(oracles_dir / "ros_live" / name, tmp_path / name)
+        shutil.copy(ros1_dir / name, tmp_path / name)
         (tmp_path / name).chmod(0o644)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("TZ", "UTC")
-    return oracles_dir / "ros_live"
+    return ros1_dir
 
 
 def _expected(live: Path, name: str) -> str:

@@ -12,9 +12,9 @@ pytestmark = pytest.mark.reference
 
 
 def test_rostopic_lists_and_echoes_a_bag(
-    oracles_dir: Path, capsys: pytest.CaptureFixture[str]
+    ros1_dir: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    bag = str(oracles_dir / "ros_live" / "t.bag")
+    bag = str(ros1_dir / "t.bag")
     assert rostopic.main(["list", "-b", bag]) == 0
     assert capsys.readouterr().out == "/tf_static\n/joint_states\n/tf\n"
     assert rostopic.main(["echo", "-b", bag, "-n", "1", "-p", "/joint_states/position"]) == 0
@@ -25,16 +25,14 @@ def test_rostopic_lists_and_echoes_a_bag(
     assert "did you mean '/joint_states'" in capsys.readouterr().err
 
 
-def test_rosmsg_shows_a_type_of_a_bag(
-    oracles_dir: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    bag = str(oracles_dir / "ros_live" / "t.bag")
+def test_rosmsg_shows_a_type_of_a_bag(ros1_dir: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bag = str(ros1_dir / "t.bag")
     assert rosmsg.main(["rosmsg", "show", "-b", bag, "sensor_msgs/JointState"]) == 0
     assert capsys.readouterr().out.startswith("std_msgs/Header header\n  uint32 seq\n")
 
 
-def test_rostopic_measures_a_bag(oracles_dir: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    bag = str(oracles_dir / "ros_live" / "t.bag")
+def test_rostopic_measures_a_bag(ros1_dir: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bag = str(ros1_dir / "t.bag")
     assert rostopic.main(["hz", "-b", bag, "/joint_states"]) == 0
     rate = "average rate: 10.000\n\tmin: 0.099s max: 0.100s std dev: 0.00018s window: 38\n"
     assert capsys.readouterr().out == rate

@@ -34,7 +34,7 @@ def demo(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_summaries_are_laid_out_as_those_of_ros(recorded: Any) -> None:
-    wanted = recorded("ros_live/roswtf_launch").out
+    wanted = recorded("roswtf_launch").out
     names = ["ROS Dep database not updated: Please update rosdep database with 'rosdep update'."]
     names += ["You are missing core ROS Python modules: rosdep2 -- ", "pycrypto is not installed"]
     found = Findings(names)

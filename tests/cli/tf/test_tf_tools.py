@@ -62,7 +62,7 @@ def test_frames_are_drawn_as_ros_draws_them(tree: None, here: Path, capsys: Any)
 def test_tf2_logs_what_it_does(tree: None, here: Path, capsys: Any, recorded: Any) -> None:
     assert view_frames.main(["--tf2", "--wait-time", "0.2"]) == 0
     shape = re.compile(r"\d+\.\d{6}")
-    wanted = shape.sub("T", recorded("ros_live/view_frames2").out).replace("5 s", "0.2 s")
+    wanted = shape.sub("T", recorded("view_frames2").out).replace("5 s", "0.2 s")
     assert shape.sub("T", capsys.readouterr().out) == wanted
 
 
@@ -75,7 +75,7 @@ def test_without_dot_the_drawing_is_still_there(tree: None, here: Path, capsys: 
 
 def test_chain_is_watched_in_the_words_of_ros(tree: None, run_until: Any, recorded: Any) -> None:
     out = run_until("Node: /robot(static)", "tf_monitor", "base_link", "/laser_tip")
-    wanted = recorded("ros_live/tf_monitor").out
+    wanted = recorded("tf_monitor").out
     names = wanted.replace("unknown_publisher", "/robot")
     number = re.compile(r"\d[\d.e+]*")
     block = number.sub("N", "".join(names.splitlines(keepends=True)[:13]))
