@@ -52,8 +52,8 @@ class _WorkspaceFinder(MetaPathFinder):
             from gazelle.workspace import Workspace
 
             self._workspace = Workspace.discover()
-        package = self._workspace.packages.get(name)
-        return None if package is None or package.is_builtin else package.path
+        package = self._workspace.user_package(name)
+        return None if package is None else package.path
 
     def find_spec(
         self,

@@ -103,18 +103,25 @@ def find_source(package: str, part: str, name: str, generation: Generation) -> S
     return None if text_of is None else Source(text_of, f"<{package}/{part}/{name}>", generation)
 
 
-def block_names(generation: Generation) -> Iterator[tuple[str, str, str]]:
-    """Yield package, part and name of every definition of one generation."""
+def block_names(generation: Generation, package: str = "") -> Iterator[tuple[str, str, str]]:
+    """Yield package, part and name of every definition of one generation.
+
+    Args:
+        generation: which ROS they are written for.
+        package: whose, all packages' when empty; reading them all takes a program's start longer
+            than anything else.
+    """
     folder = _DATA / f"ros{generation.value}"
-    for file in sorted(folder.glob("*.txt")):
-        for key in _blocks(file.stem, generation):
+    owners = [package] if package else [file.stem for file in sorted(folder.glob("*.txt"))]
+    for owner in owners:
+        for key in _blocks(owner, generation):
             part, name = key.split("/")
-            yield file.stem, part, name
-    for package, (path, written_for) in sorted(_user_packages.items()):
-        if written_for in (None, generation):
+            yield owner, part, name
+    for owner, (path, written_for) in sorted(_user_packages.items()):
+        if written_for in (None, generation) and package in ("", owner):
             for part in _PARTS:
                 for name in _files(path, part, _revision):
-                    yield package, part, name
+                    yield owner, part, name
 
 
 @lru_cache(maxsize=1024)

@@ -86,9 +86,7 @@ def known_types(part: str = "msg", package: str = "") -> tuple[str, ...]:
     """
     names = set()
     for generation in Generation:
-        for owner, its_part, bare in library.block_names(generation):
-            if package and owner != package:
-                continue
+        for owner, its_part, bare in library.block_names(generation, package):
             if its_part == part:
                 names.add(f"{owner}/{part}/{bare}")
             if its_part == "action" and part == "msg" and generation is Generation.ROS1:

@@ -8,8 +8,10 @@ import shutil
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from gazelle.workspace import Workspace
+if TYPE_CHECKING:
+    from gazelle.workspace import Workspace
 
 __all__ = [
     "ROS_COMMANDS",

@@ -7,9 +7,6 @@ from functools import lru_cache
 from pathlib import Path
 
 from gazelle.limits.names import is_file
-from gazelle.workspace.building.cmake_lists import read_cmake_lists
-from gazelle.workspace.entry_points import console_scripts
-from gazelle.workspace.installed import installed_files
 
 __all__ = ["executable_names", "executables_named"]
 
@@ -33,6 +30,9 @@ def executables_named(
         _add(found, prefix / "lib" / package / type_name)
         _add(found, path / type_name)
         return tuple(found)
+    from gazelle.workspace.entry_points import console_scripts
+    from gazelle.workspace.installed import installed_files
+
     installed = installed_files(path, package)
     spellings = _spellings(type_name)
     if len(spellings) > 1 and type_name in _compiled_names(path, package):
@@ -58,6 +58,9 @@ def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str
     """Return the names ``rosrun`` would offer for a package, sorted."""
     if prefix is not None:
         return tuple(sorted(file.name for file in _files_below(prefix / "lib" / package)))
+    from gazelle.workspace.entry_points import console_scripts
+    from gazelle.workspace.installed import installed_files
+
     names = set(console_scripts(path))
     start = f"lib/{package}/"
     installed = (target for target in installed_files(path, package) if target.startswith(start))
@@ -81,6 +84,8 @@ def _spellings(type_name: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def _compiled_names(path: Path, package: str) -> frozenset[str]:
+    from gazelle.workspace.building.cmake_lists import read_cmake_lists
+
     try:
         lists = read_cmake_lists(path, package)
     except OSError:

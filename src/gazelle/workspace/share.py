@@ -20,7 +20,6 @@ from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
 from gazelle.limits.names import exists
-from gazelle.workspace.installed import install_rules, installed_files, made_texts
 
 __all__ = ["share_folder"]
 
@@ -38,6 +37,8 @@ def share_folder(folder: Path, name: str, *, has_devel_space: bool) -> Path:
         has_devel_space: built by catkin, whose look-ups find the source folder's places too, and
             first.
     """
+    from gazelle.workspace.installed import install_rules, installed_files, made_texts
+
     start = f"share/{name}/"
     texts = made_texts(folder, name)
     if not texts and not any(

@@ -74,6 +74,13 @@ class Workspace:
         """Those packages that do not come with Gazelle, whose many manifests stay unread."""
         return self._packages.of_users()
 
+    def user_package(self, name: str) -> Package | None:
+        """Return a package that does not come with Gazelle, None when there is none.
+
+        What comes with Gazelle is not even listed for it, which takes longer than most searches.
+        """
+        return self._packages.of_user(name)
+
     def package(self, name: str) -> Package:
         """Return a package.
 
@@ -196,6 +203,12 @@ class _Packages(Mapping[str, Package]):
     def of_users(self) -> tuple[Package, ...]:
         """Return the packages that are not built in, sorted by name."""
         return tuple(self[name] for name in self if not self._found[name][1])
+
+    def of_user(self, name: str) -> Package | None:
+        """Return a package that is not built in, None when there is none."""
+        while name not in self._found and self._waiting and not self._waiting[0].is_builtin:
+            self._crawl_next()
+        return self[name] if name in self._found and not self._found[name][1] else None
 
     def _crawl_next(self) -> None:
         source = self._waiting.pop(0)
