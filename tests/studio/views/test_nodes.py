@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import eventually, stretched
 
+from gazelle.graph import Graph
 from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.registry import builtin_node, builtin_nodes
 from gazelle.nodes.view_names import VIEWS
@@ -71,3 +73,21 @@ def test_every_view_can_be_loaded_and_runs_in_a_process_of_its_own() -> None:
     found = [node for node in builtin_nodes() if node.target in targets]
     assert len(found) == len(VIEWS)
     assert all(callable(node.load()) and not node.light for node in found)
+
+
+def test_a_window_does_not_follow_the_time_of_a_simulator(
+    free_port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started, stop = threading.Event(), threading.Event()
+    monkeypatch.setattr(nodes, "is_switched_off", lambda: started.set() or True)
+    with Graph.open(port=free_port, environ={}) as graph:
+        graph.parameters.set("/use_sim_time", True)
+        arguments = read_arguments((), "gzclient")
+        view = threading.Thread(target=nodes.gzclient, args=(arguments, graph, stop))
+        view.start()
+        try:
+            assert started.wait(stretched())
+            eventually(lambda: not graph.subscription_count("/clock"))
+        finally:
+            stop.set()
+            view.join(stretched())

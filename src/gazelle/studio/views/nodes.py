@@ -43,7 +43,8 @@ def run_view(
 ) -> int:
     """Be a node that shows a panel until told to stop; launch files count on its staying alive."""
     node = start_node(arguments, graph)
-
+    # A simulator says the time at every step; the page's server follows it while a page is open.
+    graph.clock.leave(node)
     if is_switched_off():
         node.log("info", f"[{panel}] no window opens: GAZELLE_STUDIO=0; the node stays alive")
         stop.wait()
