@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 from tests.bag.conftest import START_NS, STEP_NS, point_bytes
+from tests.patience import stretched
 
 from gazelle.bag import BagError, Encoding, open_bag, ros1_connection
 from gazelle.bag.ros1 import Compression, Ros1Writer
 
 Fill = Callable[..., Path]
+HAS_ROS1 = Path("/usr/bin/rosbag").exists()
 
 
 def go_on(path: Path, first: int, count: int, **options: Compression) -> Ros1Writer:
@@ -45,12 +47,12 @@ def test_what_is_appended_follows_what_was_there(bag_of: Fill) -> None:
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("closed", [False, True])
-@pytest.mark.parametrize("packing", list(Compression))
+@pytest.mark.parametrize("closed", [False, True] if HAS_ROS1 else [True])
+@pytest.mark.parametrize("packing", list(Compression) if HAS_ROS1 else [Compression.NONE])
 def test_the_real_rosbag_reads_it_at_any_moment(
     bag_of: Fill, packing: Compression, closed: bool
 ) -> None:
-    if not Path("/usr/bin/rosbag").exists():
+    if not HAS_ROS1:
         pytest.skip("ROS 1 is not installed (Debian: apt-get install python3-rosbag)")
     path = bag_of("a.bag")
     writer = go_on(path, 100, 10, compression=packing)
@@ -60,7 +62,7 @@ def test_the_real_rosbag_reads_it_at_any_moment(
     environ = {"PATH": "/usr/bin:/bin", "HOME": str(path.parent)}
     done = subprocess.run(
         ["/usr/bin/python3", "-c", code], env=environ, capture_output=True, text=True,
-        timeout=30, check=False,
+        timeout=stretched(), check=False,
     )  # fmt: skip
     # Until it is closed, the real one sees what was there before.
     assert done.stdout == ("110\n" if closed else "100\n"), done.stderr

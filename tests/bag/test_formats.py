@@ -105,13 +105,11 @@ def test_a_format_refuses_compressions_it_does_not_know(tmp_path: Path) -> None:
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize(("name", "count"), [("t.bag", 77), ("tf.bag", 38)])
-def test_real_bags_are_read_and_their_sums_are_ours(
-    oracles_dir: Path, name: str, count: int
-) -> None:
-    bag = open_bag(oracles_dir / "ros_live" / name)
-    assert len(list(bag.messages())) == bag.summary.messages == count
-    assert all(md5sum(one.type_name) == one.md5sum for one in bag.connections)
+def test_real_bags_are_read_and_their_sums_are_ours(oracles_dir: Path) -> None:
+    for name, count in (("t.bag", 77), ("tf.bag", 38)):
+        bag = open_bag(oracles_dir / "ros_live" / name)
+        assert len(list(bag.messages())) == bag.summary.messages == count
+        assert all(md5sum(one.type_name) == one.md5sum for one in bag.connections)
 
 
 @pytest.mark.reference

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.bag import BagError, Connection, Encoding, Storage, create_bag, open_bag
 from gazelle.bag.migration import migration_of
@@ -126,7 +127,7 @@ def test_the_real_rosbag_writes_the_same_bag(tmp_path: Path) -> None:
     write(tmp_path / "a.bag", twist_with(TURNED), struct.pack("<6d", 2, 1, 3, 5, 4, 6))
     words = ["/usr/bin/rosbag", "fix", "a.bag", "theirs.bag"]
     environ = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path)}
-    subprocess.run(words, cwd=tmp_path, env=environ, check=True, timeout=30)
+    subprocess.run(words, cwd=tmp_path, env=environ, check=True, timeout=stretched())
     assert rosbag.main(["fix", str(tmp_path / "a.bag"), str(tmp_path / "ours.bag")]) == 0
     ours, theirs = (
         next(open_bag(tmp_path / f"{one}.bag").messages()) for one in ("ours", "theirs")

@@ -6,6 +6,7 @@ import threading
 from pathlib import Path
 
 import pytest
+from tests.patience import eventually, stretched
 
 from gazelle.bag import BagError, open_bag
 from gazelle.bag.recording import Recorder, Ros1Files, Selection
@@ -21,22 +22,22 @@ def test_who_waits_for_the_file_loses_no_message(tmp_path: Path, free_port: int)
         names = ("/named", "/there")
         talker = hub.create_node("talker")
         outs = [talker.create_publisher(name, _INT) for name in names]
-        assert own.discovery.wait_for(lambda known: {"/there"} <= {one.name for one in known}, 5.0)
+        assert own.discovery.wait_for(
+            lambda known: {"/there"} <= {one.name for one in known}, stretched()
+        )
         sink = Ros1Files(lambda: str(tmp_path / "a"))
         recorder = Recorder(own, own.create_node("recorder"), sink)
         file = tmp_path / "a.bag.active"
         assert not file.exists()
         recorder.begin(selection)
         assert file.exists() and set(recorder.topics) >= set(names)
-        assert hub.discovery.wait_for(lambda _known: all(one.matched for one in outs), 1.0)
+        assert hub.discovery.wait_for(lambda _known: all(one.matched for one in outs), stretched())
         for number in range(20):
             for out in outs:
                 out.publish(_INT(data=number))
         thread = threading.Thread(target=recorder.run, args=(selection, stop))
         thread.start()
-        for _ in range(500):
-            if recorder.written >= 40 or stop.wait(0.01):
-                break
+        eventually(lambda: recorder.written >= 40)
         stop.set()
         thread.join()
     counts = [one.connection.topic for one in open_bag(tmp_path / "a.bag").messages()]

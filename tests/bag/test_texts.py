@@ -5,17 +5,15 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import pytest
+from tests.patience import eventually, stretched
 
 from gazelle.bag import Connection, Encoding, Storage, create_bag, learn_definitions, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.graph import Graph
 from gazelle.interfaces import full_text, md5sum
-
-_WAIT_S = 30.0
 
 
 @pytest.fixture(autouse=True)
@@ -52,12 +50,9 @@ def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port:
         quiet = (lambda *_args: None, lambda *_args: None)
         node = graph.create_node("player")
         player = Player(node, [bag], PlayOptions(), Controls(), *quiet)
-        pause = threading.Event()
-        for _ in range(1000):
-            if all(one.matched for one in player.publishers) or pause.wait(0.01):
-                break
+        eventually(lambda: all(one.matched for one in player.publishers))
         player.play()
-        assert recorder.wait(_WAIT_S) == 0
+        assert recorder.wait(stretched()) == 0
     found = {one.topic: one for one in open_bag(tmp_path / "out.bag").connections}
     for one in connections:
         kept = found[one.topic]
