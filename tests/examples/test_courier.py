@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from tests.conftest import SHARED
 
 import gazelle
 from gazelle.geometry import Pose
@@ -21,15 +22,16 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "four_wheel_ws"
 PACKAGE = EXAMPLE / "src" / "courier_robot"
 
 
-@pytest.fixture(params=["own", "tutorial"])
+TUTORIAL = SHARED / "workspaces/catkin_ws/src/urdf_tutorial/config/diffdrive.yaml"
+FILES = {"own": PACKAGE / "config" / "diffdrive.yaml"}
+if TUTORIAL.exists():
+    FILES["tutorial"] = TUTORIAL
+
+
+@pytest.fixture(params=FILES)
 def config(request: pytest.FixtureRequest) -> dict[str, Any]:
     """The controller file of the example, and the unmodified one of the tutorial."""
-    if request.param == "own":
-        path = PACKAGE / "config" / "diffdrive.yaml"
-    else:
-        workspaces = request.getfixturevalue("workspaces_dir")
-        path = workspaces / "catkin_ws/src/urdf_tutorial/config/diffdrive.yaml"
-    values: dict[str, Any] = yaml.safe_load(path.read_text())
+    values: dict[str, Any] = yaml.safe_load(FILES[request.param].read_text())
     return values
 
 
@@ -154,6 +156,12 @@ def test_a_reset_world_gives_the_same_drive_again(courier: Courier) -> None:
         ends.append((place.x, place.y, courier.sim.state_hash()))
     assert ends[0] == ends[1]
     assert ends[0][0] > 0.2
+
+
+@pytest.mark.tutorial
+def test_the_tutorials_file_is_driven_by_too(workspaces_dir: Path) -> None:
+    assert TUTORIAL.is_relative_to(workspaces_dir)
+    assert set(FILES) == {"own", "tutorial"}
 
 
 def test_all_its_controllers_run_without_a_warning() -> None:

@@ -7,6 +7,7 @@ import sys
 from xml.etree import ElementTree
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.workspace.search_path import BUILTIN
 
@@ -126,7 +127,7 @@ def test_the_xacro_command_of_launch_files_runs(discover, tmp_path, name):
         check=False,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=stretched(),
         env={**os.environ, "XDG_CACHE_HOME": str(tmp_path)},
     )
     said = "xacro: in-order processing became default in ROS Melodic. You can drop the option.\n"

@@ -150,13 +150,21 @@ def test_an_unknown_scheme_says_which_are_known(workspace):
     assert "'robot://' is not known; known are package://, model://, file://" in found.note
 
 
-def test_the_sample_robots_meshes_are_all_found(workspaces_dir: Path, discover):
+@pytest.mark.parametrize("place", ["examples_dir", "workspaces_dir"])
+def test_the_sample_robots_meshes_are_all_found(
+    request: pytest.FixtureRequest, place: str, discover
+):
     import re
 
-    workspace = discover(extra=(workspaces_dir,))
-    for path in sorted(workspaces_dir.rglob("*.urdf")):
-        for uri in re.findall(r"package://[^\"'< ]+", path.read_text()):
-            assert workspace.resolve(uri).path is not None, uri
+    folder: Path = request.getfixturevalue(place)
+    workspace = discover(extra=(folder,))
+    files = [path for kind in ("*.urdf", "*.xacro") for path in folder.rglob(kind)]
+    uris = {uri for path in files for uri in re.findall(r"package://[^\"'<> ]+", path.read_text())}
+    # A name with a property of xacro is no name yet.
+    uris = {uri for uri in uris if "$" not in uri}
+    assert len(uris) >= 4
+    for uri in uris:
+        assert workspace.resolve(uri).path is not None, uri
 
 
 def test_the_slambot_worlds_models_are_found(workspaces_dir: Path, discover):

@@ -210,17 +210,31 @@ def test_worlds_are_found_on_the_resource_path(tmp_path, discover):
 @pytest.mark.parametrize(
     ("folder", "names"),
     [
-        ("catkin_ws", ["slam_robot", "tutorial_controller", "urdf_exam", "urdf_tutorial"]),
-        ("ros2_ws", ["luck_description", "luck_gazebo", "luck_robot"]),
+        ("arm_ws", ["heron_bringup", "heron_description", "heron_moveit_config"]),
+        ("pr2_style_ws", ["tandem_controller"]),
     ],
 )
-def test_sample_workspaces_are_found(workspaces_dir: Path, discover, folder, names):
-    workspace = discover(workspaces_dir / folder)
-    assert set(names) <= set(own(workspace))
+def test_example_workspaces_are_found(examples_dir: Path, discover, folder, names):
+    workspace = discover(examples_dir / folder)
+    assert set(own(workspace)) == set(names)
     assert not len(workspace.diagnostics)
 
 
-def test_generations_of_the_sample_packages_are_known(workspaces_dir: Path, discover):
+def test_generations_of_the_example_packages_are_known(examples_dir: Path, discover):
+    workspace = discover(extra=(examples_dir,))
+    assert workspace.package("scout_robot").ros_generation == 1
+    assert workspace.package("heron_bringup").ros_generation == 2
+    assert workspace.package("heron_bringup").build_type == "ament_python"
+
+
+def test_sample_workspaces_and_their_generations_are_known(workspaces_dir: Path, discover):
+    for folder, names in (
+        ("catkin_ws", ["slam_robot", "tutorial_controller", "urdf_exam", "urdf_tutorial"]),
+        ("ros2_ws", ["luck_description", "luck_gazebo", "luck_robot"]),
+    ):
+        workspace = discover(workspaces_dir / folder)
+        assert set(names) <= set(own(workspace))
+        assert not len(workspace.diagnostics)
     workspace = discover(extra=(workspaces_dir,))
     assert workspace.package("slam_robot").ros_generation == 1
     assert workspace.package("luck_gazebo").ros_generation == 2

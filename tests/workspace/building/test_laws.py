@@ -56,6 +56,12 @@ def test_new_packages_of_every_kind(tmp_path: Path, symlinks: bool) -> None:
     _check_law(tmp_path, least=25)
 
 
+def test_the_example_arms_workspace(examples_dir: Path, tmp_path: Path) -> None:
+    shutil.copytree(examples_dir / "arm_ws/src", tmp_path / "src")
+    _build(tmp_path, symlinks=False)
+    _check_law(tmp_path, least=18)
+
+
 @pytest.mark.tutorial
 def test_the_documents_workspace(workspaces_dir: Path, tmp_path: Path) -> None:
     shutil.copytree(workspaces_dir / "ros2_ws/src", tmp_path / "src")
