@@ -19,17 +19,19 @@ from typing import Any
 import pytest
 from tests.patience import PATIENCE_S, eventually, stretched
 
-_SHARED = Path(__file__).parents[2] / "shared"
+SHARED = Path(__file__).parents[2] / "shared"
 _SLOW_S = 10.0
 _NOT_QUICK = ("slow", "tutorial")
 # What starts processes: fixtures by name, and names that a test's function speaks of.
-_STARTING_FIXTURES = {"gazelle", "gazelle_launch", "in_workspace", "pytester", "browser"}
+_STARTING_FIXTURES = {"gazelle", "gazelle_launch", "module_gazelle", "pytester", "browser"}
 _STARTING_NAMES = {"subprocess", "Popen", "multiprocessing"}
 _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 # What programs that tests need find by the true home.
 _FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
+_RUN_MARK = "TESTS_COMMANDS"
+_RUN_NUMBERS = itertools.count()
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)
 if sys.dont_write_bytecode:
     # Some containers say so, and each of some thousand processes would compile all modules anew.
@@ -118,9 +120,9 @@ def own_definitions() -> Iterator[None]:
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
     """The folder with sample workspaces and recorded outputs of real programs."""
-    if not _SHARED.is_dir():
-        pytest.skip(f"sample workspaces are not here ({_SHARED})")
-    return _SHARED
+    if not SHARED.is_dir():
+        pytest.skip(f"sample workspaces are not here ({SHARED})")
+    return SHARED
 
 
 @pytest.fixture(scope="session")
@@ -168,6 +170,7 @@ class Launched:
             words, cwd=cwd, env=environ, text=True, start_new_session=True, stdin=stdin,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace",
         )  # fmt: skip
+        self._run_mark = environ.get(_RUN_MARK)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -277,13 +280,17 @@ class Launched:
 
     def processes(self) -> dict[int, str]:
         """Return the command lines of all processes on this graph's port, the test's apart."""
+        return self._processes(lambda environ: True)
+
+    def _processes(self, belongs: Callable[[dict[str, str]], bool]) -> dict[int, str]:
         import psutil
 
         found: dict[int, str] = {}
         for process in psutil.process_iter():
             with contextlib.suppress(psutil.Error):
-                on_port = process.environ().get("GAZELLE_PORT") == str(self.port)
-                if on_port and process.status() != psutil.STATUS_ZOMBIE:
+                environ = process.environ()
+                on_port = environ.get("GAZELLE_PORT") == str(self.port)
+                if on_port and belongs(environ) and process.status() != psutil.STATUS_ZOMBIE:
                     found[process.pid] = " ".join(process.cmdline())
         return found
 
@@ -295,7 +302,8 @@ class Launched:
             self.popen.send_signal(signal.SIGTERM)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self.popen.wait(stretched())
-        for pid in self.processes():
+        # What a module's tests share stays when one of them ends.
+        for pid in self._processes(lambda environ: environ.get(_RUN_MARK) == self._run_mark):
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         self.popen.wait(stretched())
@@ -371,8 +379,9 @@ Run = Callable[..., Launched]
 
 @contextlib.contextmanager
 def commands(folder: Path, graph_port: int) -> Iterator[Run]:
-    """What the fixture `gazelle` gives, in a folder and on a port; for fixtures of modules."""
+    """Give what runs ``gazelle WORDS…`` in a folder and on a port; everything ends with it."""
     running: list[Launched] = []
+    mark = f"{os.getpid()}-{next(_RUN_NUMBERS)}"
 
     def run(
         *words: str,
@@ -384,14 +393,30 @@ def commands(folder: Path, graph_port: int) -> Iterator[Run]:
     ) -> Launched:
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
         own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(folder / "ros_home")}
-        own |= {"GAZELLE_STUDIO": "0", **environ}
+        own |= {"GAZELLE_STUDIO": "0", _RUN_MARK: mark, **environ}
         command = [sys.executable, "-m", module, *words]
         running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
         return running[-1]
 
-    yield run
-    for one in reversed(running):
-        one.close()
+    try:
+        yield run
+    finally:
+        for one in reversed(running):
+            one.close()
+
+
+@pytest.fixture(scope="module")
+def module_port() -> Iterator[int]:
+    """The port of a graph that a module's tests share."""
+    with reserved_port() as port:
+        yield port
+
+
+@pytest.fixture(scope="module")
+def module_gazelle(tmp_path_factory: pytest.TempPathFactory, module_port: int) -> Iterator[Run]:
+    """As `gazelle`, for what a module's tests look at together; ends with the module."""
+    with commands(tmp_path_factory.mktemp("module"), module_port) as run:
+        yield run
 
 
 @pytest.fixture
@@ -407,10 +432,19 @@ def gazelle(tmp_path: Path, free_port: int) -> Iterator[Run]:
 @pytest.fixture
 def in_workspace(gazelle: Run, workspaces_dir: Path) -> Run:
     """Runs ``gazelle WORDS…`` in the documents' catkin workspace, with their models."""
+    return _in(workspaces_dir, gazelle)
 
+
+@pytest.fixture(scope="module")
+def module_in_workspace(module_gazelle: Run, workspaces_dir: Path) -> Run:
+    """As `in_workspace`, for what a module's tests look at together."""
+    return _in(workspaces_dir, module_gazelle)
+
+
+def _in(workspaces: Path, gazelle: Run) -> Run:
     def run(*words: str, **options: Any) -> Launched:
-        options.setdefault("cwd", workspaces_dir / "catkin_ws")
-        options.setdefault("GAZEBO_MODEL_PATH", str(workspaces_dir / "gazebo_models"))
+        options.setdefault("cwd", workspaces / "catkin_ws")
+        options.setdefault("GAZEBO_MODEL_PATH", str(workspaces / "gazebo_models"))
         return gazelle(*words, **options)
 
     return run

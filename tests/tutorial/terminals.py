@@ -15,9 +15,10 @@ import termios
 import threading
 from pathlib import Path
 
+from tests.patience import PATIENCE_S, stretched
+
 __all__ = ["Terminal"]
 
-_PATIENCE_S = 20.0
 _PROMPT = re.compile(r"\[(\d+)\]\$ \Z")
 # What a terminal acts on and does not show: colours, titles, modes.
 _CONTROL = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]|\x1b\][^\x07]*\x07")
@@ -58,7 +59,7 @@ class Terminal:
             self._mark = len(self.text)
         os.write(self._keys, keys.encode())
 
-    def run(self, line: str, *, code: int = 0, timeout_s: float = _PATIENCE_S) -> str:
+    def run(self, line: str, *, code: int = 0, timeout_s: float = PATIENCE_S) -> str:
         """Type a line, wait for the prompt and return what was shown in between."""
         self.type(f"{line}\r")
         return self.ended(code, timeout_s)
@@ -79,7 +80,7 @@ class Terminal:
         self.type("\x03")
         return self.ended(code)
 
-    def ended(self, code: int | None = 0, timeout_s: float = _PATIENCE_S) -> str:
+    def ended(self, code: int | None = 0, timeout_s: float = PATIENCE_S) -> str:
         """Wait for the prompt after the typed line and return what was shown before it."""
         self.wait_for(r"\n?" + _PROMPT.pattern, timeout_s)
         shown = self.text[self._mark :]
@@ -88,7 +89,7 @@ class Terminal:
         assert code is None or int(found[1]) == code, shown
         return shown[shown.find("\n") + 1 : found.start()]
 
-    def wait_for(self, pattern: str, timeout_s: float = _PATIENCE_S) -> str:
+    def wait_for(self, pattern: str, timeout_s: float = PATIENCE_S) -> str:
         """Return what a regular expression finds in the text since the last keys."""
         wanted = re.compile(pattern, re.MULTILINE)
 
@@ -97,7 +98,7 @@ class Terminal:
             return match[0] if match else ""
 
         with self._changed:
-            assert self._changed.wait_for(found, timeout_s), (
+            assert self._changed.wait_for(found, stretched(timeout_s)), (
                 f"{pattern!r} is not shown:\n{self.text[self._mark :]}"
             )
             return found()
@@ -107,8 +108,8 @@ class Terminal:
         with contextlib.suppress(ProcessLookupError, OSError):
             os.killpg(os.tcgetpgrp(self._keys), signal.SIGKILL)
         self._bash.kill()
-        self._bash.wait(_PATIENCE_S)
-        self._reader.join(_PATIENCE_S)
+        self._bash.wait(stretched())
+        self._reader.join(stretched())
         os.close(self._keys)
 
     def _read(self) -> None:

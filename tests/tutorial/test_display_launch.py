@@ -1,10 +1,11 @@
-"""``roslaunch urdf_tutorial display.launch model:=…`` without the window (T11)."""
+"""``roslaunch urdf_tutorial display.launch model:=…`` without the window (T11), and an own one."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,9 +19,24 @@ def test_every_wheel_has_a_place_in_the_tree(
     in_workspace: Callable, workspaces_dir: Path, model: str
 ) -> None:
     folder = workspaces_dir / "catkin_ws/src/urdf_tutorial"
-    display = in_workspace(
-        "roslaunch", "urdf_tutorial", "display.launch", f"model:=urdf/{model}", cwd=folder
+    _check_tree(
+        in_workspace(
+            "roslaunch", "urdf_tutorial", "display.launch", f"model:=urdf/{model}", cwd=folder
+        )
     )
+
+
+@pytest.mark.parametrize("model", ["barrow.urdf", "barrow.urdf.xacro"])
+def test_every_wheel_of_an_own_package_has_a_place_in_the_tree(
+    gazelle: Callable, own_workspaces_dir: Path, model: str
+) -> None:
+    folder = own_workspaces_dir / "ros1/src/shown_robot"
+    display = gazelle("roslaunch", "shown_robot", "show.launch", f"model:=urdf/{model}", cwd=folder)
+    _check_tree(display)
+    assert not re.search("error|warning|died", display.text)
+
+
+def _check_tree(display: Any) -> None:
     wheels = {f"{where}_wheel" for where in ("left", "right")}
     found: set[str] = set()
 

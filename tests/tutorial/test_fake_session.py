@@ -17,15 +17,15 @@ _EMPTY_LINE = "\x15"
 _KEYS_OF_TELEOP = r"^CTRL-C to quit$"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def terminals(
-    open_terminal: Callable[[], Terminal], workspaces_dir: Path, tmp_path: Path
+    open_module_terminal: Callable[[], Terminal], workspaces_dir: Path, module_folder: Path
 ) -> list[Terminal]:
     """Three terminals; the published packages lie in ``~/catkin_ws/src``."""
-    shutil.copytree(workspaces_dir / "turtlebot3_ws" / "src", tmp_path / "catkin_ws" / "src")
-    (tmp_path / "catkin_ws").chmod(0o755)
+    shutil.copytree(workspaces_dir / "turtlebot3_ws" / "src", module_folder / "catkin_ws" / "src")
+    (module_folder / "catkin_ws").chmod(0o755)
     with ThreadPoolExecutor() as pool:
-        opened = list(pool.map(lambda _number: open_terminal(), range(3)))
+        opened = list(pool.map(lambda _number: open_module_terminal(), range(3)))
     assert "Build files are in: " in opened[0].run("cd ~/catkin_ws && catkin_make")
     for one in opened:
         one.run("source ~/catkin_ws/devel/setup.bash")
@@ -84,9 +84,8 @@ def test_tab_completes_what_is_typed(terminals: list[Terminal]) -> None:
         free.type(typed)
         free.wait_for(re.escape(wanted))
         free.type(_EMPTY_LINE)
+    keys.interrupt(code=0)
 
 
 def _log_folder(terminal: Terminal) -> str:
-    found = re.search(r"\.\.\. logging to (\S+)/roslaunch-", terminal.text)
-    assert found is not None
-    return found[1]
+    return str(re.findall(r"\.\.\. logging to (\S+)/roslaunch-", terminal.text)[-1])

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics
@@ -55,11 +56,11 @@ def test_arm_is_held_from_the_start_and_follows_a_goal_of_another_process(
 
     kind = action_type("control_msgs/FollowJointTrajectory")
     client = ActionClient(arm.node, "/test_group_controller/follow_joint_trajectory", kind)
-    assert client.wait_for_server(10.0)
+    assert client.wait_for_server(stretched())
     target = [0.5, 0.2, 0.1, 0.0, -0.3, 0.4]
     points = [{"positions": target, "time_from_start": {"sec": 1, "nanosec": 0}}]
     goal = client.send_goal({"trajectory": {"joint_names": _JOINTS, "points": points}})
-    assert goal.wait(20.0)
+    assert goal.wait(stretched())
     assert goal.status.name == "SUCCEEDED"
     assert goal.result.error_code == 0
     state = arm.messages({"/joint_states": 1})["/joint_states"][-1]

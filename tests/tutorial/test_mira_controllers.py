@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.control.serial_chain import gravity_effort, mass_matrix, read_chain
+from tests.patience import stretched
 
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type, ros1_message_type, ros1_service_type, service_type
@@ -48,7 +49,7 @@ def test_launch_starts_controllers_before_time_does_and_mira_stays_up(
     robot.wait_for_line(r"Started controllers: .*joint_state_controller")
     kind = ros1_service_type("controller_manager_msgs/ListControllers")
     client = robot.node.create_client("/mira/controller_manager/list_controllers", kind)
-    listed = client.call(kind._request_class(), timeout_s=30.0)
+    listed = client.call(kind._request_class(), timeout_s=stretched())
     assert [(row.name, row.state) for row in listed.controller] == [
         (name, "running") for name in _CONTROLLERS
     ]

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 pytestmark = pytest.mark.tutorial
 
 _EFFORT = "gazebo_msgs/srv/ApplyJointEffort"
+_DELETE = "gazebo_msgs/srv/DeleteModel"
+
+
+@pytest.fixture(scope="module")
+def world(module_in_workspace: Callable) -> Any:
+    """An empty world that runs as fast as it can."""
+    return module_in_workspace("roslaunch", "gazebo_ros", "empty_world.launch", "--fast")
 
 
 def test_stages_load_in_a_running_world_and_empty_ones_say_why(
-    in_workspace: Callable, workspaces_dir: Path
+    world: Any, workspaces_dir: Path
 ) -> None:
-    world = in_workspace("roslaunch", "gazebo_ros", "empty_world.launch", "--fast")
     for stage in range(1, 8):
         file = workspaces_dir / f"gazebo_models/stages/my_robot_{stage}.sdf"
         answer = world.call(
@@ -28,11 +35,16 @@ def test_stages_load_in_a_running_world_and_empty_ones_say_why(
         assert answer.success == (stage > 2), answer.status_message
         if not answer.success:
             assert "model 'my_robot' has no link" in answer.status_message
+    # Their joints have the names of the model's that the other test pushes.
+    for stage in range(3, 8):
+        name = f"stage_{stage}"
+        assert world.call("/gazebo/delete_model", _DELETE, model_name=name).success
 
 
-def test_my_robot_is_inserted_by_name_and_rolls_when_pushed(in_workspace: Callable) -> None:
-    world = in_workspace("roslaunch", "gazebo_ros", "empty_world.launch", "--fast")
-    spawner = in_workspace(
+def test_my_robot_is_inserted_by_name_and_rolls_when_pushed(
+    world: Any, module_in_workspace: Callable
+) -> None:
+    spawner = module_in_workspace(
         "rosrun", "gazebo_ros", "spawn_model", "-database", "my_robot", "-sdf", "-model", "my_robot"
     )
     assert spawner.wait() == 0, spawner.text
@@ -51,3 +63,4 @@ def test_my_robot_is_inserted_by_name_and_rolls_when_pushed(in_workspace: Callab
 
     # Analytic: a = 2·0.1/0.1/(3 + 2·1/0.1²) m/s² for two seconds, then it coasts.
     world.eventually(lambda: speed() == pytest.approx(0.0197, rel=0.05))
+    assert world.call("/gazebo/delete_model", _DELETE, model_name="my_robot").success

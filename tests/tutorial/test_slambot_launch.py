@@ -1,14 +1,16 @@
-"""``roslaunch slam_robot slam_robot_gazebo.launch`` as it is (S1)."""
+"""``roslaunch slam_robot slam_robot_gazebo.launch`` as it is, and its keyboard (S1, S6)."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+import os
+import termios
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.tutorial
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow(12)]
 
 _LAUNCH = ("roslaunch", "slam_robot", "slam_robot_gazebo.launch")
 _TOPICS = {
@@ -52,9 +54,17 @@ def _steps(messages: list[Any]) -> set[int]:
     return {later - earlier for earlier, later in itertools.pairwise(times)}
 
 
-def test_slambot_comes_up_with_all_topics_rates_and_frames(in_workspace: Callable) -> None:
-    robot = in_workspace(*_LAUNCH)
+@pytest.fixture(scope="module")
+def robot(module_in_workspace: Callable) -> Iterator[Any]:
+    """The launched robot; nothing is left of it."""
+    robot = module_in_workspace(*_LAUNCH)
     robot.wait_for_line(r"Spawn status: SpawnModel: Successfully spawned entity")
+    yield robot
+    assert robot.stop() == 0
+    assert robot.processes() == {}
+
+
+def test_slambot_comes_up_with_all_topics_rates_and_frames(robot: Any) -> None:
     got = robot.messages(
         {"/scan": 6, "/odom": 100, "/clock": 500, "/tf": 150, "/tf_static": 1, "/joint_states": 110}
     )
@@ -63,8 +73,6 @@ def test_slambot_comes_up_with_all_topics_rates_and_frames(in_workspace: Callabl
     _check_scan_and_odometry(got)
     _check_frames(got["/tf"], got["/tf_static"])
     _check_joint_states(got["/joint_states"])
-    assert robot.stop() == 0
-    assert robot.processes() == {}
 
 
 def _check_scan_and_odometry(got: dict[str, list[Any]]) -> None:
@@ -94,9 +102,7 @@ def _check_joint_states(messages: list[Any]) -> None:
     assert others and not any(wheels & set(m.name) for m in others)
 
 
-def test_slambot_cameras_have_the_launch_files_names(in_workspace: Callable) -> None:
-    robot = in_workspace(*_LAUNCH)
-    robot.wait_for_line(r"Spawn status: SpawnModel: Successfully spawned entity")
+def test_slambot_cameras_have_the_launch_files_names(robot: Any) -> None:
     images = ("/camera/rgb/image_raw", "/camera/depth_registered/image_raw")
     infos = ("/depth_camera/rgb/camera_info", "/depth_camera/depth/camera_info")
     cloud = "/depth_camera/depth/points"
@@ -120,3 +126,38 @@ def test_slambot_cameras_have_the_launch_files_names(in_workspace: Callable) -> 
         ("rgb", 16),
     ]
     assert points.point_step == 32
+
+
+def test_teleop_drives_forward_and_back_and_ctrl_c_stops_the_robot(
+    robot: Any, module_in_workspace: Callable, terminal: tuple[int, int]
+) -> None:
+    """``rosrun slam_robot slam_robot_teleop.py``, Python 2 source and all, at a terminal."""
+    keys, seen = terminal
+    before = termios.tcgetattr(seen)
+    speeds: list[float] = []
+    commands: list[float] = []
+    listen = robot.node.create_subscription
+    odometry, twist = "nav_msgs/msg/Odometry", "geometry_msgs/msg/Twist"
+    listen("/odom", odometry, lambda message: speeds.append(message.twist.twist.linear.x))
+    listen("/cmd_vel", twist, lambda message: commands.append(message.linear.x))
+
+    teleop = module_in_workspace("rosrun", "slam_robot", "slam_robot_teleop.py", stdin=seen)
+    teleop.wait_for_line("CTRL-C to quit")
+
+    def typed(key: bytes, arrived: Callable[[], Any]) -> None:
+        """Hold a key down until something is so."""
+
+        def press() -> bool:
+            os.write(keys, key)
+            return bool(arrived())
+
+        robot.eventually(press)
+
+    typed(b"i", lambda: speeds and speeds[-1] > 0.05)
+    typed(b",", lambda: speeds[-1] < -0.05)
+    typed(b"\x03", lambda: teleop.popen.poll() is not None)
+    assert teleop.wait() == 0
+    robot.eventually(lambda: commands[-1] == 0.0 and abs(speeds[-1]) < 0.005)
+    assert termios.tcgetattr(seen) == before
+    assert "translated on the fly; the file stays as it is [launch.python2]" in teleop.text
+    assert "currently:\tspeed 1\tturn 1" in teleop.text

@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 import os
-import pty
 import termios
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 pytestmark = pytest.mark.tutorial
-
-
-@pytest.fixture
-def terminal() -> Iterator[tuple[int, int]]:
-    """A pseudo-terminal: the end where keys are typed, the end the program sees."""
-    keys, seen = pty.openpty()
-    yield keys, seen
-    os.close(keys)
-    os.close(seen)
 
 
 def test_fake_waffle_is_driven_from_the_keyboard_and_echoed(

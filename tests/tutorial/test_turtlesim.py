@@ -4,38 +4,42 @@ from __future__ import annotations
 
 import math
 import os
-import pty
 import re
 import signal
 import termios
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import pytest
 
 pytestmark = pytest.mark.tutorial
 
 
+@pytest.fixture(scope="module")
+def core(module_gazelle: Callable) -> Any:
+    """A graph that all tests are on, one after the other."""
+    core = module_gazelle("roscore")
+    core.wait_for_line("setting /run_id to")
+    return core
+
+
 @pytest.fixture
-def terminal() -> Iterator[tuple[int, int]]:
-    """A pseudo-terminal: the end where keys are typed, the end the program sees."""
-    keys, seen = pty.openpty()
-    yield keys, seen
-    os.close(keys)
-    os.close(seen)
+def run(gazelle: Callable, core: Any) -> Callable:
+    """Runs ``gazelle WORDS…`` on that graph; what it started ends with the test."""
+    return partial(gazelle, port=core.port)
 
 
 def test_arrow_keys_drive_the_turtle_and_the_picture_shows_it(
-    gazelle: Callable, terminal: tuple[int, int], tmp_path
+    run: Callable, core: Any, terminal: tuple[int, int], tmp_path
 ) -> None:
     from PIL import Image
 
     keys, seen = terminal
     before = termios.tcgetattr(seen)
-    core = gazelle("roscore")
-    core.wait_for_line("setting /run_id to")
-    simulator = gazelle("rosrun", "turtlesim", "turtlesim_node", "_png:=turtle.png")
+    simulator = run("rosrun", "turtlesim", "turtlesim_node", "_png:=turtle.png")
     simulator.wait_for_line(r"Spawning turtle \[turtle1\] at x=\[5\.544445\], y=\[5\.544445\]")
-    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
+    teleop = run("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
     teleop.wait_for_line("Use arrow keys to move the turtle. 'q' to quit.")
     core.messages({"/turtle1/pose": 1})
     poses: list = []
@@ -56,22 +60,18 @@ def test_arrow_keys_drive_the_turtle_and_the_picture_shows_it(
         assert image.getpixel((300, 100)) == (69, 86, 255)
 
 
-def test_ctrl_c_ends_the_keyboard_without_a_trace(gazelle: Callable, terminal) -> None:
+def test_ctrl_c_ends_the_keyboard_without_a_trace(run: Callable, terminal) -> None:
     _keys, seen = terminal
     before = termios.tcgetattr(seen)
-    core = gazelle("roscore")
-    core.wait_for_line("setting /run_id to")
-    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
+    teleop = run("rosrun", "turtlesim", "turtle_teleop_key", stdin=seen)
     teleop.wait_for_line("'q' to quit")
     assert teleop.stop() == 0
     assert "Traceback" not in teleop.text
     assert termios.tcgetattr(seen) == before
 
 
-def test_keyboard_without_a_terminal_says_what_to_do(gazelle: Callable) -> None:
-    core = gazelle("roscore")
-    core.wait_for_line("setting /run_id to")
-    teleop = gazelle("rosrun", "turtlesim", "turtle_teleop_key", stdin=-3)
+def test_keyboard_without_a_terminal_says_what_to_do(run: Callable) -> None:
+    teleop = run("rosrun", "turtlesim", "turtle_teleop_key", stdin=-3)
     assert teleop.wait() == 1
     assert "standard input is no terminal: start it in a terminal of its own" in teleop.text
 
@@ -100,18 +100,16 @@ def test_mimic_of_the_tutorial_goes_the_same_way(gazelle: Callable, tmp_path) ->
     assert launch.stop() == 0
 
 
-def test_ros2_run_starts_ros2s_turtlesim(gazelle: Callable) -> None:
-    core = gazelle("roscore")
-    core.wait_for_line("setting /run_id to")
+def test_ros2_run_starts_ros2s_turtlesim(run: Callable) -> None:
     words = ("--ros-args", "--remap", "__node:=my_turtle")
-    simulator = gazelle("ros2", "run", "turtlesim", "turtlesim_node", *words)
+    simulator = run("ros2", "run", "turtlesim", "turtlesim_node", *words)
     simulator.wait_for_line(r"^\[INFO\] \[\d+\.\d{9}\] \[my_turtle\]: Spawning turtle \[turtle1\]")
-    listed = gazelle("ros2", "param", "list", "/my_turtle")
+    listed = run("ros2", "param", "list", "/my_turtle")
     assert listed.wait() == 0
     assert [line.strip() for line in listed.lines] == [
         "background_b", "background_g", "background_r", "holonomic", "use_sim_time",
     ]  # fmt: skip
-    turning = gazelle(
+    turning = run(
         "ros2", "action", "send_goal", "/turtle1/rotate_absolute",
         "turtlesim/action/RotateAbsolute", "{theta: 0.5}",
     )  # fmt: skip
@@ -120,15 +118,13 @@ def test_ros2_run_starts_ros2s_turtlesim(gazelle: Callable) -> None:
     assert simulator.stop(signal.SIGTERM) == 0
 
 
-def test_recording_everything_leaves_the_picture_out(gazelle: Callable, tmp_path) -> None:
-    core = gazelle("roscore")
-    core.wait_for_line("setting /run_id to")
-    simulator = gazelle("rosrun", "turtlesim", "turtlesim_node")
+def test_recording_everything_leaves_the_picture_out(run: Callable, core: Any, tmp_path) -> None:
+    simulator = run("rosrun", "turtlesim", "turtlesim_node")
     simulator.wait_for_line("Spawning turtle")
     core.messages({"/turtle1/pose": 1})
-    recording = gazelle("rosbag", "record", "-a", "-O", "all", "--duration=1")
+    recording = run("rosbag", "record", "-a", "-O", "all", "--duration=1")
     assert recording.wait() == 0
-    info = gazelle("rosbag", "info", "all.bag")
+    info = run("rosbag", "info", "all.bag")
     assert info.wait() == 0
     assert re.search(r"/turtle1/color_sensor +\d+ msgs +: turtlesim/Color", info.text)
     assert re.search(r"/turtle1/pose +\d+ msgs +: turtlesim/Pose", info.text)

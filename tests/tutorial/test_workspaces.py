@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 from tests.tutorial.terminals import Terminal
 
 _NODE = """import rclpy
@@ -30,7 +31,7 @@ def _typed(script: str, cwd: Path, port: int) -> str:
     text = f'set -e\neval "$($GAZELLE env)"\n{script}'
     done = subprocess.run(
         ["bash", "-c", text], cwd=cwd, env=environ, stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, text=True, check=False, timeout=60,
+        stderr=subprocess.STDOUT, text=True, check=False, timeout=stretched(),
     )  # fmt: skip
     assert done.returncode == 0, done.stdout
     return done.stdout

@@ -6,7 +6,7 @@ import math
 import random
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,12 +19,18 @@ from tests.tutorial.turtlebot3_session import KeyDriver, PlanePose, Session, apa
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.grids import OccupancyGrid, read_map
 
-__all__ = ["Arrival", "Report", "drive_and_map", "scripted_run"]
+__all__ = ["ROUTE", "SHORT_ROUTE", "Arrival", "Report", "drive_and_map", "scripted_run"]
+
+Route = Sequence[tuple[float, float]]
 
 # Between the pillars, which stand at multiples of 1.1 m, and back.
-_ROUTE = (
+ROUTE: Route = (
     (-1.75, 0.5), (-0.55, 0.55), (-0.55, 1.65), (0.55, 1.65), (0.55, 0.55), (1.6, 0.5),
     (1.6, -0.5), (0.55, -0.55), (0.55, -1.65), (-0.55, -1.65), (-0.55, -0.55), (-1.75, -0.55),
+)  # fmt: skip
+# Around the pillar in the middle.
+SHORT_ROUTE: Route = (
+    (-1.75, 0.5), (-0.55, 0.55), (0.55, 0.55), (0.55, -0.55), (-0.55, -0.55), (-1.75, -0.55),
 )  # fmt: skip
 # The circle around the base's origin in which a model turns.
 _TURNS_IN_M = {"burger": 0.15, "waffle": 0.26, "waffle_pi": 0.26}
@@ -38,7 +44,6 @@ _PILLAR = (0.0, 0.0, 0.0)
 _KIDNAPPED_TO = (0.55, -0.55, 1.0)
 _SEARCH_UPDATES = 60
 _FOR_KEYS = 2.0
-_MAP_PATIENCE_S = 120.0
 _RELOCALISED_M, _RELOCALISED_RAD = 0.2, 0.2
 
 
@@ -81,17 +86,17 @@ class Report:
     looks: int = 0
 
 
-def drive_and_map(session: Session, home: Path) -> OccupancyGrid:
+def drive_and_map(session: Session, home: Path, route: Route) -> OccupancyGrid:
     """Drive through the world by keyboard and save what SLAM makes of it (T8, T9)."""
     slam = session.launch("turtlebot3_slam", "turtlebot3_slam.launch", "slam_methods:=gmapping")
     maps: list[Any] = []
     session.world.node.create_subscription("/map", "nav_msgs/msg/OccupancyGrid", maps.append)
     # A person drives when RViz shows a map.
-    session.world.eventually(lambda: maps, _MAP_PATIENCE_S)
+    session.world.eventually(lambda: maps)
     driver = KeyDriver(session)
     # Who looks late at a robot three times too fast bumps into things.
     with session.no_faster_than(_FOR_KEYS):
-        driver.drive_through(_ROUTE)
+        driver.drive_through(route)
     driver.close()
     saver = session.rosrun("map_server", "map_saver", "-f", str(home / "map"))
     assert saver.wait() == 0, saver.text
@@ -108,11 +113,12 @@ def scripted_run(
     model: str,
     goals: int,
     seed: int,
+    route: Route = ROUTE,
     say: Callable[[str], object] = print,
 ) -> Report:
     """Do everything of T8 to T10, as printed."""
     report = Report()
-    grid = drive_and_map(session, home)
+    grid = drive_and_map(session, home, route)
     say(f"mapped: {grid.width} × {grid.height} cells; contacts {session.bumps[:2]}")
     navigation = session.launch(
         "turtlebot3_navigation", "turtlebot3_navigation.launch", f"map_file:={home / 'map.yaml'}"
@@ -161,7 +167,7 @@ def _kidnap(session: Session) -> int | None:
     before = len(session.estimates)
     session.place(_KIDNAPPED_TO)
     # The simulated odometry jumps along; localisation takes that for a motion.
-    session.world.eventually(lambda: len(session.estimates) > before, 120.0)
+    session.world.eventually(lambda: len(session.estimates) > before)
     session.world.call("/global_localization", "std_srvs/Empty")
     before = len(session.estimates)
     pause = threading.Event()

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from tests.patience import stretched
 
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
@@ -21,10 +22,8 @@ __all__ = ["KeyDriver", "PlanePose", "Session", "apart", "plane_of"]
 
 PlanePose = tuple[float, float, float]
 
-_PATIENCE_S = 300.0
 # Higher contacts are no wheels or casters on the ground.
 _GROUND_M = 0.03
-_START_PATIENCE_S = 120.0
 # The controller's rate in move_base_params.yaml, and how late it may be on a busy machine.
 _CONTROLLER_HZ, _LEAST_SHARE = 10.0, 0.8
 _WATCH_S, _SLOWEST, _LONGEST_S = 2.0, 0.3, 600.0
@@ -73,7 +72,7 @@ class Session:
         self._factor = self._wanted_factor = 1.0
         self.scan: Any = None
         self.world = self.launch("turtlebot3_gazebo", "turtlebot3_world.launch")
-        self.world.wait_for_line("spawn_urdf.*finished cleanly", _START_PATIENCE_S)
+        self.world.wait_for_line("spawn_urdf.*finished cleanly")
         node = self.world.node
         listen = node.create_subscription
         listen("/_gazelle/contacts", "gazelle_msgs/msg/Frames", self._on_contacts)
@@ -114,14 +113,14 @@ class Session:
         now = self.world.call("/gazebo/get_physics_properties", kind.format("Get"))
         service = service_type(kind.format("Set"))
         client = self.world.node.create_client("/gazebo/set_physics_properties", service)
-        assert client.wait_for_service(_START_PATIENCE_S)
+        assert client.wait_for_service(stretched())
         request = service.Request(
             time_step=now.time_step,
             max_update_rate=factor / now.time_step,
             gravity=now.gravity,
             ode_config=now.ode_config,
         )
-        assert client.call(request, timeout_s=_START_PATIENCE_S).success
+        assert client.call(request, timeout_s=stretched()).success
         self._factor = factor
 
     @property
@@ -168,7 +167,7 @@ class Session:
         covariance[0] = covariance[7] = 0.25
         covariance[35] = (math.pi / 12) ** 2
         message.pose.covariance = covariance
-        self.world.eventually(lambda: self._initial.matched, _START_PATIENCE_S)
+        self.world.eventually(lambda: self._initial.matched)
         self._initial.publish(message)
 
     def drive_to(self, pose: PlanePose) -> ClientGoal:
@@ -183,7 +182,7 @@ class Session:
     def _watch(self, goal: ClientGoal) -> None:
         """Wait for some simulated seconds, or the goal's end, and look at the controller's rate."""
         commands, began_s = self.commands, self.now_s
-        self.world.eventually(lambda: goal.is_done or self.now_s - began_s > _WATCH_S, _PATIENCE_S)
+        self.world.eventually(lambda: goal.is_done or self.now_s - began_s > _WATCH_S)
         share = (self.commands - commands) / max(self.now_s - began_s, 0.1) / _CONTROLLER_HZ
         if goal.is_done or not share:
             return
@@ -198,7 +197,7 @@ class Session:
         if self._client is None:
             node = self.world.node
             self._client = ActionClient(node, "/move_base", "move_base_msgs/MoveBase")
-            self._client.require_server(_START_PATIENCE_S)
+            self._client.require_server(stretched())
         target = message_type("geometry_msgs/msg/PoseStamped")()
         fill(target, {"header": {"frame_id": "map"}, "pose": _as_fields(pose)})
         return self._client.send_goal(self._client.types.Goal(target_pose=target))
@@ -239,7 +238,7 @@ class KeyDriver:
             "turtlebot3_teleop", "turtlebot3_teleop_key.launch", stdin=seen
         )
         os.close(seen)
-        self._program.wait_for_line("CTRL-C to quit", _START_PATIENCE_S)
+        self._program.wait_for_line("CTRL-C to quit")
 
     def drive_through(self, places: Sequence[tuple[float, float]]) -> None:
         """Drive from place to place."""
