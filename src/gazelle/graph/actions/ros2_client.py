@@ -6,6 +6,7 @@ import threading
 import traceback
 import uuid
 from collections.abc import Callable
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
@@ -14,6 +15,7 @@ from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
 from gazelle.graph.delivery import Mailbox
+from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.keys import Kind
 from gazelle.graph.turns import Turn, Turns
 
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
     from gazelle.graph.node import Node
 
 __all__ = ["Ros2Client"]
+
+_UNSENT_S = 2.0
 
 
 class Ros2Client:
@@ -32,6 +36,7 @@ class Ros2Client:
         self._types = types
         self._goals: dict[str, ClientGoal] = {}
         self._turns = Turns()
+        self._unsent_cancels = CallsInFlight()
         self._lock = threading.RLock()
         folder = f"{name}/_action"
         self._send = node.create_client(f"{folder}/send_goal", types.SendGoal)
@@ -65,11 +70,11 @@ class Ros2Client:
 
     def cancel_goal(self, goal: ClientGoal) -> None:
         """Ask the server to cancel one goal."""
-        self._start(self._ask_cancel, goal.goal_id, 0)
+        self._begin_cancel(goal.goal_id, 0)
 
     def cancel_all(self, stamp_ns: int = 0) -> None:
         """Ask to cancel all goals of all clients, or those accepted until a time."""
-        self._start(self._ask_cancel, "", stamp_ns)
+        self._begin_cancel("", stamp_ns)
 
     def forget(self, goal: ClientGoal) -> None:
         """Follow a goal no more."""
@@ -77,7 +82,8 @@ class Ros2Client:
             self._goals.pop(goal.goal_id, None)
 
     def close(self) -> None:
-        """Leave services and topics."""
+        """Leave services and topics, behind the cancel requests that were made."""
+        self._unsent_cancels.wait_until_none(_UNSENT_S)
         for one in (*self._topics, self._send, self._cancel, self._result):
             one.unregister()
         self._news.close()
@@ -114,13 +120,20 @@ class Ros2Client:
             self._set(goal, status)
         goal.finish()
 
-    def _ask_cancel(self, goal_id: str, stamp_ns: int) -> None:
+    def _begin_cancel(self, goal_id: str, stamp_ns: int) -> None:
+        unsent = ExitStack()
+        unsent.enter_context(self._unsent_cancels.waiting())
+        self._start(self._ask_cancel, goal_id, stamp_ns, self._turns.take(), unsent)
+
+    def _ask_cancel(self, goal_id: str, stamp_ns: int, turn: Turn, unsent: ExitStack) -> None:
         request = self._types.CancelGoal.Request()
         if goal_id:
             request.goal_info.goal_id.uuid = bytes.fromhex(goal_id)
         set_stamp(request.goal_info.stamp, stamp_ns)
         try:
-            self._cancel.call(request)
+            with unsent, turn:
+                answered = self._cancel.send(request)
+            answered()
         except GraphError as error:
             if not self._node.closed:
                 self._node.log("error", f"cancel request failed: {error}")
