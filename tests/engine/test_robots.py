@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import World
@@ -15,6 +16,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.geometry import Pose
 from gazelle.workspace import Workspace
+
+skip_module_without_shared()
 
 pytestmark = pytest.mark.reference
 

@@ -7,17 +7,15 @@ import pty
 import sys
 import termios
 import threading
-import time
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
 from gazelle.nodes.host import run_node
-
-_PATIENCE_S = 30.0
 
 
 class Bench:
@@ -53,7 +51,7 @@ class Bench:
     def wait(self) -> list[int]:
         """Wait for the end of all nodes; return their exit codes."""
         for _stop, thread, _codes in self._running:
-            thread.join(_PATIENCE_S)
+            thread.join(stretched())
         return [code for _stop, _thread, codes in self._running for code in codes]
 
     def listen(self, topic: str, kind: str) -> list[Any]:
@@ -68,17 +66,12 @@ class Bench:
 
         service = service_type(kind)
         client = self.node.create_client(name, service)
-        assert client.wait_for_service(_PATIENCE_S), name
-        return client.call(service.Request(**fields), timeout_s=_PATIENCE_S)
+        assert client.wait_for_service(stretched()), name
+        return client.call(service.Request(**fields), timeout_s=stretched())
 
     def eventually(self, condition: Callable[[], Any]) -> Any:
         """Return what a condition gives as soon as that is true."""
-        deadline = time.monotonic() + _PATIENCE_S
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, "did not happen in time"
-            pause.wait(0.005)
-        return found
+        return eventually(condition)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from tests.control.manager_world import manager_world
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, LogRecord
@@ -42,7 +43,7 @@ class Spawner:
 
     def join(self) -> int | None:
         """Wait for its end."""
-        self.thread.join(20)
+        self.thread.join(stretched(20))
         assert not self.thread.is_alive()
         return self.code
 
@@ -71,7 +72,7 @@ def _states(manager: Any) -> dict[str, str]:
 def test_ros1_spawner_starts_stays_and_unloads_at_the_end(graph, monkeypatch, lines):
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["left", "right"])
-        assert spawner.is_ready.wait(30), lines
+        assert spawner.is_ready.wait(stretched(30)), lines
         assert _states(manager) == {"left": "running", "right": "running"}
         assert spawner.thread.is_alive()
         assert spawner.end() == 0
@@ -99,7 +100,7 @@ def test_ros1_spawner_in_the_root_names_the_namespace(graph, monkeypatch):
     with manager_world(graph, monkeypatch) as manager:
         words = ["--namespace=/mira", "--stopped", "left"]
         spawner = Spawner(graph, controller_spawner.run, words, namespace="/")
-        assert spawner.is_ready.wait(30)
+        assert spawner.is_ready.wait(stretched(30))
         assert _states(manager) == {"left": "initialized"}
         spawner.end()
 
@@ -107,7 +108,7 @@ def test_ros1_spawner_in_the_root_names_the_namespace(graph, monkeypatch):
 def test_ros1_spawner_goes_on_with_what_can_be_loaded(graph, monkeypatch, lines):
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["lefd", "right"])
-        assert spawner.is_ready.wait(30)
+        assert spawner.is_ready.wait(stretched(30))
         assert _states(manager) == {"right": "running"}
         spawner.end()
     assert "ERROR: Failed to load lefd" in lines
@@ -120,7 +121,7 @@ def test_ros1_spawner_loads_the_parameters_of_a_file(graph, monkeypatch, tmp_pat
     file.write_text("third: {type: test_controllers/Recorder, joint: left, gain: 2.0}\n")
     with manager_world(graph, monkeypatch) as manager:
         spawner = Spawner(graph, controller_spawner.run, [str(file)])
-        assert spawner.is_ready.wait(30)
+        assert spawner.is_ready.wait(stretched(30))
         assert _states(manager) == {"third": "running"}
         assert manager.controllers["third"].controller.gain == 2.0
         spawner.end()
@@ -136,7 +137,7 @@ def test_ros1_spawner_waits_for_true_on_a_topic(graph, monkeypatch):
         assert not manager.controllers
         spawner.is_ready.clear()
         publisher.publish(kind(data=True))
-        assert spawner.is_ready.wait(30)
+        assert spawner.is_ready.wait(stretched(30))
         assert _states(manager) == {"left": "running"}
         spawner.end()
 
@@ -157,7 +158,7 @@ def test_a_paused_simulation_never_times_out(graph, monkeypatch, lines):
     monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
     spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
     # Time is asked for: whoever holds it back lets it go on.
-    assert spawner.is_ready.wait(30)
+    assert spawner.is_ready.wait(stretched(30))
     assert spawner.thread.is_alive()
     assert spawner.end() == 0
     assert "INFO: Waiting for /clock to be available..." in lines
@@ -178,7 +179,7 @@ def test_a_simulator_that_loads_its_world_is_waited_for(graph, monkeypatch, line
     monkeypatch.setattr(controller_spawner, "_PATIENCE_S", 0.05)
     monkeypatch.setattr(controller_spawner, "_QUIET_TIMES", 1)
     spawner = Spawner(graph, controller_spawner.run, ["--timeout", "0.01", "left"])
-    assert spawner.is_ready.wait(30)
+    assert spawner.is_ready.wait(stretched(30))
     assert spawner.thread.is_alive()
     simulator.shutdown()
     assert spawner.join() == 0
@@ -295,7 +296,7 @@ def test_ros2_spawner_fails_with_the_managers_reason(graph, monkeypatch, lines):
 def test_ros2_spawner_unloads_when_killed_if_asked(graph, monkeypatch):
     with manager_world(graph, monkeypatch, 2) as manager:
         spawner = Spawner(graph, controller_spawner.run, ["left", "-u"])
-        assert spawner.is_ready.wait(30)
+        assert spawner.is_ready.wait(stretched(30))
         assert manager.controllers["left"].state == "active"
         assert spawner.end() == 0
         assert not manager.controllers

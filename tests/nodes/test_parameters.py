@@ -8,6 +8,7 @@ from queue import SimpleQueue
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, Kind
 from gazelle.graph.parameter_values import value_from_message, value_message
@@ -52,9 +53,9 @@ def test_ticks_go_on_when_the_time_becomes_simulated(
     bench.eventually(lambda: node.clock.use_sim_time)
     bench.eventually(lambda: [one[0] for one in node.clock._sleepers] == [3600_000 * MS])
     show(3600_000 * MS)
-    assert seen.get(timeout=30) == 3600_000 * MS
+    assert seen.get(timeout=stretched(30)) == 3600_000 * MS
     stop.set()
-    thread.join(30)
+    thread.join(stretched(30))
 
 
 def test_jump_back_while_the_caller_works_starts_anew_from_there(
@@ -71,16 +72,16 @@ def test_jump_back_while_the_caller_works_starts_anew_from_there(
     first.start()
     bench.eventually(lambda: bool(node.clock._sleepers))
     show(99_010 * MS)
-    assert seen.get(timeout=30) == 99_010 * MS
-    first.join(30)
+    assert seen.get(timeout=stretched(30)) == 99_010 * MS
+    first.join(stretched(30))
     show(1_000 * MS)
     thread = threading.Thread(target=lambda: seen.put(next(found)))
     thread.start()
     bench.eventually(lambda: bool(node.clock._sleepers))
     assert [one[0] for one in node.clock._sleepers] == [1_010 * MS]
     show(1_010 * MS)
-    assert seen.get(timeout=30) == 1_010 * MS
-    thread.join(30)
+    assert seen.get(timeout=stretched(30)) == 1_010 * MS
+    thread.join(stretched(30))
 
 
 def _values(bench: Any, node: str, *names: str) -> list[Any]:

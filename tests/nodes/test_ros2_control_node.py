@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph.actions import ActionClient
@@ -60,10 +61,10 @@ def test_mock_arm_follows_a_trajectory(
     assert abs(states[0].header.stamp.sec - bench.node.clock.now_ns() // 10**9) < 60
     kind = action_type("control_msgs/FollowJointTrajectory")
     client = ActionClient(bench.node, "/arm/follow_joint_trajectory", kind)
-    assert client.wait_for_server(30.0)
+    assert client.wait_for_server(stretched(30.0))
     point = {"positions": [1.0], "time_from_start": {"sec": 0, "nanosec": 200_000_000}}
     goal = client.send_goal({"trajectory": {"joint_names": ["j"], "points": [point]}})
-    assert goal.wait(30.0)
+    assert goal.wait(stretched(30.0))
     assert goal.status.name == "SUCCEEDED"
     bench.eventually(lambda: states[-1].position[0] == pytest.approx(1.0))
     hardware = bench.call(

@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.rosout import run
-
-_PATIENCE_S = 20.0
 
 
 class Gatherer:
@@ -29,7 +28,7 @@ class Gatherer:
         """End it and leave the graph."""
         self.stop.set()
         if self.thread.is_alive():
-            self.thread.join(_PATIENCE_S)
+            self.thread.join(stretched())
         self.graph.close()
 
 
@@ -47,7 +46,7 @@ def _names(gatherers: list[Gatherer]) -> list[str]:
 
 
 def _until(graph: Graph, condition: Callable[[], bool]) -> None:
-    assert graph.discovery.wait_for(lambda _known: condition(), _PATIENCE_S)
+    assert graph.discovery.wait_for(lambda _known: condition(), stretched())
 
 
 def test_the_second_stands_by_and_takes_over_when_the_first_ends(

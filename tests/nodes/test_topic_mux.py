@@ -6,6 +6,7 @@ import threading
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Node, ServiceCallError
@@ -14,14 +15,13 @@ from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.topic_mux import run_demux, run_mux
 
 _INT = message_type("std_msgs/msg/Int32")
-_PATIENCE_S = 30.0
 
 
 def _call(node: Node, name: str, kind: str, **fields: Any) -> Any:
     service = service_type(f"topic_tools/srv/{kind}")
     client = node.create_client(name, service)
-    assert client.wait_for_service(_PATIENCE_S)
-    return client.call(service.Request(**fields), _PATIENCE_S)
+    assert client.wait_for_service(stretched())
+    return client.call(service.Request(**fields), stretched())
 
 
 class _Heard:
@@ -37,7 +37,7 @@ class _Heard:
 
     def wait_for(self, number: int) -> None:
         with self._changed:
-            assert self._changed.wait_for(lambda: number in self.numbers, _PATIENCE_S)
+            assert self._changed.wait_for(lambda: number in self.numbers, stretched())
 
 
 def test_mux_passes_the_selected_topic(bench: Any) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph
@@ -45,7 +46,7 @@ def _sent_through(
     assert graph.discovery.wait_for(lambda _known: publisher.matched, 5.0)
     for number in range(1, 10):
         publisher.publish(_INT(data=number))
-    assert arrived.wait(30), got
+    assert arrived.wait(stretched(30)), got
     stop.set()
     thread.join()
     return got

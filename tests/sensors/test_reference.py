@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from scipy.optimize import least_squares
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.description.model import CameraSpec, LidarSpec, World
 from gazelle.description.sdf import read_world_file
@@ -18,6 +19,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.sensors import RayScene, depth_image, render, scan
 from gazelle.workspace import Workspace
+
+skip_module_without_shared()
 
 pytestmark = pytest.mark.reference
 

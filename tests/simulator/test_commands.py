@@ -3,6 +3,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GazelleError
 from gazelle.simulator.commands import CommandQueue
@@ -20,10 +21,10 @@ def test_commands_of_other_threads_wait_for_the_loop() -> None:
     queue.own()
     thread = threading.Thread(target=lambda: done.append(queue.call(lambda: "result")))
     thread.start()
-    assert queue.wait(30.0)
+    assert queue.wait(stretched(30.0))
     assert done == []
     queue.apply()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     queue.disown()
     assert done == ["result"]
 
@@ -41,9 +42,9 @@ def test_an_error_reaches_the_caller() -> None:
 
     thread = threading.Thread(target=call)
     thread.start()
-    queue.wait(30.0)
+    queue.wait(stretched(30.0))
     queue.apply()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     queue.disown()
     assert len(caught) == 1
 
@@ -61,7 +62,7 @@ def test_a_call_that_nobody_takes_says_so() -> None:
 
     thread = threading.Thread(target=call)
     thread.start()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     queue.disown()
     assert errors == ["the simulation did not take a command within 0.01 s"]
 
@@ -71,7 +72,7 @@ def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
     queue.own()
     thread = threading.Thread(target=lambda: queue.post(lambda: done.append(1)))
     thread.start()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     queue.disown()
     assert done == [1]
 
@@ -83,15 +84,15 @@ def test_posting_does_not_wait_for_the_command_of_another_thread() -> None:
 
     def command() -> None:
         acting.set()
-        done.append("waited" if posted.wait(30.0) else "waited in vain")
+        done.append("waited" if posted.wait(stretched(30.0)) else "waited in vain")
         queue.post(lambda: done.append("within"))
 
     thread = threading.Thread(target=lambda: queue.call(command))
     thread.start()
-    assert acting.wait(30.0)
+    assert acting.wait(stretched(30.0))
     queue.post(lambda: done.append("after"))
     posted.set()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     assert done == ["waited", "within", "after"]
 
 
@@ -111,7 +112,7 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
 
     def spawn() -> None:
         acting.set()
-        go_on.wait(30.0)
+        go_on.wait(stretched(30.0))
 
     def loop() -> None:
         queue.own()
@@ -125,15 +126,15 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
 
     threads = [threading.Thread(target=lambda: queue.call(spawn)), threading.Thread(target=loop)]
     threads[0].start()
-    assert acting.wait(30.0)
+    assert acting.wait(stretched(30.0))
     threads[1].start()
     late = threading.Thread(target=late_call)
     late.start()
     late.join(0.1)
     go_on.set()
-    late.join(2.0)
+    late.join(stretched(2.0))
     answered = list(done)
     end.set()
     for thread in threads:
-        thread.join(30.0)
+        thread.join(stretched(30.0))
     assert answered == ["taken"]

@@ -11,12 +11,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.geometry import Pose
 from gazelle.graph.world import shown_transport_name
 from gazelle.simulator import Simulation
 from gazelle.simulator.messages import twist_message
 from gazelle.workspace import Workspace
+
+skip_module_without_shared()
 
 Bring = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]

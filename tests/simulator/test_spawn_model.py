@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
@@ -129,7 +130,7 @@ def test_a_bond_deletes_the_model_at_the_end(sim: Simulation, console: Console, 
         waiting.wait(0.01)
     assert sim.model("crate").links == ("link",)
     stop.set()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     assert done == [0]
     assert "crate" not in [model.name for model in sim.world.models]
 
@@ -198,7 +199,7 @@ def test_a_simulator_that_loads_its_world_is_waited_for(
     thread.join(0.5)
     assert thread.is_alive()
     simulator.create_publisher("/clock", message_class("rosgraph_msgs/Clock"))
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     assert codes == [1]
 
 

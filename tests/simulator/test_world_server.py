@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 from tests.sets import few
 
 from gazelle.simulator import Mode, Simulation, WorldServer
@@ -120,7 +121,7 @@ def running(load: Load, cart_urdf: Callable[..., str]) -> Any:
     yield start
     for server, thread in threads:
         server.stop()
-        thread.join(30.0)
+        thread.join(stretched(30.0))
         assert not thread.is_alive()
 
 
@@ -134,7 +135,7 @@ def wait_for_clock(sim: Simulation, count: int) -> list[int]:
             enough.set()
 
     subscription = sim.subscribe("/clock", take)
-    assert enough.wait(30.0)
+    assert enough.wait(stretched(30.0))
     subscription.unregister()
     return stamps
 
@@ -149,7 +150,7 @@ def test_real_time_is_kept(running: Any) -> None:
         start = time.monotonic()
         stamps = wait_for_clock(sim, 300)
         simulated = (stamps[-1] - stamps[0]) * 1e-9
-        return 0.8 * simulated < time.monotonic() - start < 5 * simulated + 0.2
+        return 0.8 * simulated < time.monotonic() - start < stretched(5 * simulated + 0.2)
 
     # A machine that was busy for a moment loses time, then makes up for it.
     assert any(is_kept() for _ in range(20))
@@ -187,7 +188,7 @@ def test_a_paused_server_stops_though_a_command_comes_at_the_same_moment(
     monkeypatch.setattr(server.commands, "apply", stop_just_before)
     thread = threading.Thread(target=server.run, daemon=True)
     thread.start()
-    thread.join(30.0)
+    thread.join(stretched(30.0))
     assert not thread.is_alive()
 
 
@@ -196,7 +197,7 @@ def test_a_command_from_a_topic_reaches_a_running_server(running: Any) -> None:
     sim.publish("/cmd_vel", twist_message((0.5, 0.0, 0.0), (0.0, 0.0, 0.0)))
     moved = threading.Event()
     sim.subscribe("/odom", lambda message: message.twist.twist.linear.x > 0.4 and moved.set())
-    assert moved.wait(20.0)
+    assert moved.wait(stretched(20.0))
 
 
 def test_a_mode_that_keeps_time_drops_late_frames_and_says_so(
@@ -214,7 +215,7 @@ def test_a_mode_that_keeps_time_drops_late_frames_and_says_so(
     render = sim.server.sensors.render
 
     def slow(*args: Any, **options: Any) -> Any:
-        assert gate.wait(30.0)
+        assert gate.wait(stretched(30.0))
         return render(*args, **options)
 
     monkeypatch.setattr(sim.server.sensors, "render", slow)

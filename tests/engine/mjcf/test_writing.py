@@ -8,6 +8,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from tests.shared_files import SHARED
 
 from gazelle.description.conversion import Beside
 from gazelle.description.loader import load_world
@@ -87,15 +88,25 @@ def assert_same_motion(world: World, model: mujoco.MjModel, steps: int) -> None:
         assert np.abs(engine.data.qpos - data.qpos).max() < 1e-9
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_robots_move_the_same_on_the_ground(name, workspace, workspaces_dir, tmp_path) -> None:
-    world = load_world(workspaces_dir / name, workspace=workspace, diagnostics=Diagnostics())
+def assert_robot_moves_the_same(file: Path, workspace: Workspace, folder: Path) -> None:
+    world = load_world(file, workspace=workspace, diagnostics=Diagnostics())
     world = replace(world, models=(ground(), *world.models))
-    model, found, _ = written(world, tmp_path)
+    model, found, _ = written(world, folder)
     assert_same_motion(world, model, 300)
     own = {model.body(i).name for i in range(model.nbody)}
     assert {f"{item.name}::{link.name}" for item in world.models for link in item.links} <= own
     assert not found.errors
+
+
+def test_a_robot_of_ours_moves_the_same_on_the_ground(examples_dir, tmp_path) -> None:
+    workspace = Workspace.discover(environ={}, cwd=examples_dir, extra=[examples_dir / "scout_ws"])
+    file = workspace.package("scout_robot").path / "urdf" / "scout.urdf.xacro"
+    assert_robot_moves_the_same(file, workspace, tmp_path)
+
+
+@pytest.mark.parametrize("name", ROBOTS if SHARED.is_dir() else ["the documents' robots"])
+def test_robots_move_the_same_on_the_ground(name, workspace, workspaces_dir, tmp_path) -> None:
+    assert_robot_moves_the_same(workspaces_dir / name, workspace, tmp_path)
 
 
 def test_springy_contacts_keep_their_springs(tmp_path) -> None:

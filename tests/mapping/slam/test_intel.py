@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.sets import few
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import LogRecord, read_log
 from gazelle.mapping.poses import between, compose
 from gazelle.mapping.relations import absolute_error_m, relation_errors
 from gazelle.mapping.slam import Slam, SlamParameters, slam
+
+skip_module_without_shared()
 
 # Errors of a map that is no longer one: prototypes without robust loops were metres off.
 BROKEN_M = 0.5

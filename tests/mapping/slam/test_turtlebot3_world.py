@@ -9,6 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.shared_files import skip_module_without_shared
+
+skip_module_without_shared()
 
 ROOT = Path(__file__).parents[3]
 # Around the two pillars nearest to the start, back to it.

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
@@ -20,7 +21,7 @@ _COSTMAP = {
     "global_frame": "map",
     "robot_base_frame": "base_link",
     "transform_tolerance": 0.0,
-    "update_frequency": 20.0,
+    "update_frequency": 50.0,
     "robot_radius": 0.1,
     "resolution": 0.1,
     "track_unknown_space": True,
@@ -75,12 +76,12 @@ def serve(bench: Any) -> Callable[..., Any]:
     def start(costmap: Any = None, **layer: Any) -> Any:
         values = {**_COSTMAP, **(costmap or {})}
         values = {**values, "explore_boundary": {**_COSTMAP["explore_boundary"], **layer}}
-        bench.graph.parameters.set("/explore_server", {"explore_costmap": values, "frequency": 5.0})
+        bench.graph.parameters.set("/explore_server", {"explore_costmap": values, "frequency": 50.0})
         bench.start("frontier_exploration/explore_server")
         client = ActionClient(bench.node, "explore_server", "frontier_exploration/ExploreTask")
 
         def send(corners: Any, frame: str = "map", **options: Any) -> Any:
-            client.require_server(30.0)
+            client.require_server(stretched(30.0))
             goal = client.types.Goal()
             point = message_type("geometry_msgs/msg/Point32")
             goal.explore_boundary.header.frame_id = goal.explore_center.header.frame_id = frame

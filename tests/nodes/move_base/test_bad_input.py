@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from tests.nodes.move_base.test_node import _PARAMETERS, _goal
 from tests.nodes.navigation.plane_world import PlaneWorld, room
+from tests.patience import stretched
 
 from gazelle.geometry import Pose
 from gazelle.graph.actions import ActionClient
@@ -39,7 +40,7 @@ def test_bad_input_is_told_and_the_robot_drives_on(
     bench.node.parameters.set("/move_base", _PARAMETERS)
     bench.start("move_base/move_base")
     client = ActionClient(bench.node, "move_base", "move_base_msgs/MoveBase")
-    client.require_server(20.0)
+    client.require_server(stretched(20.0))
     world.start()
     scans = bench.node.create_publisher("/scan", "sensor_msgs/msg/LaserScan")
     maps = bench.node.create_publisher("/map", "nav_msgs/msg/OccupancyGrid")

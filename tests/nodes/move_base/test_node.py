@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from tests.nodes.navigation.plane_world import PlaneWorld, room
+from tests.patience import stretched
 
 from gazelle.graph.actions import ActionClient
 
@@ -61,7 +62,7 @@ def start(bench: Any, world: PlaneWorld) -> Any:
         bench.node.parameters.set("/move_base", {**_PARAMETERS, **parameters})
         bench.start("move_base/move_base")
         client = ActionClient(bench.node, "move_base", "move_base_msgs/MoveBase")
-        client.require_server(20.0)
+        client.require_server(stretched(20.0))
         world.start()
         return client
 

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from tests.nodes.conftest import Bench
 from tests.nodes.move_group.fake_robot import FakeRobot, trajectory
+from tests.patience import stretched
 
 from gazelle.description.moveit import ExecutionSettings
 from gazelle.graph.actions import ServerGoal
@@ -94,7 +95,7 @@ def test_a_joint_that_nobody_tells_of_is_named(bench: Bench) -> None:
 def test_a_controller_that_takes_too_long_is_stopped(bench: Bench) -> None:
     rig = Rig(bench, ARM, allowed_duration_scaling=1.0, allowed_duration_margin_s=0.05)
     ended: list[ServerGoal] = []
-    rig.robot.follow("arm", lambda goal: (goal.ended.wait(10.0), ended.append(goal)))
+    rig.robot.follow("arm", lambda goal: (goal.ended.wait(stretched(10.0)), ended.append(goal)))
     path = trajectory(["a", "b"], [0.0, 0.0], [0.1, 0.1], seconds=0.1)
     outcome = rig.executor.execute(path)
     assert outcome.status is ExecutionStatus.TIMED_OUT

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 import yaml
 from tests.nodes.navigation.plane_world import PlaneWorld, room
+from tests.patience import stretched
 
 from gazelle.graph.actions import ActionClient
 from gazelle.nodes.arguments import ABSENT_NODES
@@ -129,7 +130,7 @@ def _pose(x: float, y: float, yaw: float = 0.0) -> Any:
 
 def _send(bench: Any, name: str, kind: str, **fields: Any) -> Any:
     client = ActionClient(bench.node, name, f"nav2_msgs/{kind}", generation=2)
-    client.require_server(20.0)
+    client.require_server(stretched(20.0))
     goal = client.send_goal(client.types.Goal(**fields))
     bench.eventually(lambda: goal.is_done)
     return goal
@@ -195,7 +196,7 @@ def test_simple_commander_drives(bench, world, start, gazelle, tmp_path: Path) -
     script = tmp_path / "commander.py"
     script.write_text(_SCRIPT)
     run = gazelle(str(script), module="gazelle.compat.runner", ROS_VERSION="2")
-    assert run.wait(120.0) == 0, run.text
+    assert run.wait(stretched(120.0)) == 0, run.text
     assert "path True None" in run.text
     assert "drive True True" in run.text
     assert "spin TaskResult.CANCELED" in run.text

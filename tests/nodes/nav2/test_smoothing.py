@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import message_type
@@ -70,7 +71,7 @@ def test_smoother_server_answers(bench) -> None:
     bench.start("nav2_smoother/smoother_server")
     _bring_up(bench, "smoother_server")
     client = ActionClient(bench.node, "smooth_path", "nav2_msgs/SmoothPath", generation=2)
-    client.require_server(10.0)
+    client.require_server(stretched(10.0))
     pose = message_type("geometry_msgs/msg/PoseStamped")
     path = message_type("nav_msgs/msg/Path")()
     path.header.frame_id = "map"

@@ -11,6 +11,7 @@ import time
 from typing import Any
 
 import numpy as np
+from tests.patience import stretched
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformBroadcaster
@@ -72,7 +73,7 @@ class PlaneWorld:
         """End the world."""
         self._stop.set()
         if self._thread.ident is not None:
-            self._thread.join(10)
+            self._thread.join(stretched(10))
 
     def _run(self) -> None:
         while not self._stop.is_set():

@@ -8,6 +8,7 @@ import threading
 
 import numpy as np
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph import ServiceCallError
@@ -179,10 +180,10 @@ def test_ros2_parameters_count_at_once_and_have_ranges(bench) -> None:
 def test_ros2_turtles_turn_to_a_heading_and_give_up_when_driven(bench, capfd) -> None:
     bench.start(_NODE, "--ros-args")
     client = ActionClient(bench.node, "/turtle1/rotate_absolute", "turtlesim/RotateAbsolute")
-    assert client.wait_for_server(20)
+    assert client.wait_for_server(stretched(20))
     feedback: list[float] = []
     goal = client.send_goal({"theta": 0.3}, on_feedback=lambda one: feedback.append(one.remaining))
-    assert goal.wait(20)
+    assert goal.wait(stretched(20))
     assert goal.result.delta == pytest.approx(-0.3, abs=0.03)
     assert feedback == sorted(feedback, reverse=True)
     assert feedback[0] == pytest.approx(0.3, abs=0.03)
@@ -191,12 +192,12 @@ def test_ros2_turtles_turn_to_a_heading_and_give_up_when_driven(bench, capfd) ->
     out = bench.node.create_publisher("/turtle1/cmd_vel", twist)
     bench.eventually(lambda: out.matched and goal.is_accepted)
     out.publish(twist())
-    assert goal.wait(20)
+    assert goal.wait(stretched(20))
     assert goal.status.name == "ABORTED"
     goal = client.send_goal({"theta": 3.0})
     bench.eventually(lambda: goal.is_accepted)
     goal.cancel()
-    assert goal.wait(20)
+    assert goal.wait(stretched(20))
     assert goal.status.name == "CANCELED"
     texts = "".join(capfd.readouterr())
     for text in ("Rotation goal completed successfully", "Rotation goal canceled", "Velocity co"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph.actions import ActionClient
@@ -50,7 +51,7 @@ def test_relay_scales_and_gives_up_its_priority(bench: Any, generation: Any) -> 
     client = ActionClient(
         bench.node, "/joy_priority_action", "twist_mux_msgs/JoyPriority", generation=generation
     )
-    assert client.wait_for_server(30.0)
+    assert client.wait_for_server(stretched(30.0))
     client.send_goal({})
     bench.eventually(lambda: [one.data for one in told] == [True, False])
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 from tests.control.trajectory_messages import goal, point, trajectory
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.control.trajectory.errors import ErrorCode
 from gazelle.description.xacro import expand_xacro
@@ -17,6 +18,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph.actions import LocalGoal
 from gazelle.simulator import Simulation
 from gazelle.workspace import Workspace
+
+skip_module_without_shared()
 
 pytestmark = pytest.mark.tutorial
 
