@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
-from gazelle.description.model import Joint, JointAxis, JointType
+from gazelle.description.model import Joint, JointAxis, JointType, Link, Model
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import read_arguments
-from gazelle.nodes.joint_state_publisher import default_position, run
+from gazelle.nodes.joint_state_publisher import _Publisher, default_position, run
 
-_WAIT_S = 20.0
 _STATE: Any = message_type("sensor_msgs/JointState")
 _LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
 _ROBOT = f"""<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
@@ -36,7 +38,7 @@ class _Heard:
 
     def until(self, names: list[str]) -> None:
         with self._changed:
-            assert self._changed.wait_for(lambda: self._names == names, _WAIT_S), self._names
+            assert self._changed.wait_for(lambda: self._names == names, stretched()), self._names
 
 
 def _joint(lower: float, upper: float) -> Joint:
@@ -74,8 +76,21 @@ def test_joints_are_ours_again_when_their_publisher_ends(free_port: int) -> None
             heard.until(["right"])
         heard.until(["left", "right"])
         stop.set()
-        running.join(_WAIT_S)
+        running.join(stretched())
         ear.close()
+
+
+def test_own_messages_that_come_back_late_are_known(bench: Any) -> None:
+    joints = tuple(replace(_joint(-1.0, 1.0), name=name) for name in ("left", "right"))
+    arguments = read_arguments([], "joint_state_publisher")
+    model = Model("r", links=(Link("a"), Link("b")), joints=joints)
+    publisher, sent = _Publisher(bench.node, arguments, model), []
+    publisher._out = SimpleNamespace(publish=sent.append, topic="/joint_states")
+    publisher.publish()
+    publisher.publish()
+    publisher._on_others(sent[0])
+    publisher.publish()
+    assert [message.name for message in sent] == [["left", "right"]] * 3
 
 
 def test_robot_may_come_on_the_topic_in_ros2(bench: Any) -> None:

@@ -24,6 +24,7 @@ for one wheel make its tf frame jump between two poses.
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -38,6 +39,9 @@ from gazelle.nodes.tree import published_robot_of, robot_of
 __all__ = ["default_position", "run"]
 
 _MOVING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC})
+
+# Messages of our own that were sent and not heard, at most.
+_UNHEARD = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +99,9 @@ class _Publisher:
             word: bool(private(node, arguments, f"publish_default_{word}", word == "positions"))
             for word in ("positions", "velocities", "efforts")
         }
-        self._sent: Any = None
+        # On a busy machine messages of our own come back only after more of them were sent.
+        self._sent: deque[Any] = deque(maxlen=_UNHEARD)
+        self._sending = threading.Lock()
         self._foreign: set[str] = set()
         node.create_subscription("joint_states", self._type, self._on_others)
         for topic in private(node, arguments, "source_list", []):
@@ -116,7 +122,8 @@ class _Publisher:
             message.velocity = [0.0] * len(names)
         if self._with["efforts"]:
             message.effort = [0.0] * len(names)
-        self._sent = message
+        with self._sending:
+            self._sent.append(message)
         self._out.publish(message)
 
     def _position(self, name: str) -> float:
@@ -131,8 +138,11 @@ class _Publisher:
         return offset
 
     def _on_others(self, message: Any) -> None:
-        if message is self._sent:
-            return
+        with self._sending:
+            if any(message is one for one in self._sent):
+                while self._sent.popleft() is not message:
+                    pass
+                return
         new = set(message.name) & set(self._names) - self._foreign
         if new:
             self._foreign |= new
