@@ -111,8 +111,13 @@ def test_type_hashes_of_all_jazzy_messages_are_equal():
     assert [name for name in names if type_hash(name) != hashes.hash_rihs01(name)] == []
 
 
-@pytest.mark.parametrize("bag", ["t.bag", "tf.bag"])
-def test_recorded_bags_are_read_and_written_back_byte_by_byte(bag, oracles_dir):
+def test_recorded_bags_are_read_and_written_back_byte_by_byte(oracles_dir):
+    for bag in ("t.bag", "tf.bag"):
+        assert _written_back(oracles_dir, bag) > 0
+
+
+def _written_back(oracles_dir, bag):
+    """Return how many messages of a bag are the same again."""
     count = 0
     with Reader(oracles_dir / "ros_live" / bag) as reader:
         for connection, _, data in reader.messages():
@@ -124,7 +129,7 @@ def test_recorded_bags_are_read_and_written_back_byte_by_byte(bag, oracles_dir):
                     assert again == bytes(data)
                 assert len(again) == len(data)
             count += 1
-    assert count > 0
+    return count
 
 
 def test_rosmsg_outputs_match_the_recorded_ones(oracles_dir):

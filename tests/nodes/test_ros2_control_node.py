@@ -89,8 +89,12 @@ def test_parameters_of_the_manager_have_one_server(bench: Any, tmp_path: Path) -
     parameter = kind(name="other.params_file")
     parameter.value.type, parameter.value.string_array_value = 9, [str(file)]
     for name in ("get_parameters", "set_parameters", "list_parameters"):
-        service = next(
-            one for one in bench.graph.services() if one.name == f"/controller_manager/{name}"
+        wanted = f"/controller_manager/{name}"
+        # The manager offers these after the services of its controllers.
+        service = bench.eventually(
+            lambda wanted=wanted: next(
+                (one for one in bench.graph.services() if one.name == wanted), None
+            )
         )
         assert len(service.servers) == 1, name
     answer = bench.call(

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph
 from gazelle.simulator.messages import message_class, service_class, twist_message
 from gazelle.simulator.server_main import ros_version_of, serve
 from gazelle.simulator.server_options import ServerOptions
 from gazelle.simulator.spawn_model import spawn_model
-
-PATIENCE_S = 30.0
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
     yield begin
     stop.set()
     for thread in threads:
-        thread.join(PATIENCE_S)
+        thread.join(stretched())
         assert not thread.is_alive()
     assert codes == [0] * len(threads)
 
@@ -53,10 +52,10 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
 def test_gazebo_of_ros2_offers_its_parameters(graph: Graph, start: Callable[..., None]) -> None:
     start("--pause", "-s", "libgazebo_ros_init.so", started_by=2, params={"publish_rate": 20.0})
     service = service_class("rcl_interfaces/GetParameters")
-    assert graph.wait_for_service("/gazebo/get_parameters", PATIENCE_S)
+    assert graph.wait_for_service("/gazebo/get_parameters", stretched())
     client = graph.create_node("asks").create_client("/gazebo/get_parameters", service)
     asked = service.Request(names=["publish_rate", "use_sim_time"])
-    rate, simulated = client.call(asked, timeout_s=PATIENCE_S).values
+    rate, simulated = client.call(asked, timeout_s=stretched()).values
     assert (rate.double_value, simulated.bool_value) == (20.0, True)
 
 
@@ -78,7 +77,7 @@ def test_publish_rate_of_gazebo_is_the_clocks(
 
     listener.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), take)
     start("empty", name="gzserver", started_by=2, parameter_files=files, params=params)
-    assert came.wait(PATIENCE_S)
+    assert came.wait(stretched())
     assert {one % 50 for one in seen} == {0}
 
 
@@ -119,8 +118,8 @@ def test_launch_and_plug_ins_of_the_server_tell_the_version_of_ros(
 def call(graph: Graph, name: str, kind: str, **fields: Any) -> Any:
     node = graph.create_node("caller", anonymous=True)
     client = node.create_client(name, service_class(kind))
-    assert client.wait_for_service(PATIENCE_S)
-    return client.call(service_class(kind).Request(**fields), PATIENCE_S)
+    assert client.wait_for_service(stretched())
+    return client.call(service_class(kind).Request(**fields), stretched())
 
 
 def test_a_robot_is_spawned_driven_and_measured_over_the_graph(
@@ -145,8 +144,8 @@ def test_a_robot_is_spawned_driven_and_measured_over_the_graph(
     )
     commands = node.create_publisher("/cmd_vel", message_class("geometry_msgs/Twist"))
     commands.publish(twist_message((0.4, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    assert moved.wait(PATIENCE_S)
-    assert scanned.wait(PATIENCE_S)
+    assert moved.wait(stretched())
+    assert scanned.wait(stretched())
     assert first[0].pose.pose.position.x == pytest.approx(1.5, abs=0.05)
     assert node.parameters.get("/use_sim_time") is True
 
@@ -174,7 +173,7 @@ def test_a_paused_world_stands_still_until_told(graph: Graph, start: Callable[..
     node = graph.create_node("tester")
     node.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), lambda m: ticked.set())
     call(graph, "/gazebo/unpause_physics", "std_srvs/Empty")
-    assert ticked.wait(PATIENCE_S)
+    assert ticked.wait(stretched())
 
 
 def test_ros_2_names_are_offered_when_its_plug_ins_are_named(

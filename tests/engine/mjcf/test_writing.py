@@ -194,8 +194,9 @@ def test_velocity_decay_and_slip_are_told(tmp_path) -> None:
     assert not model.dof_damping.any()
 
 
-def test_text_without_a_folder_holds_its_meshes(workspace, workspaces_dir) -> None:
-    file = workspaces_dir / "catkin_ws/src/slam_robot/urdf/slam_robot_gazebo.urdf"
+def test_text_without_a_folder_holds_its_meshes(examples_dir) -> None:
+    workspace = Workspace.discover(environ={}, cwd=examples_dir, extra=[examples_dir / "arm_ws"])
+    file = workspace.package("heron_description").path / "urdf" / "heron.urdf.xacro"
     world = load_world(file, workspace=workspace, diagnostics=Diagnostics())
     converted = to_mjcf(world, diagnostics=Diagnostics())
     assert converted.files == {}

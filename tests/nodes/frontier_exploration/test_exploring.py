@@ -76,7 +76,9 @@ def serve(bench: Any) -> Callable[..., Any]:
     def start(costmap: Any = None, **layer: Any) -> Any:
         values = {**_COSTMAP, **(costmap or {})}
         values = {**values, "explore_boundary": {**_COSTMAP["explore_boundary"], **layer}}
-        bench.graph.parameters.set("/explore_server", {"explore_costmap": values, "frequency": 50.0})
+        bench.graph.parameters.set(
+            "/explore_server", {"explore_costmap": values, "frequency": 50.0}
+        )
         bench.start("frontier_exploration/explore_server")
         client = ActionClient(bench.node, "explore_server", "frontier_exploration/ExploreTask")
 

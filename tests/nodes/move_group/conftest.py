@@ -12,6 +12,7 @@ import pytest
 import yaml
 from tests.nodes.conftest import Bench
 from tests.nodes.move_group.fake_robot import FakeRobot
+from tests.patience import stretched
 
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics
@@ -22,7 +23,6 @@ from gazelle.workspace import Workspace
 ARM_WS = Path(__file__).parents[3] / "examples" / "arm_ws"
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 READY = [0.0, -0.3, 1.9, 0.0, 1.5416, 0.0]
-PATIENCE_S = 60.0
 
 
 @cache
@@ -89,7 +89,7 @@ class ArmBench:
         self._pump.start()
         name = "/move_action" if self.generation == 2 else "/move_group"
         self.mover = ActionClient(self.bench.node, name, action_type("moveit_msgs/MoveGroup"))
-        assert self.mover.wait_for_server(PATIENCE_S)
+        assert self.mover.wait_for_server(stretched())
 
     def stop(self) -> None:
         """Stop the joint states."""
@@ -100,7 +100,7 @@ class ArmBench:
     def move(self, *, plan_only: bool = False, **request: Any) -> Any:
         """Send a goal and return its result."""
         goal = self.send(plan_only=plan_only, **request)
-        assert goal.wait(PATIENCE_S)
+        assert goal.wait(stretched())
         return goal.result
 
     def send(self, *, plan_only: bool = False, **request: Any) -> ClientGoal:
@@ -117,10 +117,10 @@ class ArmBench:
 
         service = service_type(f"moveit_msgs/{kind}")
         client = self.bench.node.create_client(f"/{name}", service)
-        assert client.wait_for_service(PATIENCE_S), name
+        assert client.wait_for_service(stretched()), name
         request = service.Request()
         fill(request, fields)
-        return client.call(request, timeout_s=PATIENCE_S)
+        return client.call(request, timeout_s=stretched())
 
     def add_box(self, name: str, size: list[float], at: list[float]) -> None:
         """Put a box into the scene."""

@@ -7,7 +7,6 @@ from typing import Any
 import pytest
 from tests.nodes.move_group.conftest import (
     JOINTS,
-    PATIENCE_S,
     READY,
     ArmBench,
     box_object,
@@ -16,6 +15,7 @@ from tests.nodes.move_group.conftest import (
     pose_goal,
 )
 from tests.nodes.move_group.fake_robot import trajectory
+from tests.patience import stretched
 
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import action_type, fill, message_type
@@ -133,11 +133,11 @@ def test_pilz_sequence_is_blended_and_executed(arm: ArmBench) -> None:
     assert len(answer.response.planned_trajectories) == 1
     kind = action_type("moveit_msgs/MoveGroupSequence")
     client = ActionClient(arm.bench.node, "/sequence_move_group", kind)
-    assert client.wait_for_server(PATIENCE_S)
+    assert client.wait_for_server(stretched())
     goal: Any = kind.Goal()
     fill(goal.request, {"items": rows})
     sent = client.send_goal(goal)
-    assert sent.wait(PATIENCE_S)
+    assert sent.wait(stretched())
     assert sent.result.response.error_code.val == 1
     assert arm.robot.positions["joint_2"] == pytest.approx(0.0, abs=1e-3)
     rows[1]["blend_radius"] = 0.1
@@ -163,16 +163,16 @@ def test_lin_moves_the_tool_straight(arm: ArmBench) -> None:
 def test_known_trajectories_are_executed_and_bad_starts_refused(arm: ArmBench) -> None:
     kind = action_type("moveit_msgs/ExecuteTrajectory")
     client = ActionClient(arm.bench.node, "/execute_trajectory", kind)
-    assert client.wait_for_server(PATIENCE_S)
+    assert client.wait_for_server(stretched())
     goal: Any = kind.Goal()
     goal.trajectory.joint_trajectory = trajectory(JOINTS, [0.5] * 6, [0.6] * 6)
     sent = client.send_goal(goal)
-    assert sent.wait(PATIENCE_S)
+    assert sent.wait(stretched())
     assert sent.result.error_code.val == -4
     assert "deviates from current robot state" in sent.result.error_code.message
     goal.trajectory.joint_trajectory = trajectory(JOINTS, READY, [0.1, *READY[1:]])
     sent = client.send_goal(goal)
-    assert sent.wait(PATIENCE_S)
+    assert sent.wait(stretched())
     assert sent.result.error_code.val == 1
     assert arm.robot.positions["joint_1"] == 0.1
 
@@ -210,10 +210,10 @@ def test_pipelines_of_other_planners_say_who_plans(
 
 def test_a_cancelled_goal_stops_the_controllers(arm: ArmBench) -> None:
     arm.robot.servers[0].close()
-    arm.robot.follow("arm_controller", lambda goal: goal.ended.wait(PATIENCE_S))
+    arm.robot.follow("arm_controller", lambda goal: goal.ended.wait(stretched()))
     goal = arm.send(goal_constraints=joint_goal([0.0] * 6), max_velocity_scaling_factor=0.1)
     arm.bench.eventually(lambda: arm.robot.goals.get("arm_controller"))
     goal.cancel()
-    assert goal.wait(PATIENCE_S)
+    assert goal.wait(stretched())
     assert goal.status.name == "CANCELED"
     assert goal.result.error_code.val == -7

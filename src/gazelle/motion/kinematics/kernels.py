@@ -66,6 +66,14 @@ def _from_quaternion(x, y, z, w, out):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _put(M, out):
+    """Copy a matrix; as an assignment of slices it would take seconds to compile."""
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = M[i, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def _times(a, b, out):
     for i in range(3):
         for j in range(3):
@@ -89,11 +97,13 @@ def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
     for i in range(len(parents)):
         kind, at = kinds[i], places[i]
         if parents[i] < 0:
-            R[i] = A[i]
-            p[i] = a[i]
+            _put(A[i], R[i])
+            for k in range(3):
+                p[i, k] = a[i, k]
         else:
             _times(R[parents[i]], A[i], R[i])
-            p[i] = p[parents[i]]
+            for k in range(3):
+                p[i, k] = p[parents[i], k]
             _moved(R[parents[i]], p[i], a[i])
         if kind == SLIDE:
             for k in range(3):
@@ -114,10 +124,10 @@ def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
                 q = positions[at + 3 : at + 7]
                 _from_quaternion(q[0], q[1], q[2], q[3], M)
             _times(R[i], M, S)
-            R[i] = S
+            _put(S, R[i])
         _moved(R[i], p[i], b[i])
         _times(R[i], B[i], S)
-        R[i] = S
+        _put(S, R[i])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -133,7 +143,7 @@ def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q
     for i in range(len(kinds)):
         _moved(R, p, a[i])
         _times(R, A[i], S)
-        R[:] = S
+        _put(S, R)
         kind = kinds[i]
         if kind == FIXED:
             continue
@@ -145,20 +155,20 @@ def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q
         if kind == QUATERNION:
             _from_quaternion(q[at], q[at + 1], q[at + 2], q[at + 3], M)
             _times(R, M, S)
-            R[:] = S
+            _put(S, R)
             continue
         value = factors[i] * q[at] + offsets[i]
         if kind == TURN:
             _turn(axes[i], value, M)
             _times(R, M, S)
-            R[:] = S
+            _put(S, R)
         else:
             for k in range(3):
                 v[k] = axes[i, k] * value
             _moved(R, p, v)
     _moved(R, p, tool_p)
     _times(R, tool_R, S)
-    R[:] = S
+    _put(S, R)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -301,13 +311,16 @@ def solve(
                 # Close by, two more steps give many more digits.
                 polished += 1
                 if polished > _POLISH or far + weight * turned < _EXACT:
-                    out[:] = q
+                    for k in range(len(q)):
+                        out[k] = q[k]
                     return s
             elif polished:
-                out[:] = best
+                for k in range(len(q)):
+                    out[k] = best[k]
                 return s
             if polished:
-                best[:] = q
+                for k in range(len(q)):
+                    best[k] = q[k]
             E = 0.5 * (far * far + weight * weight * turned * turned)
             if _ENOUGH_PROGRESS * mark > E:
                 mark, since = E, 0
@@ -361,6 +374,7 @@ def solve(
                 if kinds[i] == QUATERNION:
                     _turn_quaternion(q, variables[i], dx, dofs[i], scale, F[i])
         if polished:
-            out[:] = best
+            for k in range(len(q)):
+                out[k] = best[k]
             return s
     return -1
