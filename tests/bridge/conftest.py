@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests import patience
+from tests.patience import stretched
 
 from gazelle.graph import Graph
-
-_PATIENCE_S = 20.0
 
 
 class Inbox:
@@ -28,7 +27,7 @@ class Inbox:
 
     def wait_for(self, count: int) -> list[Any]:
         with self._changed:
-            assert self._changed.wait_for(lambda: len(self.items) >= count, _PATIENCE_S), self.items
+            assert self._changed.wait_for(lambda: len(self.items) >= count, stretched()), self.items
             return list(self.items)
 
 
@@ -46,15 +45,7 @@ def make_inbox() -> type[Inbox]:
 def eventually() -> Callable[[Callable[[], Any]], Any]:
     """Waits until a condition gives something true, and returns it."""
 
-    def wait(condition: Callable[[], Any]) -> Any:
-        deadline = time.monotonic() + _PATIENCE_S
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, "did not happen in time"
-            pause.wait(0.005)
-        return found
-
-    return wait
+    return patience.eventually
 
 
 @pytest.fixture

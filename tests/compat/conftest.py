@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests import patience
 
 from gazelle.graph import Graph, Node
 
@@ -55,12 +54,4 @@ def passes(program: Callable[..., Any]) -> Callable[..., Any]:
 def eventually() -> Callable[[Callable[[], Any]], Any]:
     """Waits until a condition gives something true, and returns it."""
 
-    def wait(condition: Callable[[], Any]) -> Any:
-        deadline = time.monotonic() + 10.0
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, "did not happen in time"
-            pause.wait(0.002)
-        return found
-
-    return wait
+    return patience.eventually

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.compat.controller_checks import (
     check_controllers_running,
@@ -85,7 +86,7 @@ def test_controllers_are_waited_for_until_they_are_in_the_state(
     manager, namespace = robot
     manager.states = dict.fromkeys(("wheels", "states"), "inactive")
     manager.later = {"wheels": "active", "states": "active"}
-    check_controllers_running(tester, ["wheels", "states"], namespace, timeout=30.0)
+    check_controllers_running(tester, ["wheels", "states"], namespace, timeout=stretched(30))
     assert manager.asked == 2
     manager.later = manager.states = {"wheels": "inactive"}
     check_controllers_running(tester, ["wheels"], namespace, "inactive")

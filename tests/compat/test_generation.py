@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.launch.environment import drop_in_folder
 
@@ -36,7 +37,7 @@ def test_installed_module_is_what_its_share_folder_says(
         cwd=tmp_path,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=stretched(60),
         check=False,
     )
     assert done.stdout == f"{has_seq}\n", done.stderr

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, Kind
 from gazelle.graph.node_parameters import NodeParameters
@@ -33,7 +34,7 @@ def test_what_is_made_together_is_seen_together(join: Callable[..., Graph]) -> N
         client = other.create_node("asks").create_client("/a", EMPTY)
     assert other.wait_for_service("/b", 30.0)
     assert _services(other) == {"/a", "/b"}
-    client.call(EMPTY.Request(), timeout_s=30.0)
+    client.call(EMPTY.Request(), timeout_s=stretched(30))
 
 
 def test_blocks_in_one_another_end_with_the_outermost(join: Callable[..., Graph]) -> None:

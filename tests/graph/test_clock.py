@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.interfaces import message_type
@@ -104,7 +105,7 @@ def test_sleep_ends_with_simulated_time(simulated: Graph) -> None:
     simulator.show(2 * S)
     assert not outcome
     simulator.show(3 * S)
-    thread.join(30)
+    thread.join(stretched(30))
     assert outcome == [True]
 
 
@@ -121,7 +122,7 @@ def test_sleep_waits_for_the_first_clock(simulated: Graph, eventually: Wait) -> 
         return bool(outcome)
 
     eventually(over)
-    thread.join(30)
+    thread.join(stretched(30))
     assert outcome == [True]
     assert now_ns >= 101 * S
 
@@ -139,13 +140,13 @@ def test_jump_back_wakes_sleepers_and_tells_listeners(simulated: Graph) -> None:
         return node.clock.sleep_until(20 * S)
 
     thread, outcome = _sleep_in_thread(sleep)
-    assert asleep.wait(30)
+    assert asleep.wait(stretched(30))
     with node.clock._lock:
         simulator_jump = threading.Thread(target=simulator.show, args=(1 * S,))
         simulator_jump.start()
-    simulator_jump.join(30)
+    simulator_jump.join(stretched(30))
     simulator.show(30 * S)
-    thread.join(30)
+    thread.join(stretched(30))
     assert jumps == [-9 * S]
     assert len(outcome) == 1
     if outcome != [True]:  # asleep before the jump, as nearly always
@@ -161,7 +162,7 @@ def test_change_to_simulated_time_is_a_jump_back_for_sleepers(
     target_ns = clock.now_ns() + 3600 * S
     thread, outcome = _sleep_in_thread(lambda: clock.sleep_until(target_ns, since=jumps))
     graph.parameters.set("/use_sim_time", True)
-    thread.join(30)
+    thread.join(stretched(30))
     assert clock.use_sim_time
     assert clock.jumps == jumps + 1
     assert [type(one) for one in outcome] == [TimeJumpError]
@@ -177,7 +178,7 @@ def test_sleep_begins_anew_when_the_time_becomes_simulated(graph: Graph, eventua
     simulator.show(1 * S)
     eventually(lambda: [one[0] for one in node.clock._sleepers] == [3601 * S])
     simulator.show(3601 * S)
-    thread.join(30)
+    thread.join(stretched(30))
     assert outcome == [True]
 
 
@@ -185,7 +186,7 @@ def test_closing_wakes_sleepers(simulated: Graph) -> None:
     node = simulated.create_node("a")
     thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))
     simulated.close()
-    thread.join(30)
+    thread.join(stretched(30))
     assert outcome == [False]
 
 
@@ -213,7 +214,7 @@ def test_stop_ends_a_sleep_while_simulated_time_stands_still(simulated: Graph) -
     thread = threading.Thread(target=lambda: slept.append(clock.sleep_until(S, stop)))
     thread.start()
     stop.set()
-    thread.join(10)
+    thread.join(stretched(10))
     assert slept == [False]
 
 
@@ -226,12 +227,12 @@ def test_only_those_whose_time_has_come_wake(simulated: Graph) -> None:
     while len(node.clock._sleepers) < 2:
         early.join(0.001)
     simulator.show(3 * S)
-    early.join(30)
+    early.join(stretched(30))
     assert first == [True]
     assert [target_ns for target_ns, _, _ in node.clock._sleepers] == [9 * S]
     assert late.is_alive() and not second
     simulator.show(9 * S)
-    late.join(30)
+    late.join(stretched(30))
     assert second == [True] and not node.clock._sleepers
 
 
@@ -242,5 +243,5 @@ def test_a_sleep_ended_early_leaves_nothing_behind(simulated: Graph) -> None:
     while not node.clock._sleepers:
         thread.join(0.001)
     stop.set()
-    thread.join(30)
+    thread.join(stretched(30))
     assert outcome == [False] and not node.clock._sleepers

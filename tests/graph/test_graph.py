@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import NotFoundError
 from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo
@@ -163,5 +164,5 @@ def test_graphs_larger_than_a_channel_of_the_transport_are_listed(graph: Graph, 
             target=lambda one=one: found.append(len(one.entities())), daemon=True
         )
         asking.start()
-        asking.join(30)
+        asking.join(stretched(30))
     assert [count > 400 for count in found] == [True, True, True]

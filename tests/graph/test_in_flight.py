@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import threading
 
+from tests.patience import stretched
+
 from gazelle.graph import Graph
 from gazelle.graph.errors import GraphError
 from gazelle.graph.in_flight import CallsInFlight
@@ -25,7 +27,7 @@ def test_no_thread_is_left_in_a_call_when_the_graph_is_closed(free_port: int) ->
 
     def never(request: object) -> object:
         asked.set()
-        done.wait(30.0)
+        done.wait(stretched(30))
         return empty.Response()
 
     def call() -> None:
@@ -40,9 +42,9 @@ def test_no_thread_is_left_in_a_call_when_the_graph_is_closed(free_port: int) ->
             node = graph.create_node("caller", rosout=False)
             thread = threading.Thread(target=call, daemon=True)
             thread.start()
-            assert asked.wait(30.0)
+            assert asked.wait(stretched(30))
         assert graph.calls.wait_until_none(0.0)
-        thread.join(30.0)
+        thread.join(stretched(30))
         done.set()
     assert not thread.is_alive()
     assert len(ended) == 1

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GraphError
 from gazelle.graph import (
@@ -25,7 +26,6 @@ from gazelle.interfaces import (
 String = message_type("std_msgs/msg/String")
 Empty = service_type("std_srvs/srv/Empty")
 Wait = Callable[..., Any]
-PATIENCE_S = 30.0
 
 
 def test_names_are_resolved_and_remapped(graph: Graph) -> None:
@@ -78,15 +78,15 @@ def test_a_callback_that_outlives_its_node_is_no_error(
     def pass_on(message: Any) -> None:
         threads.append(threading.current_thread())
         begun.set()
-        ended.wait(PATIENCE_S)
+        ended.wait(stretched())
         publisher.publish(message)
 
     node.create_subscription("in", String, pass_on)
     other.create_node("m").create_publisher("in", String, latch=True).publish(String(data="x"))
-    assert begun.wait(PATIENCE_S)
+    assert begun.wait(stretched())
     node.shutdown()
     ended.set()
-    threads[0].join(PATIENCE_S)
+    threads[0].join(stretched())
     assert capsys.readouterr().err == ""
 
 
@@ -135,7 +135,7 @@ def test_loggers_are_read_and_set_by_services(graph: Graph, other: Graph, eventu
     put: Any = ros1_service_type("roscpp/SetLoggerLevel")
     ask = caller.create_client("/talker/get_loggers", get)
     tell = caller.create_client("/talker/set_logger_level", put)
-    assert ask.wait_for_service(10) and tell.wait_for_service(10)
+    assert ask.wait_for_service(stretched(10)) and tell.wait_for_service(stretched(10))
     (logger,) = ask.call(get._request_class()).loggers
     assert (logger.name, logger.level) == ("ros", "info")
     tell.call(put._request_class("ros", "debug"))

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, ServiceUnavailableError
 from gazelle.interfaces import service_type
@@ -73,7 +74,7 @@ def start(port: int) -> Iterator[Start]:
     yield run
     for process in started:
         process.kill()
-        process.communicate(timeout=30)
+        process.communicate(timeout=stretched(30))
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
@@ -96,7 +97,7 @@ def test_dead_process_is_noticed_at_once(
 )
 def test_process_with_nodes_ends_at_once_and_honestly(start: Start, end: str) -> None:
     process = start("n", end)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=stretched(30))
     assert (process.returncode, errors) == (3, "")
 
 
@@ -138,7 +139,7 @@ def test_call_outlives_the_loss_of_its_link_and_is_handled_once(
     kind = service_type("std_srvs/srv/Trigger")
     client = graph.create_node("caller").create_client("work", kind)
     for count in ("1", "2"):
-        assert client.wait_for_service(30.0)
+        assert client.wait_for_service(stretched(30))
         assert client.call(kind.Request()).message == count
 
 
@@ -146,6 +147,6 @@ def test_call_ends_with_its_server(graph: Graph, port: int, start: Start) -> Non
     start("server", CUT_OFF.format(port=port, does="os._exit(1)"))
     kind = service_type("std_srvs/srv/Trigger")
     client = graph.create_node("caller").create_client("work", kind)
-    assert client.wait_for_service(30.0)
+    assert client.wait_for_service(stretched(30))
     with pytest.raises(ServiceUnavailableError, match="work"):
         client.call(kind.Request())

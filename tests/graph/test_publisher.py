@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, MessageInfo, Node, RawMessage
@@ -216,18 +217,18 @@ def test_full_queue_drops_the_oldest(talker: Node) -> None:
     def slow(message: Any) -> None:
         got.append(message.data)
         entered.set()
-        leave.wait(30)
+        leave.wait(stretched(30))
         if message.data == "9":
             finished.set()
 
     subscription = talker.create_subscription("chatter", String, slow, queue_size=2)
     publisher = talker.create_publisher("chatter", String)
     publisher.publish(String(data="0"))
-    assert entered.wait(30)
+    assert entered.wait(stretched(30))
     for number in range(1, 10):
         publisher.publish(String(data=str(number)))
     leave.set()
-    assert finished.wait(30)
+    assert finished.wait(stretched(30))
     assert got == ["0", "8", "9"]
     assert subscription.dropped == 7
 
@@ -314,6 +315,6 @@ def test_unregistering_while_another_thread_publishes_is_clean(
         inbox.wait_for(len(inbox.items) + 5)
         publisher.unregister()
         for thread in threads:
-            thread.join(30)
+            thread.join(stretched(30))
     assert len(ended) == 40
     assert {type(error) for error in ended} == {GraphError}

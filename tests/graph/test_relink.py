@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 import zenoh
+from tests.patience import stretched
 
 from gazelle.graph import relink
 from gazelle.graph.relink import Relinker
@@ -19,7 +20,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.E
 
     def lives(_self: Relinker, _zid: str) -> bool:
         begun.set()
-        assert answered.wait(30.0)
+        assert answered.wait(stretched(30))
         return False
 
     monkeypatch.setattr(Relinker, "_lives", lives)
@@ -33,13 +34,13 @@ def test_close_waits_for_a_question_that_is_under_way(
     begun, answered = asked
     relinker = Relinker(port=1)
     relinker.lost("abc")
-    assert begun.wait(30.0)
+    assert begun.wait(stretched(30))
     closing = threading.Thread(target=relinker.close)
     closing.start()
     closing.join(0.05)
     assert closing.is_alive()
     answered.set()
-    closing.join(30.0)
+    closing.join(stretched(30))
     assert not closing.is_alive()
 
 

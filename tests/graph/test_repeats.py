@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import repeats
 from gazelle.graph.repeats import Answer, Repeats
@@ -47,17 +48,17 @@ def test_repeat_waits_for_what_is_under_way() -> None:
 
     def slow() -> Answer:
         begun.set()
-        assert go_on.wait(30.0)
+        assert go_on.wait(stretched(30))
         return b"late", ""
 
     threads = [threading.Thread(target=lambda: got.append(known.answer(_CLIENT, 7, slow)))]
     threads[0].start()
-    assert begun.wait(30.0)
+    assert begun.wait(stretched(30))
     threads.append(threading.Thread(target=lambda: got.append(known.answer(_CLIENT, 7, second))))
     threads[1].start()
     go_on.set()
     for thread in threads:
-        thread.join(30.0)
+        thread.join(stretched(30))
     assert (got, second.count) == ([(b"late", "")] * 2, 0)
 
 

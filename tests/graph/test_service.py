@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.errors import GraphError
 from gazelle.graph import (
@@ -39,7 +40,7 @@ def test_requests_are_answered_in_and_across_processes(server: Node, caller: Nod
     server.create_service("set", SetBool, _echo)
     for node in (server, caller):
         client = node.create_client("set", SetBool)
-        assert client.wait_for_service(10)
+        assert client.wait_for_service(stretched(10))
         for data in (True, False):
             assert client.call(SetBool.Request(data=data)) == SetBool.Response(
                 success=data, message="done"
@@ -52,10 +53,10 @@ def test_ros1_classes_call_ros2_handlers_and_back(server: Node, caller: Node) ->
         "old", OldSetBool, lambda request: OldSetBool._response_class(request.data, "old")
     )
     new = caller.create_client("new", OldSetBool)
-    assert new.wait_for_service(10)
+    assert new.wait_for_service(stretched(10))
     assert new.call(OldSetBool._request_class(True)).message == "done"
     old = caller.create_client("old", SetBool)
-    assert old.wait_for_service(10)
+    assert old.wait_for_service(stretched(10))
     assert old.call(SetBool.Request(data=True)).message == "old"
 
 
@@ -67,7 +68,7 @@ def test_what_a_handler_raises_reaches_the_caller(
 
     server.create_service("fail", SetBool, fail)
     client = caller.create_client("fail", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     with pytest.raises(ServiceCallError) as caught:
         client.call(SetBool.Request())
     assert str(caught.value) == (
@@ -86,7 +87,7 @@ def test_what_a_handler_raises_reaches_the_caller(
 def test_bad_answers_are_errors(server: Node, caller: Node, answer: Any, text: str) -> None:
     server.create_service("bad", SetBool, lambda _request: answer)
     client = caller.create_client("bad", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     with pytest.raises(ServiceCallError, match=text):
         client.call(SetBool.Request())
 
@@ -103,7 +104,7 @@ def test_missing_service_is_unavailable_at_once(server: Node, caller: Node) -> N
 def test_other_type_is_told(server: Node, caller: Node) -> None:
     server.create_service("set", Trigger, lambda _request: Trigger.Response())
     client = caller.create_client("set", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     with pytest.raises(
         ServiceUnavailableError, match=r"it has type std_srvs/srv/Trigger, the client"
     ):
@@ -114,19 +115,19 @@ def test_slow_service_times_out(server: Node, caller: Node) -> None:
     release = threading.Event()
 
     def slow(request: Any) -> Any:
-        release.wait(30)
+        release.wait(stretched(30))
         return _echo(request)
 
     server.create_service("slow", SetBool, slow)
     client = caller.create_client("slow", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     with pytest.raises(ServiceTimeoutError, match=r"service \[/slow\] did not answer in 0.1 s"):
         client.call(SetBool.Request(), timeout_s=0.1)
     release.set()
 
 
 def test_requests_are_handled_side_by_side(server: Node, caller: Node) -> None:
-    both = threading.Barrier(2, timeout=30)
+    both = threading.Barrier(2, timeout=stretched(30))
 
     def meet(request: Any) -> Any:
         both.wait()
@@ -134,20 +135,20 @@ def test_requests_are_handled_side_by_side(server: Node, caller: Node) -> None:
 
     server.create_service("meet", SetBool, meet)
     client = caller.create_client("meet", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     first = threading.Thread(target=client.call, args=(SetBool.Request(),))
     first.start()
-    assert client.call(SetBool.Request(data=True), timeout_s=30).success
-    first.join(30)
+    assert client.call(SetBool.Request(data=True), timeout_s=stretched(30)).success
+    first.join(stretched(30))
 
 
 def test_wait_for_service_wakes_when_it_comes(server: Node, caller: Node) -> None:
     client = caller.create_client("later", SetBool)
     found: list[bool] = []
-    waiter = threading.Thread(target=lambda: found.append(client.wait_for_service(10)))
+    waiter = threading.Thread(target=lambda: found.append(client.wait_for_service(stretched(10))))
     waiter.start()
     server.create_service("later", SetBool, _echo)
-    waiter.join(30)
+    waiter.join(stretched(30))
     assert found == [True]
 
 
@@ -156,7 +157,7 @@ def test_unregistered_service_is_gone(
 ) -> None:
     service = server.create_service("set", SetBool, _echo)
     client = caller.create_client("set", SetBool)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     service.unregister()
     service.unregister()
     eventually(lambda: not client.available)
@@ -181,7 +182,7 @@ def test_client_that_is_given_up_ends_its_call(server: Node, caller: Node) -> No
 
     server.create_service("hold", Trigger, hold)
     client = caller.create_client("hold", Trigger)
-    assert client.wait_for_service(10)
+    assert client.wait_for_service(stretched(10))
     failed: list[Exception] = []
 
     def call() -> None:
@@ -192,9 +193,9 @@ def test_client_that_is_given_up_ends_its_call(server: Node, caller: Node) -> No
 
     calling = threading.Thread(target=call)
     calling.start()
-    assert under_way.wait(30)
+    assert under_way.wait(stretched(30))
     client.unregister()
-    calling.join(30)
+    calling.join(stretched(30))
     assert not calling.is_alive()
     held.set()
     assert [type(one) for one in failed] == [ServiceUnavailableError]

@@ -10,6 +10,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
+from tests.patience import stretched
 
 _MODULE = "gazelle.testing.plugin"
 _SPEAKER = """#!/usr/bin/env python3
@@ -50,7 +51,7 @@ def run_pytest(folder: Path, *words: str, **environ: str) -> subprocess.Complete
     return subprocess.run(
         [sys.executable, "-m", "pytest", *plugin_words(), "-p", "no:cacheprovider",
          "-c", os.devnull, "--rootdir", str(folder), "-q", *words],
-        cwd=folder, env={**kept, **environ}, text=True, check=False, timeout=240,
+        cwd=folder, env={**kept, **environ}, text=True, check=False, timeout=stretched(240),
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
     )  # fmt: skip
 

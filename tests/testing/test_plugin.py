@@ -10,6 +10,7 @@ from pathlib import Path
 
 import psutil
 import pytest
+from tests.patience import stretched
 from tests.testing.conftest import Pytest, run_pytest
 
 ROOT = Path(__file__).parents[2]
@@ -134,7 +135,8 @@ def test_it(gazelle_launch):
     assert ran.returncode == -signal.SIGKILL, ran.stdout
     left = [one for one in psutil.process_iter() if _environment(one).get("MY_MARK")]
     _gone, alive = psutil.wait_procs(
-        [one for one in left if _environment(one).get("MY_MARK") == str(tmp_path)], timeout=30
+        [one for one in left if _environment(one).get("MY_MARK") == str(tmp_path)],
+        timeout=stretched(30),
     )
     assert alive == []
 

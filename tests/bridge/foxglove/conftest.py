@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import json
 import struct
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import eventually
 
 from gazelle.bridge.foxglove import Allow, FoxgloveBridge, SdkViewers
 from gazelle.bridge.foxglove.viewers import Connections, Requests, ServiceOffer, Viewers
 from gazelle.graph import Graph
 from gazelle.workspace import Workspace
 
-_PATIENCE_S = 30.0
 _LOOPBACK = "127.0.0.1"
 
 
@@ -119,14 +119,14 @@ class Viewer:
 
     def wait_for(self, condition: Callable[[], Any]) -> Any:
         """Read until a condition gives something true, and return it."""
-        end = time.monotonic() + _PATIENCE_S
-        while not (found := condition()):
-            assert time.monotonic() < end, f"did not happen in time: {self.heard}"
-            try:
-                self._take(self._socket.recv(timeout=0.05))
-            except TimeoutError:
-                continue
-        return found
+
+        def read_until() -> Any:
+            if not (found := condition()):
+                with contextlib.suppress(TimeoutError):
+                    self._take(self._socket.recv(timeout=0.05))
+            return found
+
+        return eventually(read_until, why=lambda: str(self.heard))
 
     def subscribe(self, topic: str) -> int:
         channel = self.wait_for(lambda: self.channels.get(topic))["id"]

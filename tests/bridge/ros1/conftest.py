@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Callable, Iterator
 
 import pytest
 from tests.bridge.ros1.peer import Peer
+from tests.bridge.ros1.real import NO_ROS1, has_ros1
 
 from gazelle.bridge.ros1 import Address, Bridge, MasterAddress
 from gazelle.graph import Graph
 
-_PATIENCE_S = 30.0
 _LOOPBACK = "127.0.0.1"
 ADDRESS = Address(_LOOPBACK, _LOOPBACK, frozenset({_LOOPBACK, "localhost"}))
 
@@ -66,8 +65,5 @@ def peer(make_peer: Callable[..., Peer]) -> Peer:
 @pytest.fixture(scope="session")
 def real_ros() -> None:
     """Skips where ROS 1 is not installed."""
-    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, std_srvs.srv"]
-    try:
-        subprocess.run(words, check=True, capture_output=True, env={"PATH": "/usr/bin"})
-    except (OSError, subprocess.CalledProcessError):
-        pytest.skip("ROS 1 is not installed (Debian: apt-get install ros-core python3-rosbag …)")
+    if not has_ros1():
+        pytest.skip(NO_ROS1)

@@ -11,8 +11,9 @@ import xmlrpc.server
 from collections.abc import Callable
 from typing import Any
 
+from tests.patience import stretched
+
 Header = dict[str, str]
-_PATIENCE_S = 30.0
 _LENGTH = struct.Struct("<I")
 
 
@@ -59,7 +60,7 @@ def ask(uri: str, method: str, *arguments: Any) -> Any:
 def post(uri: str, body: bytes, **headers: str) -> http.client.HTTPResponse:
     """Send what xmlrpc.client would not."""
     place = uri.removeprefix("http://").rstrip("/")
-    connection = http.client.HTTPConnection(place, timeout=_PATIENCE_S)
+    connection = http.client.HTTPConnection(place, timeout=stretched())
     connection.request("POST", "/", body, {"Content-Type": "text/xml", **headers})
     return connection.getresponse()
 
@@ -155,7 +156,7 @@ class Peer:
         return read_fields(stream), stream
 
     def connect(self, host: str, port: int) -> socket.socket:
-        stream = socket.create_connection((host, port), _PATIENCE_S)
+        stream = socket.create_connection((host, port), stretched())
         self.streams.append(stream)
         return stream
 

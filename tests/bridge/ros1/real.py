@@ -5,10 +5,31 @@ from __future__ import annotations
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-_PATIENCE_S = 30.0
+import pytest
+from tests.patience import stretched
+
+NO_ROS1 = "ROS 1 is not installed (Debian: apt-get install ros-core python3-rosbag …)"
+
+
+@cache
+def has_ros1() -> bool:
+    """Tell whether the real programs of ROS 1 are here."""
+    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, std_srvs.srv"]
+    try:
+        subprocess.run(words, check=True, capture_output=True, env={"PATH": "/usr/bin"})
+    except (OSError, subprocess.CalledProcessError):
+        return False
+    return True
+
+
+def skip_module_without_ros1() -> None:
+    """Skip a module as a whole where ROS 1 is not installed."""
+    if not has_ros1():
+        pytest.skip(NO_ROS1, allow_module_level=True)
 
 
 class Ros1:
@@ -28,7 +49,7 @@ class Ros1:
         """What a program prints; it must end well."""
         done = subprocess.run(
             words, env=self._environ, cwd=self._folder, capture_output=True, text=True,
-            timeout=_PATIENCE_S, check=False,
+            timeout=stretched(), check=False,
         )  # fmt: skip
         assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
         return done.stdout

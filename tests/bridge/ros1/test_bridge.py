@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from tests.bridge.ros1.peer import Peer, ask, string_bytes
+from tests.patience import stretched
 
 from gazelle.bridge.ros1 import Address, Bridge, MasterAddress
 from gazelle.bridge.ros1.peers import EmbeddedMaster
@@ -245,4 +246,4 @@ def test_ending_the_bridges_node_ends_the_bridge(graph: Graph, bridge: Bridge) -
     ended = threading.Event()
     bridge.on_end(ended.set)
     assert graph.kill_node("/ros1_bridge")
-    assert ended.wait(30.0)
+    assert ended.wait(stretched(30))

@@ -9,15 +9,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.bridge.ros1.real import Ros1
+from tests.bridge.ros1.real import Ros1, skip_module_without_ros1
+from tests.patience import stretched
 
 from gazelle.bridge.ros1 import Bridge, MasterAddress
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type, service_type
 
+skip_module_without_ros1()
 pytestmark = pytest.mark.reference
 Eventually = Callable[[Callable[[], Any]], Any]
-_PATIENCE_S = 30.0
 
 DRIVER = """
 import rospy
@@ -104,8 +105,8 @@ def test_services_are_called_both_ways(graph: Graph, ros: Ros1, eventually: Even
     assert ros("rosservice", "type", "/ours") == "std_srvs/SetBool\n"
     with ros.python(SERVER):
         client = node.create_client("/theirs", kind)
-        assert client.wait_for_service(_PATIENCE_S)
-        response = client.call(kind.Request(data=True), timeout_s=_PATIENCE_S)
+        assert client.wait_for_service(stretched())
+        response = client.call(kind.Request(data=True), timeout_s=stretched())
         assert (response.success, response.message) == (True, "from rospy")
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from tests.bridge.ros1.peer import Peer, string_bytes
 from tests.bridge.ros1.real import Ros1
+from tests.patience import stretched
 
 from gazelle.bag import open_bag
 from gazelle.bag.ros1.fields import Op, read_place
@@ -20,7 +21,6 @@ from gazelle.graph import Graph
 from gazelle.interfaces import md5sum
 
 Eventually = Callable[[Callable[[], Any]], Any]
-_PATIENCE_S = 30.0
 TALKERS = """
 import rospy
 from std_msgs.msg import String
@@ -71,7 +71,7 @@ def test_connection_headers_are_those_of_the_real_rosbag(
         words = ("record", "-l", "1", *topics)
         recorder = ours(graph, "rosbag", *words, "-O", "ours.bag", folder=tmp_path)
         ros("rosbag", *words, "-O", "theirs.bag")
-        assert recorder.wait(_PATIENCE_S) == 0
+        assert recorder.wait(stretched()) == 0
     mine, theirs = (connection_headers(tmp_path / f"{one}.bag") for one in ("ours", "theirs"))
     assert set(theirs) == set(topics)
     assert mine == theirs
@@ -86,6 +86,6 @@ def test_the_text_that_a_publisher_sends_is_recorded(
     recorder = ours(graph, "rosbag", "record", "-l", "3", "-O", "a.bag", "/w", folder=tmp_path)
     eventually(lambda: any(one.name == "/w" for one in graph.discovery.known()))
     peer.publish_on("/w", "std_msgs/String", md5sum("std_msgs/String"), *messages, text=text)
-    assert recorder.wait(_PATIENCE_S) == 0
+    assert recorder.wait(stretched()) == 0
     (one,) = open_bag(tmp_path / "a.bag").connections
     assert (one.definition, one.callerid) == (text, "/peer")

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from tests.bridge.ros1.peer import Peer, call_on
+from tests.patience import stretched
 
 from gazelle.graph import Graph, ServiceCallError
 from gazelle.graph.errors import ServiceRefusedError
@@ -88,11 +89,11 @@ def test_service_of_ros1_answers_the_graph(
     peer.serve("/theirs", "std_srvs/SetBool", SET_BOOL._md5sum, answer)
     kind = service_type("std_srvs/srv/SetBool")
     client = graph.create_node("client", rosout=False).create_client("/theirs", kind)
-    assert client.wait_for_service(10.0)
-    response = client.call(kind.Request(data=True), timeout_s=30.0)
+    assert client.wait_for_service(stretched(10))
+    response = client.call(kind.Request(data=True), timeout_s=stretched(30))
     assert (response.success, response.message) == (True, "hello")
     with pytest.raises(ServiceCallError, match="responded with an error: not that"):
-        client.call(kind.Request(data=False), timeout_s=30.0)
+        client.call(kind.Request(data=False), timeout_s=stretched(30))
     assert [one.servers for one in graph.services() if one.name == "/theirs"] == [("/peer",)]
     peer.call("unregisterService", "/theirs", f"rosrpc://127.0.0.1:{peer.port}")
     eventually(lambda: not [one for one in graph.services() if one.name == "/theirs"])

@@ -8,24 +8,22 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from tests.bridge.conftest import Inbox
-from tests.bridge.ros2.real import Ros2
+from tests.bridge.ros2.real import VARIABLE, Ros2
+from tests.patience import stretched
 
 from gazelle.bridge.ros2 import Bridge, Interpreter
 from gazelle.graph import Graph
 
-_PATIENCE_S = 20.0
-_VARIABLE = "GAZELLE_TEST_ROS2_PYTHON"
-
 
 @pytest.fixture(scope="session")
 def ros2_python() -> str:
-    """A Python with the real rclpy; skips where none is named."""
-    python = os.environ.get(_VARIABLE, "")
-    if not python:
-        pytest.skip(f"{_VARIABLE} does not name a Python with rclpy (ROS 2, or pip: ros-rclpy …)")
-    done = subprocess.run([python, "-c", "import rclpy, std_srvs"], check=False, timeout=60)
+    """A Python with the real rclpy; see `skip_module_without_rclpy`."""
+    python = os.environ[VARIABLE]
+    done = subprocess.run(
+        [python, "-c", "import rclpy, std_srvs"], check=False, timeout=stretched(60)
+    )
     if done.returncode:
-        pytest.skip(f"{_VARIABLE}={python} cannot import rclpy and std_srvs")
+        pytest.skip(f"{VARIABLE}={python} cannot import rclpy and std_srvs")
     return python
 
 

@@ -8,7 +8,10 @@ import subprocess
 import threading
 from typing import Any
 
-_PATIENCE_S = 30.0
+import pytest
+from tests.patience import stretched
+
+VARIABLE = "GAZELLE_TEST_ROS2_PYTHON"
 _END_S = 5.0
 _HEAD = """
 import sys, threading, time
@@ -21,6 +24,13 @@ def say(*words):
     print(*words, flush=True)
 rclpy.init(args=[])
 """
+
+
+def skip_module_without_rclpy() -> None:
+    """Skip a module as a whole where no Python with the real rclpy is named."""
+    if not os.environ.get(VARIABLE):
+        why = f"{VARIABLE} does not name a Python with rclpy (ROS 2, or pip: ros-rclpy …)"
+        pytest.skip(why, allow_module_level=True)
 
 
 class Program:
@@ -48,7 +58,7 @@ class Program:
             return bool(found) or self.process.poll() is not None
 
         with self._changed:
-            assert self._changed.wait_for(is_there, _PATIENCE_S), (text, self.lines)
+            assert self._changed.wait_for(is_there, stretched()), (text, self.lines)
         assert found, (text, self.lines, self.process.returncode)
         return found[0]
 

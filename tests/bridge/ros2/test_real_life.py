@@ -10,12 +10,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.bridge.ros2.real import Ros2
+from tests.bridge.ros2.real import Ros2, skip_module_without_rclpy
 
 from gazelle.bridge.ros2 import Bridge
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 
+skip_module_without_rclpy()
 pytestmark = pytest.mark.reference
 Eventually = Callable[[Callable[[], Any]], Any]
 LOOKER = """

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.bridge.ros2.real import Ros2
+from tests.bridge.ros2.real import Ros2, skip_module_without_rclpy
+from tests.patience import stretched
 
 from gazelle.bridge.ros2 import Bridge
 from gazelle.graph import Graph
@@ -17,6 +18,7 @@ from gazelle.graph.node_parameters import NodeParameters
 from gazelle.graph.parameter_values import value_message
 from gazelle.interfaces import Generation, add_package, message_type, service_type
 
+skip_module_without_rclpy()
 pytestmark = pytest.mark.reference
 Eventually = Callable[[Callable[[], Any]], Any]
 SET_BOOL = service_type("std_srvs/srv/SetBool")
@@ -79,7 +81,7 @@ def test_service_of_rclpy_answers_the_graph(
 ) -> None:
     program = ros2(SERVER)
     client = graph.create_node("caller").create_client("/theirs", SET_BOOL)
-    assert client.wait_for_service(20)
+    assert client.wait_for_service(stretched(20))
     response = client.call(SET_BOOL.Request(data=True), 20)
     assert (response.success, response.message) == (True, "from rclpy")
     assert client.call(SET_BOOL.Request(data=False), 20).success is False
@@ -95,7 +97,7 @@ def test_many_calls_wait_side_by_side(ros2: Ros2, graph: Graph) -> None:
     def answer(request: Any) -> Any:
         asked.release()
         if request.data:
-            assert go.wait(20)
+            assert go.wait(stretched(20))
         return SET_BOOL.Response(message="slow" if request.data else "quick")
 
     graph.create_node("house").create_service("/lamp", SET_BOOL, answer)
@@ -190,14 +192,14 @@ def test_action_of_rclpy_serves_the_graph(
 ) -> None:
     ros2(ACTION_SERVER)
     client = ActionClient(graph.create_node("counter"), "/fibonacci", fibonacci, generation=2)
-    assert client.wait_for_server(20)
+    assert client.wait_for_server(stretched(20))
     goal = client.send_goal({"order": 3}, on_feedback=lambda one: inbox(list(one.sequence)))
-    assert goal.wait(20)
+    assert goal.wait(stretched(20))
     assert (int(goal.status), list(goal.result.sequence)) == (4, [0, 1, 1])
     assert inbox.wait_for(1) == [[0, 1]]
     goal = client.send_goal({"order": -1})
     goal.cancel()
-    assert goal.wait(20)
+    assert goal.wait(stretched(20))
     assert int(goal.status) == 5
 
 
@@ -252,7 +254,7 @@ rclpy.spin(node)
     node = graph.create_node("tool")
     kind = service_type("rcl_interfaces/srv/GetParameters")
     get = node.create_client("/tuned/get_parameters", kind)
-    assert get.wait_for_service(20)
+    assert get.wait_for_service(stretched(20))
     assert get.call(kind.Request(names=["speed"]), 20).values[0].integer_value == 3
     kind = service_type("rcl_interfaces/srv/SetParameters")
     request = kind.Request()

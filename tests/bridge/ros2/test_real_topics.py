@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.bridge.ros2.real import Ros2
+from tests.bridge.ros2.real import Ros2, skip_module_without_rclpy
 
 from gazelle.bridge.ros2 import Bridge
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 
+skip_module_without_rclpy()
 pytestmark = pytest.mark.reference
 Eventually = Callable[[Callable[[], Any]], Any]
 STRING = message_type("std_msgs/msg/String")

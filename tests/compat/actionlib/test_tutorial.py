@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient, ActionlibStatus, ActionServer
@@ -150,17 +151,17 @@ rospy.spin()
 """
     running = program(HEAD + text)
     client = ActionClient(node, "count", FIBONACCI)
-    assert client.wait_for_server(20), running.text
+    assert client.wait_for_server(stretched(20)), running.text
     feedback: list[Any] = []
     first = client.send_goal({"order": 1}, on_feedback=feedback.append)
     eventually(lambda: feedback)
     second = client.send_goal({"order": 2})
-    assert first.wait(30)
+    assert first.wait(stretched(30))
     assert first.status is ActionlibStatus.PREEMPTED
     assert "another goal was received by the simple action server" in first.text
     eventually(lambda: second.status is ActionlibStatus.ACTIVE)
     second.cancel()
-    assert second.wait(30)
+    assert second.wait(stretched(30))
     assert (second.status.name, second.text) == ("PREEMPTED", "as you like")
     assert list(second.result.sequence) == [7]
     wanted = ["preempt True True", "preempt True False"]
@@ -180,11 +181,11 @@ rospy.spin()
 """
     running = program(HEAD + text)
     client = ActionClient(node, "count", FIBONACCI)
-    assert client.wait_for_server(20), running.text
+    assert client.wait_for_server(stretched(20)), running.text
     failed, forgot = client.send_goal({"order": 1}), None
-    assert failed.wait(30)
+    assert failed.wait(stretched(30))
     forgot = client.send_goal({"order": 0})
-    assert forgot.wait(30)
+    assert forgot.wait(stretched(30))
     assert (failed.status.name, failed.text) == (
         "ABORTED",
         "Exception in execute callback: no such order",
@@ -215,14 +216,14 @@ rospy.spin()
 """
     running = program(HEAD + text)
     client = ActionClient(node, "many", FIBONACCI)
-    assert client.wait_for_server(20), running.text
+    assert client.wait_for_server(stretched(20)), running.text
     rejected = client.send_goal({"order": -1})
-    assert rejected.wait(30)
+    assert rejected.wait(stretched(30))
     assert (rejected.status.name, rejected.text) == ("REJECTED", "too low")
     goal = client.send_goal({"order": 1})
     eventually(lambda: goal.text == "go")
     goal.cancel()
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status is ActionlibStatus.PREEMPTED
     running.wait_for_line(f"PREEMPTING {goal.goal_id}")
     running.wait_for_line("it is currently in state: 2")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Node
 from gazelle.graph.reconfigure import (
@@ -102,7 +103,7 @@ def test_server_of_a_cfg_file_is_seen_and_changed_by_others(
     assert (inner.name, inner.type) == ("Sizes_and_more", "tab")
     eventually(lambda: "ready" in running.lines)
     found = client.set(
-        {"size": "ExtraLarge", "double_param": 3, "str_param": "bye"}, timeout_s=30.0
+        {"size": "ExtraLarge", "double_param": 3, "str_param": "bye"}, timeout_s=stretched(30)
     )
     assert found == {
         "bool_param": True,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.compat.launch_ros.testing import (
     DataRepublisher,
@@ -43,7 +44,7 @@ def node(free_port: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
 def test_topics_are_waited_for(node: Node) -> None:
     publisher = node.create_publisher(_STRING, "/a", 10)
     node.create_timer(0.01, lambda: publisher.publish(_STRING(data="here")))
-    with WaitForTopics([("/a", _STRING)], timeout=30.0) as waiting:
+    with WaitForTopics([("/a", _STRING)], timeout=stretched(30)) as waiting:
         assert waiting.topics_received() == {"/a"}
         assert {one.data for one in waiting.received_messages("/a")} == {"here"}
         with pytest.raises(KeyError, match="No messages received for topic: /b"):
@@ -68,7 +69,7 @@ def test_messages_are_passed_on_changed_or_dropped(node: Node) -> None:
     publisher = node.create_publisher(_STRING, "/in", 10)
     for text in ("drop", "keep"):
         publisher.publish(_STRING(data=text))
-    assert came.wait(30.0)
+    assert came.wait(stretched(30))
     assert got == ["KEEP"]
     assert (passing.get_num_received(), passing.get_num_republished()) == (2, 1)
     assert [one.data for one in passing.get_republished()] == ["keep"]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.compat.rclpy.lifecycle.states import TRANSITIONS, StateMachine
 from gazelle.graph import Node
@@ -88,7 +89,7 @@ def test_others_change_the_state_by_services(program: Callable[..., Any], node: 
     def ask(name: str, kind: str, **fields: Any) -> Any:
         service = service_type(f"lifecycle_msgs/srv/{kind}")
         client = node.create_client(f"/talker/{name}", service)
-        assert client.wait_for_service(20.0), running.text
+        assert client.wait_for_service(stretched(20)), running.text
         request = service.Request()
         for field, value in fields.items():
             request.transition.id, request.transition.label = value, field

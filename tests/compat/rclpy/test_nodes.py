@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from tests.patience import stretched
+
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import message_type, service_type
@@ -208,7 +210,7 @@ rclpy.spin(node)
     def set_speed(value: float) -> Any:
         parameter = make(name="speed")
         parameter.value.type, parameter.value.double_value = 3, value
-        return client.call(kind.Request(parameters=[parameter]), timeout_s=30).results[0]
+        return client.call(kind.Request(parameters=[parameter]), timeout_s=stretched(30)).results[0]
 
     assert set_speed(3.0).successful
     running.wait_for_line("now 3.0")
@@ -239,11 +241,11 @@ rclpy.spin(node)
 """
     )
     client = ActionClient(node, "count", "example_interfaces/Fibonacci")
-    assert client.wait_for_server(20), running.text
+    assert client.wait_for_server(stretched(20)), running.text
     goals = [client.send_goal({"order": 1})]
     running.eventually(lambda: goals[0].is_accepted)
     goals.append(client.send_goal({"order": 2}))
-    assert all(goal.wait(30) for goal in goals), running.text
+    assert all(goal.wait(stretched(30)) for goal in goals), running.text
     assert [list(goal.result.sequence) for goal in goals] == [[1], [2]]
     # Results can come before the words that were printed before them.
     running.wait_for_line("executing 1")

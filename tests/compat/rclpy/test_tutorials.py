@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, Ros2Status
@@ -366,14 +367,14 @@ def test_minimal_parameters_are_seen_and_set_by_others(
     running.wait_for_line("Hello world!")
     kind = service_type("rcl_interfaces/DescribeParameters")
     client = node.create_client("/minimal_param_node/describe_parameters", kind)
-    answer = client.call(kind.Request(names=["my_parameter"]), timeout_s=30)
+    answer = client.call(kind.Request(names=["my_parameter"]), timeout_s=stretched(30))
     assert answer.descriptors[0].description == "This parameter is mine!"
     kind = service_type("rcl_interfaces/SetParameters")
     request = kind.Request()
     fill(request, {"parameters": [{"name": "my_parameter", "value": {
         "type": 4, "string_value": "earth"}}]})  # fmt: skip
     client = node.create_client("/minimal_param_node/set_parameters", kind)
-    assert client.call(request, timeout_s=30).results[0].successful
+    assert client.call(request, timeout_s=stretched(30)).results[0].successful
     running.wait_for_line("Hello earth!")
     running.stop()
 
@@ -386,9 +387,9 @@ def test_fibonacci_action_server_and_client(run: Callable[..., Any], node: Node)
     assert client.wait() == 0, client.text
     assert "Received feedback: 4" in client.text
     ours = ActionClient(node, "fibonacci", "action_tutorials_interfaces/Fibonacci")
-    assert ours.wait_for_server(10)
+    assert ours.wait_for_server(stretched(10))
     goal = ours.send_goal({"order": 2})
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status is Ros2Status.SUCCEEDED
     assert list(goal.result.sequence) == [0, 1, 1]
     server.stop()

@@ -77,7 +77,7 @@ def test_goal_feedback_and_result_reach_the_client(
     served: Served, client: ActionClient, inbox: Any, make_inbox: Any, generation: Any
 ) -> None:
     served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     done = make_inbox()
     goal = client.send_goal({"order": 4}, on_feedback=inbox, on_done=done)
     at_server = served.goal()
@@ -86,7 +86,7 @@ def test_goal_feedback_and_result_reach_the_client(
     at_server.publish_feedback({"sequence": [0, 1]})
     assert list(inbox.wait_for(1)[0].sequence) == [0, 1]
     at_server.succeed({"sequence": [0, 1, 1]}, "well")
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status.name == "SUCCEEDED"
     assert list(goal.result.sequence) == [0, 1, 1]
     assert (goal.is_done, done.items) == (True, [goal])
@@ -96,9 +96,9 @@ def test_goal_feedback_and_result_reach_the_client(
 def test_rejected_goal_ends_at_once(served: Served, client: ActionClient, generation: Any) -> None:
     served.accepts = False
     served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert (goal.status.name, goal.is_accepted) == ("REJECTED", False)
 
 
@@ -107,14 +107,14 @@ def test_cancelled_goal_ends_with_the_servers_result(
     served: Served, client: ActionClient, eventually: Any, generation: Any
 ) -> None:
     served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
     at_server = served.goal()
     eventually(lambda: goal.is_accepted)
     goal.cancel()
     eventually(lambda: at_server.is_cancel_requested)
     at_server.cancel({"sequence": [9]})
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status in (ActionlibStatus.PREEMPTED, Ros2Status.CANCELED)
     assert list(goal.result.sequence) == [9]
 
@@ -124,7 +124,7 @@ def test_cancel_all_reaches_goals_of_others(
     served: Served, client: ActionClient, graph: Graph, eventually: Any, generation: Any
 ) -> None:
     server = served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     client.send_goal({})
     mine = served.goal()
     handle = server.submit({})
@@ -137,12 +137,12 @@ def test_goals_of_other_clients_are_not_looked_at(
     served: Served, client: ActionClient, other: Graph, generation: Any
 ) -> None:
     server = served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     stranger = ActionClient(client._node, "fibonacci", FIBONACCI)
-    assert stranger.wait_for_server(10)
+    assert stranger.wait_for_server(stretched(10))
     first = stranger.send_goal({})
     served.goal().succeed({"sequence": [1]})
-    assert first.wait(30)
+    assert first.wait(stretched(30))
     seen: list[Any] = []
     goal = client.send_goal({}, on_feedback=seen.append)
     served.goal(1)
@@ -151,7 +151,7 @@ def test_goals_of_other_clients_are_not_looked_at(
     submitted.publish_feedback({"sequence": [5]})
     submitted.succeed({"sequence": [6]})
     served.goal(1).succeed({"sequence": [2]})
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert (seen, list(goal.result.sequence)) == ([], [2])
 
 
@@ -159,12 +159,12 @@ def test_waiting_for_a_result_does_not_block_other_requests(
     served: Served, client: ActionClient
 ) -> None:
     served.offer(2)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goals = [client.send_goal({"order": number}) for number in range(4)]
     last = {one.request.order: one for one in served.goals.wait_for(4)}
     for number in (3, 1, 0, 2):
         last[number].succeed({"sequence": [number]})
-        assert goals[number].wait(30)
+        assert goals[number].wait(stretched(30))
         assert list(goals[number].result.sequence) == [number]
 
 
@@ -190,13 +190,13 @@ def test_goal_that_the_server_forgot_is_lost(
     served: Served, client: ActionClient, eventually: Any, graph: Graph
 ) -> None:
     served.offer(1)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
     served.goal()
     eventually(lambda: goal.comm_state is CommState.ACTIVE)
     kind = message_type("actionlib_msgs/GoalStatusArray")
     served.node.create_publisher("/fibonacci/status", kind).publish(kind())
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status is ActionlibStatus.LOST
 
 
@@ -204,12 +204,12 @@ def test_ros2_goal_ends_when_its_server_goes(
     served: Served, client: ActionClient, eventually: Any
 ) -> None:
     server = served.offer(2)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
     served.goal()
     eventually(lambda: goal.is_accepted)
     server.close()
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.status.is_terminal or goal.text
 
 
@@ -217,7 +217,7 @@ def test_missing_server_is_named_with_the_nearest(
     served: Served, other: Graph, client: ActionClient
 ) -> None:
     served.offer(2)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     lost = ActionClient(client._node, "fibonaci", FIBONACCI)
     assert not lost.wait_for_server(0.05)
     with pytest.raises(NotFoundError, match="did you mean '/fibonacci'"):
@@ -226,7 +226,7 @@ def test_missing_server_is_named_with_the_nearest(
 
 def test_server_of_another_type_is_told(served: Served, client: ActionClient) -> None:
     served.offer(2)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     wrong = ActionClient(client._node, "fibonacci", "actionlib_tutorials/Averaging")
     with pytest.raises(
         GraphError,
@@ -241,7 +241,7 @@ def test_actions_are_listed_with_their_ends(
     served: Served, client: ActionClient, graph: Graph, eventually: Any, generation: Any
 ) -> None:
     served.offer(generation)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     kind = "actionlib_tutorials/action/Fibonacci"
     expected = (ActionInfo("/fibonacci", kind, generation, ("/server",), ("/client",)),)
     eventually(lambda: graph.actions() == expected)
@@ -252,10 +252,10 @@ def test_ros1_views_give_ros1_messages(served: Served, other: Graph) -> None:
     served.offer(1)
     kind = ros1_message_type("actionlib_tutorials/FibonacciAction")
     client = ActionClient(other.create_node("client", rosout=False), "fibonacci", kind)
-    assert client.wait_for_server(10)
+    assert client.wait_for_server(stretched(10))
     goal = client.send_goal(ros1_message_type("actionlib_tutorials/FibonacciGoal")(order=2))
     served.goal().succeed({"sequence": [3]})
-    assert goal.wait(30)
+    assert goal.wait(stretched(30))
     assert goal.result._type == "actionlib_tutorials/FibonacciResult"
     assert goal.result.sequence == (3,)
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import stretched
 
 from gazelle.graph import Graph
 from gazelle.graph.reconfigure import (
@@ -148,17 +149,17 @@ def pair(join: Callable[..., Graph]) -> tuple[ReconfigureServer, ReconfigureClie
 
 def test_client_sees_description_and_values(pair: Any) -> None:
     server, client = pair
-    assert client.wait_for_server(10.0)
+    assert client.wait_for_server(stretched(10))
     assert client.wait_for_values(10.0) == {"p": 1.0, "size": 0, "on": False}
     assert [group.name for group in client.description.groups] == ["More"]
-    assert client.set({"p": "2.5", "on": "yes", "size": "large"}, timeout_s=30.0) == {
+    assert client.set({"p": "2.5", "on": "yes", "size": "large"}, timeout_s=stretched(30)) == {
         "p": 2.5,
         "size": 2,
         "on": True,
     }
     assert server.values == {"p": 2.5, "size": 2, "on": True}
     assert client.values == server.values
-    client.set({}, states={"More": False}, timeout_s=30.0)
+    client.set({}, states={"More": False}, timeout_s=stretched(30))
     assert not server.states["More"]
     client.close()
 
@@ -166,9 +167,9 @@ def test_client_sees_description_and_values(pair: Any) -> None:
 def test_client_says_what_cannot_be_set(pair: Any) -> None:
     _, client = pair
     with pytest.raises(ReconfigureError, match="don't know parameter: sise; did you mean 'size'"):
-        client.set({"sise": 1}, timeout_s=30.0)
+        client.set({"sise": 1}, timeout_s=stretched(30))
     with pytest.raises(ReconfigureError, match=r"can't set parameter 'p' of <class 'float'>: coul"):
-        client.set({"p": "much"}, timeout_s=30.0)
+        client.set({"p": "much"}, timeout_s=stretched(30))
 
 
 def test_client_of_nobody_gives_up_in_time(join: Callable[..., Graph]) -> None:

@@ -5,6 +5,7 @@ import threading
 
 import numpy as np
 import pytest
+from tests.patience import stretched
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import (
@@ -174,11 +175,11 @@ def test_two_publishers_of_a_frame_are_told_once_a_successor_is_not() -> None:
 def test_waiting_ends_when_the_transform_comes() -> None:
     buffer, found = TransformBuffer(), []
     waiter = threading.Thread(
-        target=lambda: found.append(buffer.lookup_transform("a", "b", S, timeout_s=30))
+        target=lambda: found.append(buffer.lookup_transform("a", "b", S, timeout_s=stretched(30)))
     )
     waiter.start()
     buffer.set_transform("a", "b", S, Pose((1.0, 0.0, 0.0)))
-    waiter.join(30)
+    waiter.join(stretched(30))
     assert found[0].pose.position_m == (1.0, 0.0, 0.0)
     with pytest.raises(UnknownFrameError):
         buffer.lookup_transform("a", "c", timeout_s=0.01)
