@@ -68,12 +68,12 @@ _ROWS: dict[str, tuple[str, list[dict[str, Any]], list[str]]] = {
         ["1"],
     ),
     "let": (
-        '<let name="x" value="a $(env HOME)"/><log message="$(var x)"/>',
+        '<let name="x" value="a $(env PATH)"/><log message="$(var x)"/>',
         [
-            {"let": {"name": "x", "value": "a $(env HOME)"}},
+            {"let": {"name": "x", "value": "a $(env PATH)"}},
             {"log": {"message": "$(var x)"}},
         ],
-        [f"a {os.environ.get('HOME')}"],
+        [f"a {os.environ.get('PATH')}"],
     ),
     "set_env": (
         '<set_env name="GZ_X" value="1"/><log message="$(env GZ_X)"/>',
