@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from gazelle.description.model import CameraSpec, ContactSpec, Model, PluginTag, World
+from gazelle.description.model import ContactSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.geometry import Pose, announcing
@@ -81,7 +81,8 @@ class WorldServer:
             mode: of `run`; `step` is always as fast as possible, and waits for frames in
                 lock-step.
             paused: `run` waits for `unpause` before the first step.
-            warm_cameras: load the cameras' kernels in a thread as soon as there is a camera.
+            warm_cameras: load the cameras' kernels before the first picture that somebody wants,
+                and say so where they have to be compiled.
             progress: told before work that takes seconds; the node's log when None.
             controls: with parameters of controllers; an empty one when None.
             ros_version: of what started the simulator; it decides what plug-ins call their
@@ -103,10 +104,9 @@ class WorldServer:
         self.commands = CommandQueue()
         self.controls = ControlRegistry() if controls is None else controls
         self.sensors = SensorSet(self.engine, seed)
-        self.frames = FrameWorker()
+        self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
         self.pace = Pace(self._wanted_factor())
         self._stop = threading.Event()
-        self._warms_cameras = warm_cameras
         self._resources: dict[str, Resources] = {}
         self._world_resources = Resources(self)
         self._load_world_plugins()
@@ -277,16 +277,10 @@ class WorldServer:
             count = min(count, last - self.engine.iteration)
         self._advance(count, pausing=True)
 
-    def _warm_cameras(self) -> None:
-        if self._warms_cameras:
-            from gazelle.sensors import warm_up
+    def _warm_up(self) -> None:
+        from gazelle.sensors import warm_up
 
-            self._warms_cameras = False
-
-            def warm() -> None:
-                warm_up(lambda text: self.node.log("INFO", text))
-
-            threading.Thread(target=warm, name="gazelle-warm-up", daemon=True).start()
+        warm_up(lambda text: self.node.log("INFO", text))
 
     def _advance(self, count: int, *, pausing: bool = False) -> None:
         engine, scheduler = self.engine, self.scheduler
@@ -321,8 +315,6 @@ class WorldServer:
 
         for place in sensor_places(model):
             readable = check_sensor(place, model, self.engine.world, self.diagnostics)
-            if isinstance(place.sensor.spec, CameraSpec):
-                self._warm_cameras()
             for plugin in place.sensor.plugins:
                 load(plugin, place)
             is_gz = is_gz_world(self.engine.world)

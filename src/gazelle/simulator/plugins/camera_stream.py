@@ -121,7 +121,7 @@ class CameraStream:
             return
         view = self._host.sensors.view()
         if self._host.lockstep:
-            self._produce(time_ns, view, outputs)
+            self._host.frames.do(lambda: self._produce(time_ns, view, outputs))
         else:
             started = self._host.frames.submit(
                 self._place.name, lambda: self._produce(time_ns, view, outputs)
