@@ -16,8 +16,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from tests.patience import stretched
-
 __all__ = ["Outcome", "run_official"]
 
 
@@ -33,6 +31,9 @@ def run_official(
     calls: Sequence[Sequence[str]], folder: Path, packages: Mapping[str, str] | None = None
 ) -> list[Outcome]:
     """Run ``xacro WORDS…`` once for each call, in a folder, with packages for ``$(find)``."""
+    # The script finds no package of the tests.
+    from tests.patience import stretched
+
     environ = {**os.environ, "PYTHONPATH": "", "PYTHONUTF8": "1"}
     task = json.dumps({"calls": [list(words) for words in calls], "packages": packages or {}})
     done = subprocess.run(
