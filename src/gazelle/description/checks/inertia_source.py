@@ -45,7 +45,8 @@ class CheckedSource:
             self._files.add(link.span.file)
             root = read_xml(Path(link.span.file), Diagnostics())
             if root is not None:
-                self.tags |= links_below(root)
+                found = links_below(root)
+                self.tags |= {key: tag for key, tag in found.items() if not _is_pattern(tag)}
         return self.tags.get(key)
 
 
@@ -102,6 +103,12 @@ def _models(root: Tag, context: ReadContext) -> tuple[Model, ...]:
 
 def _has_xacro(root: Tag) -> bool:
     return any(tag.name.startswith("xacro:") for tag in root.walk())
+
+
+def _is_pattern(tag: Tag) -> bool:
+    """Tell whether xacro makes something else of an element, an ``<inertial>`` of a macro say."""
+    values = (value for inner in tag.walk() for value in inner.attributes.values())
+    return _has_xacro(tag) or any("${" in value or "$(" in value for value in values)
 
 
 def links_below(root: Tag) -> dict[tuple[str, SourceSpan], Tag]:
