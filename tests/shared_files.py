@@ -1,17 +1,62 @@
-"""Test modules that are about the sample workspaces alone skip once where these are not there."""
+"""Tests about the sample workspaces skip once for each module where these are not there."""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-__all__ = ["SHARED", "skip_module_without_shared"]
+__all__ = ["SHARED", "needs_shared", "shared_cases", "skip_module_without_shared"]
 
 SHARED = Path(__file__).parents[2] / "shared"
+_REASON = f"sample workspaces are not here ({SHARED})"
+# In a module's globals: it has a test that skips for all of its tests.
+_TOLD = "_told_without_shared"
 
 
 def skip_module_without_shared() -> None:
     """Skip the module that calls this while it is imported, all of it in one."""
     if not SHARED.is_dir():
-        pytest.skip(f"sample workspaces are not here ({SHARED})", allow_module_level=True)
+        pytest.skip(_REASON, allow_module_level=True)
+
+
+def needs_shared(test: Callable[..., Any]) -> Callable[..., Any] | None:
+    """Decorate a test, above all other decorators, that only the sample workspaces can serve.
+
+    Where they are not there, a module's first such test skips, and pytest sees no others.
+    """
+    if SHARED.is_dir():
+        return test
+    if _is_told(test.__globals__):
+        return None
+
+    @pytest.mark.skip(reason=f"{_REASON}, as for all tests of this file that are about them")
+    def skipped() -> None:
+        raise AssertionError("skipped")
+
+    return skipped
+
+
+def shared_cases(*cases: Any) -> list[Any]:
+    """Return parametrized cases over the sample workspaces, to stand beside cases of our own.
+
+    Where the workspaces are not there, it is one case that skips, and none if the module has
+    told so already.
+    """
+    if SHARED.is_dir():
+        return list(cases)
+    if not cases or _is_told(sys._getframe(1).f_globals):
+        return []
+    # A named tuple is one value.
+    width = len(cases[0]) if type(cases[0]) is tuple else 1
+    return [pytest.param(*[None] * width, marks=pytest.mark.skip(reason=_REASON), id="samples")]
+
+
+def _is_told(module: dict[str, Any]) -> bool:
+    """Tell whether a module has a skipping test already; from now on it has."""
+    told = module.get(_TOLD, False)
+    module[_TOLD] = True
+    return told

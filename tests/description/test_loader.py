@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.description.loader import TEXT_NAME, load_models, load_world
 from gazelle.description.model import CameraSpec, LidarSpec, Model
@@ -144,6 +145,76 @@ def _load_sample(relative: str, root: Path) -> tuple[Model, Diagnostics]:
     return model, diagnostics
 
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.mark.parametrize(
+    ("relative", "links", "joints", "sensors"),
+    [
+        ("arm_ws/src/heron_description/urdf/heron.urdf.xacro", 11, 11, 0),
+        ("four_wheel_ws/src/courier_robot/urdf/courier.urdf.xacro", 6, 5, 0),
+        ("pr2_style_ws/src/tandem_controller/urdf/robot.xml", 3, 2, 0),
+        ("scout_ws/src/scout_robot/urdf/scout.urdf.xacro", 10, 9, 3),
+    ],
+)
+def test_robots_of_the_examples_read_without_errors(
+    relative: str, links: int, joints: int, sensors: int
+) -> None:
+    model, diagnostics = _load_example(relative)
+    assert (len(model.links), len(model.joints)) == (links, joints)
+    assert sum(len(link.sensors) for link in model.links) == sensors
+    assert {item.code for item in diagnostics} <= {"urdf.old-controller"}
+
+
+def test_scout_facts() -> None:
+    model, _ = _load_example("scout_ws/src/scout_robot/urdf/scout.urdf.xacro")
+    assert model.canonical_link == "base_footprint"
+    assert model.link("base_footprint").inertial is None
+    assert model.link("base_link").inertial.mass_kg == 3.0
+    assert model.link("left_wheel_link").inertial.inertia_kg_m2[5] == pytest.approx(0.00025)
+    assert model.joint("left_wheel_joint").axis.xyz == (0.0, 0.0, 1.0)
+    (camera,) = model.link("camera_link").sensors
+    (lidar,) = model.link("lidar_link").sensors
+    assert isinstance(camera.spec, CameraSpec)
+    assert (camera.type, camera.update_rate_hz, camera.spec.width_px) == ("depth", 15.0, 320)
+    assert isinstance(lidar.spec, LidarSpec)
+    assert (lidar.spec.samples, lidar.spec.range_max_m, lidar.update_rate_hz) == (360, 10.0, 10.0)
+    assert lidar.plugins[0].filename == "libgazebo_ros_laser.so"
+    (drive,) = model.plugins
+    assert drive.filename == "libgazebo_ros_diff_drive.so"
+    assert drive.parameters.text_of("wheelSeparation") == "0.28"
+
+
+def test_courier_facts() -> None:
+    model, _ = _load_example("four_wheel_ws/src/courier_robot/urdf/courier.urdf.xacro")
+    swivel = model.joint("head_swivel").axis
+    assert (swivel.effort, swivel.velocity) == (3.0, 2.0)
+    surface = model.link("left_back_wheel").collisions[0].surface
+    assert (surface.mu1, surface.mu2) == (1.0, 0.6)
+    assert model.link("left_back_wheel").visuals[0].material.name == "Gazebo/DarkGrey"
+    assert [item.type for item in model.transmissions] == [
+        "transmission_interface/SimpleTransmission"
+    ] * 5
+    assert model.plugins[0].parameters.text_of("robotNamespace") == "/"
+
+
+def test_heron_keeps_its_ros2_control_block() -> None:
+    model, _ = _load_example("arm_ws/src/heron_description/urdf/heron.urdf.xacro")
+    (control,) = model.ros2_controls
+    assert control.element.text_of("hardware", "plugin") == "gazebo_ros2_control/GazeboSystem"
+    assert [item.attributes["name"] for item in control.element.find_all("joint")] == [
+        *(f"joint_{number}" for number in range(1, 7)),
+        "finger_joint",
+    ]
+
+
+def _load_example(relative: str) -> tuple[Model, Diagnostics]:
+    file = EXAMPLES / relative
+    (model,), diagnostics = _load(file, Workspace.discover(environ={}, cwd=file.parent))
+    return model, diagnostics
+
+
+@needs_shared
 @pytest.mark.tutorial
 @pytest.mark.parametrize(
     ("relative", "links", "joints", "sensors"),
@@ -186,6 +257,7 @@ def test_sample_robots_read_without_errors(
     assert diagnostics.worst is None or diagnostics.worst < Severity.ERROR
 
 
+@needs_shared
 @pytest.mark.tutorial
 def test_slambot_facts(workspaces_dir: Path) -> None:
     model, diagnostics = _load_sample(
@@ -215,6 +287,7 @@ def test_slambot_facts(workspaces_dir: Path) -> None:
     ]
 
 
+@needs_shared
 @pytest.mark.tutorial
 def test_mira_facts(workspaces_dir: Path) -> None:
     model, _ = _load_sample(
@@ -233,6 +306,7 @@ def test_mira_facts(workspaces_dir: Path) -> None:
     assert model.plugins[0].parameters.text_of("robotNamespace") == "/mira"
 
 
+@needs_shared
 @pytest.mark.tutorial
 def test_luck_keeps_its_ros2_control_block(workspaces_dir: Path) -> None:
     model, _ = _load_sample(

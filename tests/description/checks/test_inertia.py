@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.description.checks.inertia import repaired
 from gazelle.diagnostics import Severity
@@ -229,6 +230,17 @@ def test_repair_without_shapes_legalises_the_tensor(judge) -> None:
     assert math.isclose(body.inertia_kg_m2[3] + body.inertia_kg_m2[5], 0.13)
 
 
+def test_turned_moments_are_mixed_up(judge) -> None:
+    wheel = '<collision><geometry><cylinder radius="0.1" length="0.04"/></geometry></collision>'
+    # 2 kg: 0.01 about the axle, which is z, and 0.0053 about the others.
+    right, wrong = (0.0053, 0.0053, 0.01), (0.0053, 0.01, 0.0053)
+    assert judge(robot(link(inertial(2, right), shape=wheel))).codes == []
+    found = judge(robot(link(inertial(2, wrong), shape=wheel)))
+    assert found.codes == ["inertia.box"]
+    assert "mixed up" in found.findings[0].diagnostic.message
+
+
+@needs_shared
 def test_mira_has_no_finding(workspaces_dir: Path) -> None:
     """Its table's formulas are those of the bodies."""
     found = judged(workspaces_dir / "catkin_ws/src/urdf_exam/urdf/mira_gazebo.urdf")
@@ -236,6 +248,7 @@ def test_mira_has_no_finding(workspaces_dir: Path) -> None:
     assert found.codes == []
 
 
+@needs_shared
 def test_wheels_of_mobile_robot_have_mixed_up_axes(workspaces_dir: Path) -> None:
     found = judged(workspaces_dir / "catkin_ws/src/urdf_tutorial/urdf/mobile_robot.urdf")
     assert found.codes == ["inertia.box", "inertia.box"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.description.checks.pain import FIXTURES, examined, place
+from tests.shared_files import needs_shared
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
@@ -101,7 +102,21 @@ def test_name_that_gazebo_replaces_is_a_notice() -> None:
     assert place(item) == "<bodyName>imu_link</bodyName>"
 
 
-def test_link_without_mass_needs_some_to_be_preserved(workspaces_dir: Path) -> None:
+def test_link_without_mass_needs_some_to_be_preserved(tmp_path: Path) -> None:
+    text = BROKEN.read_text(encoding="utf-8")
+    head, _, tail = text.partition('<link name="imu_link">')
+    link, _, rest = tail.partition("</link>")
+    bare = link[: link.index("<inertial>")] + link[link.index("</inertial>") + 11 :]
+    file = tmp_path / "robot.urdf"
+    file.write_text(f'{head}<link name="imu_link">{bare}</link>{rest}', encoding="utf-8")
+    (item,) = examined(file).by_code("robot.lumped-frame")
+    assert item.fix.endswith(
+        "and give 'imu_link' an <inertial>: preserved links without one are dropped"
+    )
+
+
+@needs_shared
+def test_massless_link_of_burger_needs_some_to_be_preserved(workspaces_dir: Path) -> None:
     folder = workspaces_dir / "turtlebot3_ws/src/turtlebot3/turtlebot3_description/urdf"
     found = examined(folder / "turtlebot3_burger.urdf.xacro").by_code("robot.lumped-frame")
     (item,) = found

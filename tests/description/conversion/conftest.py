@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.shared_files import SHARED
 
 from gazelle.description.loader import load_models
 from gazelle.description.model import Inertial, Model
@@ -19,16 +20,24 @@ from gazelle.geometry import Pose
 from gazelle.workspace import Workspace
 
 TOLERANCE = 1e-9
+REPOSITORY = Path(__file__).parents[3]
+OWN_ROS1 = REPOSITORY / "tests/workspaces/ros1"
 
 
 @pytest.fixture(scope="session")
-def workspace(workspaces_dir: Path) -> Workspace:
-    roots = ("catkin_ws", "ros2_ws", "turtlebot3_ws")
+def workspace() -> Workspace:
+    """All packages and models: the examples, the tests' own, and the samples where they are."""
+    roots = [*sorted((REPOSITORY / "examples").glob("*_ws")), OWN_ROS1]
+    models = [OWN_ROS1 / "src/yard_gazebo/models"]
+    if SHARED.is_dir():
+        samples = SHARED / "workspaces"
+        roots += [samples / name for name in ("catkin_ws", "ros2_ws", "turtlebot3_ws")]
+        models.append(samples / "gazebo_models")
     environ = {
-        "ROS_PACKAGE_PATH": ":".join(str(workspaces_dir / name / "src") for name in roots),
-        "GAZEBO_MODEL_PATH": str(workspaces_dir / "gazebo_models"),
+        "ROS_PACKAGE_PATH": ":".join(str(root / "src") for root in roots),
+        "GAZEBO_MODEL_PATH": ":".join(map(str, models)),
     }
-    return Workspace.discover(environ=environ, cwd=workspaces_dir)
+    return Workspace.discover(environ=environ, cwd=REPOSITORY)
 
 
 class Reading:

@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import pytest
+from tests.description.conversion.conftest import OWN_ROS1
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.conversion import to_sdf
 from gazelle.description.sdformat import Release
 from gazelle.diagnostics import Diagnostics
 
+YARD = OWN_ROS1 / "src/yard_gazebo/models"
+SAMPLES = SHARED / "workspaces/gazebo_models"
+CASES = [(file, release) for file in (YARD / "barrow", YARD / "shed") for release in Release]
+SAMPLE_CASES = [
+    (SAMPLES / name / "model.sdf", release)
+    for name in ("my_robot", "ISCAS_Museum")
+    for release in Release
+]
 
-@pytest.mark.parametrize("name", ["my_robot/model.sdf", "ISCAS_Museum/model.sdf"])
-@pytest.mark.parametrize("release", list(Release))
-def test_models_of_the_documents_come_back_equal(
-    name, release, reading, workspace, workspaces_dir
-) -> None:
-    model = reading.model(workspaces_dir / "gazebo_models" / name, workspace)
+
+@pytest.mark.parametrize(("file", "release"), [*CASES, *shared_cases(*SAMPLE_CASES)])
+def test_models_of_the_documents_come_back_equal(file, release, reading, workspace) -> None:
+    model = reading.model(file, workspace)
     text = to_sdf(model, diagnostics=Diagnostics(), release=release).text
     assert reading.differences(model, reading.model(text, workspace)) == []
 

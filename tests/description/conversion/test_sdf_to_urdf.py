@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.description.conversion.conftest import OWN_ROS1
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.conversion import Beside, to_urdf
 from gazelle.description.conversion.single_axes import CARRIER_SHARE
@@ -14,6 +16,8 @@ from gazelle.description.posing import posed_model
 from gazelle.description.sdformat import Release
 from gazelle.diagnostics import Diagnostics
 
+YARD = OWN_ROS1 / "src/yard_gazebo"
+SAMPLES = SHARED / "workspaces/gazebo_models"
 INERTIAL = (
     "<inertial><pose>0.01 0.02 0.03 0.1 0 0</pose><mass>2</mass><inertia><ixx>0.02</ixx>"
     "<iyy>0.03</iyy><izz>0.04</izz></inertia></inertial>"
@@ -119,11 +123,17 @@ def test_sdformat_turns_the_urdf_back_into_the_same_bodies(convert, reading) -> 
         assert np.allclose(one, other, atol=1e-6)
 
 
-@pytest.mark.parametrize("name", ["my_robot/model.sdf", "stages/my_robot_7.sdf"])
-def test_robots_of_the_documents_keep_shapes_and_mass(
-    name, reading, workspace, workspaces_dir
-) -> None:
-    model = reading.model(workspaces_dir / "gazebo_models" / name, workspace)
+@pytest.mark.parametrize(
+    "file",
+    [
+        YARD / "models/barrow/model.sdf",
+        YARD / "stages/barrow_7.sdf",
+        *shared_cases(SAMPLES / "my_robot/model.sdf", SAMPLES / "stages/my_robot_7.sdf"),
+    ],
+    ids=lambda file: file.stem,
+)
+def test_robots_of_the_documents_keep_shapes_and_mass(file, reading, workspace) -> None:
+    model = reading.model(file, workspace)
     again = reading.model(to_urdf(model, diagnostics=Diagnostics()).text, workspace)
     for one, other in zip(reading.total(model), reading.total(again), strict=True):
         assert np.allclose(one, other, atol=1e-9)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
+from tests.description.conversion.conftest import OWN_ROS1, REPOSITORY
+from tests.description.recorded_robots import OWN, SAMPLES, RecordedRobots
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.conversion import to_urdf
 from gazelle.description.loader import load_models
 from gazelle.diagnostics import Diagnostics
 
+OWN_ROBOTS = (
+    REPOSITORY / "examples/arm_ws/src/heron_description/urdf/heron.urdf.xacro",
+    REPOSITORY / "examples/four_wheel_ws/src/courier_robot/urdf/courier.urdf.xacro",
+    REPOSITORY / "examples/scout_ws/src/scout_robot/urdf/scout.urdf.xacro",
+    OWN_ROS1 / "src/shown_robot/urdf/barrow.urdf",
+    OWN_ROS1 / "src/shown_robot/urdf/barrow.urdf.xacro",
+    REPOSITORY / "tests/description/converted/trolley.urdf",
+)
 ROBOTS = (
     "catkin_ws/src/slam_robot/urdf/slam_robot_gazebo.urdf",
     "catkin_ws/src/urdf_exam/urdf/mira_gazebo.urdf",
@@ -27,28 +36,35 @@ ROBOTS = (
 )
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_robots_of_the_workspaces_come_back_equal(name, reading, workspace, workspaces_dir) -> None:
-    model = reading.model(workspaces_dir / name, workspace)
+@pytest.mark.parametrize(
+    "file",
+    [*OWN_ROBOTS, *shared_cases(*(SHARED / "workspaces" / name for name in ROBOTS))],
+    ids=lambda file: file.name,
+)
+def test_robots_of_the_workspaces_come_back_equal(file, reading, workspace) -> None:
+    model = reading.model(file, workspace)
     text = to_urdf(model, diagnostics=Diagnostics()).text
     assert reading.differences(model, reading.model(text, workspace)) == []
 
 
-def test_every_robot_that_check_urdf_accepts_comes_back_equal(reading, oracles_dir) -> None:
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_every_robot_that_check_urdf_accepts_comes_back_equal(
+    reading, robots: RecordedRobots
+) -> None:
     compared = 0
-    for file in sorted((oracles_dir / "urdf").glob("*.urdf")):
-        said = (oracles_dir / "check_urdf" / f"{file.stem}.txt").read_text(encoding="utf-8")
-        if "Successfully Parsed" not in said:
+    for name in robots.names:
+        if "Successfully Parsed" not in robots.run(name).out:
             continue
-        for model in load_models(file, workspace=None, diagnostics=Diagnostics()):
+        for model in load_models(robots.file(name), workspace=None, diagnostics=Diagnostics()):
             text = to_urdf(model, diagnostics=Diagnostics()).text
-            assert reading.differences(model, reading.model(text)) == [], file.name
+            assert reading.differences(model, reading.model(text)) == [], name
             compared += 1
     assert compared > 10
 
 
-def test_good_oracle_reads_without_a_finding_when_written(oracles_dir: Path, reading) -> None:
-    model = reading.model(oracles_dir / "urdf" / "good.urdf")
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_good_robot_reads_without_a_finding_when_written(reading, robots: RecordedRobots) -> None:
+    model = reading.model(robots.file("good"))
     found = Diagnostics()
     to_urdf(model, diagnostics=found)
     assert list(found) == []

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.description.moveit import (
     CartesianLimits,
@@ -116,6 +117,19 @@ def test_a_package_of_ros_1_is_read(package: Make) -> None:
     assert [item.name for item in other.srdf.groups] == ["leg"] and set(other.kinematics) == {"leg"}
 
 
+def test_herons_package_is_read_without_a_complaint(examples_dir: Path) -> None:
+    diagnostics = Diagnostics()
+    workspace = Workspace.discover(environ={}, cwd=examples_dir / "arm_ws")
+    config = read_moveit_config("heron_moveit_config", workspace=workspace, diagnostics=diagnostics)
+    assert config is not None and list(diagnostics) == []
+    assert config.robot.name == "heron"
+    assert [group.name for group in config.srdf.groups] == ["arm", "hand"]
+    assert [item.name for item in config.controllers] == ["arm_controller", "hand_controller"]
+    assert config.joint_limits["joint_1"].max_acceleration == 4.0
+    assert config.execution.allowed_start_tolerance == 0.02
+
+
+@needs_shared
 def test_luck_is_read_without_a_complaint(workspaces_dir: Path) -> None:
     diagnostics = Diagnostics()
     workspace = Workspace.discover(environ={}, cwd=workspaces_dir / "ros2_ws")

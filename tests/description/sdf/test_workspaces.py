@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-import re
 from pathlib import Path
 
 import pytest
+from tests.shared_files import skip_module_without_shared
 
 from gazelle.description.model import Box, Cylinder, JointType, Plane
 from gazelle.description.sdf import read_model_file, read_world_file
 from gazelle.description.sdf.model_config import read_model_config
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
+
+skip_module_without_shared()
 
 TURTLEBOT = "turtlebot3_ws/src/turtlebot3_simulations/turtlebot3_gazebo"
 
@@ -156,39 +158,6 @@ def test_turtlebots_wheels_turn_about_the_same_axis_in_both_versions(
             assert joint.T_model_joint.rotate(joint.axis.xyz) == pytest.approx((0, 1, 0), abs=1e-9)
     assert not found.errors
     assert {item.code for item in found} <= {"sdf.missing-file"}
-
-
-@pytest.mark.reference
-def test_bad_file_is_refused_for_the_reasons_sdformat_gives(oracles_dir, found):
-    """Each mistake once; sdformat prints ten lines for these two."""
-    read_model_file(oracles_dir / "sdfin/bad.sdf", workspace=None, diagnostics=found)
-    recorded = (oracles_dir / "sdf/check_bad.txt").read_text(encoding="utf-8")
-    assert "link with name[l] already exists" in recorded
-    assert re.search(
-        r"Child frame with name\[zz\] specified by joint with name\[j\] not found", recorded
-    )
-    assert [item.code for item in found.errors] == ["sdf.duplicate-name", "sdf.bad-joint"]
-    assert "link with name 'l'" in found.errors[0].message
-    assert "child frame with name 'zz' specified by joint with name 'j'" in found.errors[1].message
-
-
-@pytest.mark.reference
-def test_defaults_are_those_that_sdformat_prints(oracles_dir, found):
-    world = read_world_file(oracles_dir / "sdfin/w.sdf", workspace=None, diagnostics=found)
-    recorded = (oracles_dir / "sdf/print_w.txt").read_text(encoding="utf-8")
-
-    def numbers(element):
-        text = re.search(f"<{element}>(.*?)</{element}>", recorded)[1]
-        return tuple(float(word) for word in text.split())
-
-    assert world.gravity_m_s2 == numbers("gravity")
-    assert world.magnetic_field_t == numbers("magnetic_field")
-    assert (world.physics.max_step_size_s,) == numbers("max_step_size")
-    assert (world.physics.real_time_factor,) == numbers("real_time_factor")
-    assert (world.physics.real_time_update_rate_hz,) == numbers("real_time_update_rate")
-    assert world.scene.ambient == numbers("ambient")
-    assert world.scene.background == numbers("background")
-    assert not len(found)
 
 
 @pytest.mark.reference

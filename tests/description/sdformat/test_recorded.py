@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from tests.patience import stretched
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.sdformat import Release
 from gazelle.description.sdformat.document import read_document, to_text
@@ -26,6 +27,7 @@ from .comparing import differences
 from .random_robots import random_robot
 
 RECORDED = Path(__file__).with_name("recorded")
+TESTS = Path(__file__).parents[2]
 NAMES = sorted(path.stem for path in RECORDED.glob("*.urdf"))
 
 
@@ -64,17 +66,31 @@ def test_recorded_remarks(name: str, release: Release) -> None:
 
 @pytest.mark.reference
 @pytest.mark.parametrize(
-    ("record", "robot", "release"),
+    ("robot", "record", "release"),
     [
-        ("sdf/print_gz_urdf.txt", "gz", Release.V12),
-        ("sdf/print_surf_urdf.txt", "surf", Release.V12),
-        ("sdf9/print_gz.txt", "gz", Release.V9),
-        ("sdf9/print_surf.txt", "surf", Release.V9),
+        (
+            TESTS / "description/converted/trolley.urdf",
+            TESTS / "workspaces/recorded/ign_sdf/print_trolley.txt",
+            Release.V12,
+        ),
+        *shared_cases(
+            *(
+                (SHARED / f"oracles/sdfin/{robot}.urdf", SHARED / "oracles" / record, release)
+                for robot, record, release in (
+                    ("gz", "sdf/print_gz_urdf.txt", Release.V12),
+                    ("surf", "sdf/print_surf_urdf.txt", Release.V12),
+                    ("gz", "sdf9/print_gz.txt", Release.V9),
+                    ("surf", "sdf9/print_surf.txt", Release.V9),
+                )
+            )
+        ),
     ],
 )
-def test_shared_records(record: str, robot: str, release: Release, oracles_dir: Path) -> None:
-    text = (oracles_dir / "sdfin" / f"{robot}.urdf").read_text(encoding="utf-8")
-    recorded = (oracles_dir / record).read_text(encoding="utf-8")
+def test_printed_robots_with_all_that_sdformat_changes(
+    robot: Path, record: Path, release: Release
+) -> None:
+    text = robot.read_text(encoding="utf-8")
+    recorded = record.read_text(encoding="utf-8")
     found = re.search("<sdf .*</sdf>", recorded, re.DOTALL)
     assert found is not None
     assert differences(_printed(text, release), found[0]) == []
@@ -89,11 +105,19 @@ def test_random_robots_where_the_real_program_is_installed(seed: int, tmp_path: 
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("pattern", ["*.urdf", "*.urdf.xacro"])
+@pytest.mark.parametrize(
+    ("workspaces", "pattern"),
+    [
+        (TESTS.parent / "examples", "*.urdf.xacro"),
+        (TESTS / "workspaces", "*.urdf"),
+        (TESTS / "workspaces", "*.urdf.xacro"),
+        *shared_cases((SHARED / "workspaces", "*.urdf"), (SHARED / "workspaces", "*.urdf.xacro")),
+    ],
+)
 def test_robots_of_the_workspaces_where_the_real_program_is_installed(
-    pattern: str, workspaces_dir: Path, tmp_path: Path
+    workspaces: Path, pattern: str, tmp_path: Path
 ) -> None:
-    files = sorted(workspaces_dir.rglob(pattern))
+    files = sorted(workspaces.rglob(pattern))
     assert files
     for file in files:
         folder = next(parent for parent in file.parents if (parent / "src").is_dir())

@@ -4,6 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.description.recorded_robots import OWN, SAMPLES, RecordedRobots
+from tests.shared_files import shared_cases
 
 from gazelle.diagnostics import Severity
 
@@ -69,17 +71,24 @@ EXPECTED: dict[str, list[str]] = {
 SILENT = {"neg_mass", "two_parents", "zero_axis"}
 
 
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
 @pytest.mark.reference
-def test_every_recorded_file_is_in_the_table(oracles_dir: Path) -> None:
-    assert {path.stem for path in (oracles_dir / "urdf").glob("*.urdf")} == set(EXPECTED)
+def test_every_recorded_file_is_in_the_table(robots: RecordedRobots) -> None:
+    assert set(robots.names) == set(EXPECTED)
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("stem", sorted(EXPECTED))
-def test_errors_mean_what_check_urdf_says(stem: str, oracles_dir: Path, read) -> None:
-    found = read((oracles_dir / "urdf" / f"{stem}.urdf").read_text(encoding="utf-8"))
-    recorded = (oracles_dir / "check_urdf" / f"{stem}.txt").read_text(encoding="utf-8")
-    complains = "Error:" in recorded
+@pytest.mark.parametrize(
+    ("robots", "stem"),
+    [
+        *((OWN, stem) for stem in sorted(EXPECTED)),
+        *shared_cases(*((SAMPLES, stem) for stem in sorted(EXPECTED))),
+    ],
+)
+def test_errors_mean_what_check_urdf_says(robots: RecordedRobots, stem: str, read) -> None:
+    recorded = robots.run(stem)
+    found = read(recorded.text)
+    complains = "Error:" in recorded.err
     errors = [item for item in found.diagnostics if item.severity is Severity.ERROR]
     assert [item.code for item in errors] == EXPECTED[stem]
     assert bool(errors) == (complains or stem in SILENT)
@@ -87,11 +96,12 @@ def test_errors_mean_what_check_urdf_says(stem: str, oracles_dir: Path, read) ->
 
 
 @pytest.mark.reference
-def test_phrases_are_those_that_check_urdf_prints(oracles_dir: Path, read) -> None:
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_phrases_are_those_that_check_urdf_prints(robots: RecordedRobots, read) -> None:
     for stem in ("no_robot_name", "joint_no_name", "no_links", "dynamics_empty", "link_no_name"):
-        found = read((oracles_dir / "urdf" / f"{stem}.urdf").read_text(encoding="utf-8"))
-        recorded = (oracles_dir / "check_urdf" / f"{stem}.txt").read_text(encoding="utf-8")
-        assert next(iter(found.diagnostics)).phrase in re.sub(r"\s+", " ", recorded)
+        recorded = robots.run(stem)
+        found = read(recorded.text)
+        assert next(iter(found.diagnostics)).phrase in re.sub(r"\s+", " ", recorded.err)
 
 
 def test_all_mistakes_are_found_at_once_with_line_and_column(read) -> None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import pytest
+from tests.shared_files import SHARED
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
@@ -16,17 +18,64 @@ from gazelle.geometry import MassProperties, Pose, combined_mass_properties
 pytestmark = pytest.mark.reference
 
 
+class Converted(NamedTuple):
+    """A robot, its record, and who is who in it.
+
+    Attributes:
+        root: link that all of the fixed ones are lumped into.
+        body: first of these, with mass.
+        mount: another one, with a sensor.
+        wheel: link with Gazebo's own words.
+        hinge: the wheel's joint.
+        slide: a prismatic joint.
+        kept: a fixed joint that is preserved.
+        weightless: link without an inertial, which sdformat drops.
+        sensor: of the mount.
+    """
+
+    file: Path
+    record: Path
+    root: str
+    body: str
+    mount: str
+    wheel: str
+    hinge: str
+    slide: str
+    kept: str
+    weightless: str
+    sensor: str
+
+
+_OWN = Converted(
+    Path(__file__).parents[1] / "converted/trolley.urdf",
+    Path(__file__).parents[2] / "workspaces/recorded/ign_sdf/print_trolley.txt",
+    "ground_point", "bed", "scanner_post", "roller", "roller_axle", "lift_rail", "badge_screw",
+    "flag", "sweep",
+)  # fmt: skip
+_SAMPLE = Converted(
+    SHARED / "oracles/sdfin/gz.urdf",
+    SHARED / "oracles/sdf/print_gz_urdf.txt",
+    "base_footprint", "base_link", "laser_mount", "left_wheel", "left_joint", "arm_joint",
+    "kept_fixed", "noinertia", "scan",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=[_OWN, *([_SAMPLE] if SHARED.is_dir() else [])])
+def converted(request: pytest.FixtureRequest) -> Converted:
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def robot(oracles_dir: Path) -> Model:
-    text = (oracles_dir / "sdfin" / "gz.urdf").read_text(encoding="utf-8")
-    model = read_urdf(text, context=ReadContext(None, Diagnostics(), "gz.urdf"))
+def robot(converted: Converted) -> Model:
+    text = converted.file.read_text(encoding="utf-8")
+    model = read_urdf(text, context=ReadContext(None, Diagnostics(), converted.file.name))
     assert model is not None
     return model
 
 
 @pytest.fixture(scope="module")
-def recorded(oracles_dir: Path) -> ElementTree.Element:
-    text = (oracles_dir / "sdf" / "print_gz_urdf.txt").read_text(encoding="utf-8")
+def recorded(converted: Converted) -> ElementTree.Element:
+    text = converted.record.read_text(encoding="utf-8")
     text = text[text.index("<sdf") : text.index("</sdf>") + 6].replace("ignition::", "ignition_")
     found = ElementTree.fromstring(text).find("model")
     assert found is not None
@@ -39,9 +88,11 @@ def _numbers(element: ElementTree.Element, path: str) -> list[float]:
     return [float(word) for word in (found.text or "").split()]
 
 
-def test_lumped_mass_properties(robot: Model, recorded: ElementTree.Element) -> None:
+def test_lumped_mass_properties(
+    converted: Converted, robot: Model, recorded: ElementTree.Element
+) -> None:
     bodies = []
-    for name in ("base_link", "laser_mount"):
+    for name in (converted.body, converted.mount):
         link = robot.link(name)
         pose = link.T_model_link @ link.inertial.T_link_com
         bodies.append(
@@ -50,7 +101,7 @@ def test_lumped_mass_properties(robot: Model, recorded: ElementTree.Element) -> 
             ).transformed(pose)
         )
     whole = combined_mass_properties(bodies)
-    inertial = recorded.find("link[@name='base_footprint']/inertial")
+    inertial = recorded.find(f"link[@name='{converted.root}']/inertial")
     words = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     assert whole.mass_kg == pytest.approx(_numbers(inertial, "mass")[0])
     assert whole.center_m == pytest.approx(_numbers(inertial, "pose")[:3], abs=1e-9)
@@ -58,8 +109,11 @@ def test_lumped_mass_properties(robot: Model, recorded: ElementTree.Element) -> 
     assert whole.inertia_kg_m2 == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", ["arm_joint", "left_joint", "kept_fixed"])
-def test_joint_frames(name: str, robot: Model, recorded: ElementTree.Element) -> None:
+@pytest.mark.parametrize("role", ["slide", "hinge", "kept"])
+def test_joint_frames(
+    role: str, converted: Converted, robot: Model, recorded: ElementTree.Element
+) -> None:
+    name = getattr(converted, role)
     x, y, z, roll, pitch, yaw = _numbers(recorded, f"joint[@name='{name}']/pose")
     expected = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
     found = robot.joint(name).T_model_joint
@@ -67,22 +121,27 @@ def test_joint_frames(name: str, robot: Model, recorded: ElementTree.Element) ->
     assert found.quat_xyzw == pytest.approx(expected.quat_xyzw, abs=1e-12)
 
 
-def test_friction_of_lumped_collisions(robot: Model, recorded: ElementTree.Element) -> None:
-    prefix = "link[@name='base_footprint']/collision[@name='base_footprint_fixed_joint_lump__"
-    base = robot.link("base_link").collisions[0].surface
-    laser = robot.link("laser_mount").collisions[0].surface
+def test_friction_of_lumped_collisions(
+    converted: Converted, robot: Model, recorded: ElementTree.Element
+) -> None:
+    root, body, mount = converted.root, converted.body, converted.mount
+    prefix = f"link[@name='{root}']/collision[@name='{root}_fixed_joint_lump__"
+    base = robot.link(body).collisions[0].surface
+    laser = robot.link(mount).collisions[0].surface
     path = "surface/friction/ode/mu"
-    assert [base.mu1] == _numbers(recorded, f"{prefix}base_link_collision']/{path}")
-    assert [laser.mu1] == _numbers(recorded, f"{prefix}laser_mount_collision_1']/{path}")
+    assert [base.mu1] == _numbers(recorded, f"{prefix}{body}_collision']/{path}")
+    assert [laser.mu1] == _numbers(recorded, f"{prefix}{mount}_collision_1']/{path}")
     assert laser.mu2 is None
 
 
-def test_words_of_the_wheel_and_its_joint(robot: Model, recorded: ElementTree.Element) -> None:
-    link, joint = robot.link("left_wheel"), robot.joint("left_joint")
-    xml = recorded.find("link[@name='left_wheel']")
+def test_words_of_the_wheel_and_its_joint(
+    converted: Converted, robot: Model, recorded: ElementTree.Element
+) -> None:
+    link, joint = robot.link(converted.wheel), robot.joint(converted.hinge)
+    xml = recorded.find(f"link[@name='{converted.wheel}']")
     assert [link.linear_damping] == _numbers(xml, "velocity_decay/linear")
     assert (link.gravity, link.self_collide) == (False, True)
-    xml = recorded.find("joint[@name='left_joint']")
+    xml = recorded.find(f"joint[@name='{converted.hinge}']")
     axis = joint.axis
     assert [axis.damping] == _numbers(xml, "axis/dynamics/damping")
     assert [axis.friction] == _numbers(xml, "axis/dynamics/friction")
@@ -94,8 +153,10 @@ def test_words_of_the_wheel_and_its_joint(robot: Model, recorded: ElementTree.El
     ]
 
 
-def test_nothing_is_lumped_or_dropped(robot: Model, recorded: ElementTree.Element) -> None:
+def test_nothing_is_lumped_or_dropped(
+    converted: Converted, robot: Model, recorded: ElementTree.Element
+) -> None:
     assert len(robot.links) == 7
     assert len(recorded.findall("link")) == 4
-    assert robot.link("noinertia").inertial.estimated
-    assert [sensor.name for sensor in robot.link("laser_mount").sensors] == ["scan"]
+    assert robot.link(converted.weightless).inertial.estimated
+    assert [sensor.name for sensor in robot.link(converted.mount).sensors] == [converted.sensor]

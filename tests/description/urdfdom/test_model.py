@@ -5,9 +5,10 @@ from __future__ import annotations
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
 
 import pytest
+from tests.description.recorded_robots import OWN, SAMPLES, RecordedRobots
+from tests.shared_files import shared_cases
 
 from gazelle.description.context import ReadContext
 from gazelle.description.urdf import read_urdf
@@ -48,15 +49,11 @@ def _remarks(text: str) -> list[str]:
     return [remark.message for remark in urdfdom_verdict(text).remarks]
 
 
-def _names(oracles_dir: Path) -> list[str]:
-    return sorted(path.stem for path in (oracles_dir / "urdf").glob("*.urdf"))
-
-
-def test_all_recorded_verdicts_are_met_to_the_byte(oracles_dir: Path, recorded: Any) -> None:
-    names = _names(oracles_dir)
-    assert len(names) == 53
-    for name in names:
-        real = recorded(name)
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_all_recorded_verdicts_are_met_to_the_byte(robots: RecordedRobots) -> None:
+    assert len(robots.names) == 53
+    for name in robots.names:
+        real = robots.run(name)
         verdict = urdfdom_verdict(real.text + "\n")
         out = tree_text(verdict.robot) if verdict.robot else ""
         err = "".join(f"{remark}\n" for remark in verdict.remarks)
@@ -90,9 +87,10 @@ _PASSED_BY_URDFDOM = {
 _CLEAN = {"floating_planar", "good"}
 
 
-def test_our_findings_name_all_that_urdfdom_passes(oracles_dir: Path, recorded: Any) -> None:
-    for name in _names(oracles_dir):
-        real = recorded(name)
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_our_findings_name_all_that_urdfdom_passes(robots: RecordedRobots) -> None:
+    for name in robots.names:
+        real = robots.run(name)
         diagnostics = Diagnostics()
         read_urdf(real.text, context=ReadContext(None, diagnostics, f"{name}.urdf"))
         codes = {item.code for item in diagnostics if item.severity is not Severity.INFO}
@@ -173,13 +171,16 @@ def test_materials_of_visuals_are_known_to_later_links() -> None:
     ]
 
 
-def test_the_real_program_agrees_where_it_is_installed(tmp_path: Path, oracles_dir: Path) -> None:
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_the_real_program_agrees_where_it_is_installed(
+    tmp_path: Path, robots: RecordedRobots
+) -> None:
     program = shutil.which("check_urdf", path="/usr/bin:/usr/local/bin")
     if program is None:
         pytest.skip("check_urdf is not installed (apt-get install liburdfdom-tools)")
     file = tmp_path / "robot.urdf"
     for name in ("good", "two_parents", "bad_rgba"):
-        text = (oracles_dir / "urdf" / f"{name}.urdf").read_text(encoding="utf-8")
+        text = robots.text(name)
         for place in range(0, len(text), max(1, len(text) // 15)):
             for mutant in (text[:place], text[:place] + text[place + 2 :], f"{text[:place]}&x"):
                 _compare(program, file, mutant)

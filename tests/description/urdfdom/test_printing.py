@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
+from tests.description.recorded_robots import OWN, SAMPLES, RecordedRobots
+from tests.shared_files import shared_cases
 
 from gazelle.description.urdfdom import (
     EndlessTreeError,
@@ -41,12 +41,11 @@ def test_children_come_by_the_names_of_joints() -> None:
     ]
 
 
-def test_the_drawing_is_the_recorded_one(oracles_dir: Path) -> None:
-    text = (oracles_dir / "urdf" / "good.urdf").read_text(encoding="utf-8")
-    robot = urdfdom_verdict(text + "\n").robot
+@pytest.mark.parametrize("robots", [OWN, *shared_cases(SAMPLES)])
+def test_the_drawing_is_the_recorded_one(robots: RecordedRobots) -> None:
+    robot = urdfdom_verdict(robots.text("good") + "\n").robot
     assert robot is not None
-    drawing = oracles_dir / "urdf_to_graphviz" / "urdf_to_graphviz" / "good_bot.gv"
-    assert graphviz_text(robot) == drawing.read_text(encoding="utf-8")
+    assert graphviz_text(robot) == robots.drawing.read_text(encoding="utf-8")
 
 
 def test_the_drawing_has_origins_with_six_digits() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.patience import stretched
+from tests.shared_files import needs_shared
 
 from gazelle.description.xacro import Expanded, expand_xacro
 from gazelle.diagnostics import Diagnostics, Severity
@@ -30,6 +31,7 @@ def inputs(oracles_dir: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return oracles_dir / "xacro"
 
 
+@needs_shared
 @pytest.mark.reference
 @pytest.mark.parametrize(
     ("name", "recorded"), [("feat.xacro", "feat_xacro.xml"), ("big.xacro", "inputs/big_x.urdf")]
@@ -40,6 +42,7 @@ def test_output_equals_that_of_the_real_program(name: str, recorded: str, inputs
     assert expanded.text == (inputs / recorded).read_text(encoding="utf-8")
 
 
+@needs_shared
 @pytest.mark.reference
 def test_48_features_give_the_recorded_results(
     inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.shared_files import SHARED, needs_shared, shared_cases
 
 from gazelle.cli.xacro import main
 from gazelle.workspace import Workspace
@@ -13,6 +14,7 @@ from .official import Outcome, run_official
 
 HEAD = '<robot name="f" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 ROBOTS = Path(__file__).parent / "robots"
+TESTS = Path(__file__).parents[2]
 
 
 class Program:
@@ -35,6 +37,7 @@ def ours(
     return Program(capsys)
 
 
+@needs_shared
 @pytest.mark.reference
 def test_48_features_equal_the_official_program(
     oracles_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ours: Program
@@ -75,11 +78,20 @@ def _features(oracles_dir: Path) -> dict[str, str]:
 
 
 @pytest.mark.reference
-@pytest.mark.parametrize("name", ["catkin_ws", "turtlebot3_ws", "ros2_ws"])
+@pytest.mark.parametrize(
+    "folder",
+    [
+        *(TESTS.parent / "examples" / name for name in ("arm_ws", "four_wheel_ws", "scout_ws")),
+        TESTS / "workspaces" / "ros1",
+        *shared_cases(
+            *(SHARED / "workspaces" / name for name in ("catkin_ws", "turtlebot3_ws", "ros2_ws"))
+        ),
+    ],
+    ids=lambda folder: folder.name,
+)
 def test_robots_of_the_workspaces_equal_the_official_program(
-    name: str, workspaces_dir: Path, monkeypatch: pytest.MonkeyPatch, ours: Program
+    folder: Path, monkeypatch: pytest.MonkeyPatch, ours: Program
 ) -> None:
-    folder = workspaces_dir / name
     monkeypatch.chdir(folder)
     files = sorted(str(path.relative_to(folder)) for path in folder.rglob("*.xacro"))
     assert files

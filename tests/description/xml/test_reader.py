@@ -1,9 +1,14 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity
+
+TESTS = Path(__file__).parents[2]
 
 
 def parse(text: str | bytes) -> tuple[Tag | None, Diagnostics]:
@@ -95,11 +100,19 @@ def test_a_file_is_read_under_its_path(tmp_path):
     assert read_xml(path, Diagnostics()).span.file == str(path)
 
 
-def test_every_sample_file_parses(workspaces_dir):
+@pytest.mark.parametrize(
+    ("folder", "more_than"),
+    [
+        (TESTS.parent / "examples", 10),
+        (TESTS / "workspaces", 12),
+        *shared_cases((SHARED / "workspaces", 40)),
+    ],
+)
+def test_every_file_of_a_workspace_parses(folder, more_than):
     diagnostics = Diagnostics()
     patterns = ("*.urdf", "*.sdf", "*.launch", "*.world", "*.xacro", "package.xml")
-    files = [path for pattern in patterns for path in sorted(workspaces_dir.rglob(pattern))]
-    assert len(files) > 40
+    files = [path for pattern in patterns for path in sorted(folder.rglob(pattern))]
+    assert len(files) > more_than
     for path in files:
         assert read_xml(path, diagnostics) is not None
     assert not len(diagnostics)

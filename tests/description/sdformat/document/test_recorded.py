@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.sdformat.document import Document, read_document_file, to_text
 from gazelle.description.sdformat.document.checking import load, name_problems
@@ -12,6 +13,8 @@ from gazelle.description.sdformat.document.console import error_line
 from gazelle.description.sdformat.release import Release
 
 from .peer import IGN, INPUTS, Output, inputs, neutral, recorded, run_ign
+
+_YARD = Path(__file__).parents[3] / "workspaces/ros1/src/yard_gazebo"
 
 pytestmark = pytest.mark.reference
 
@@ -72,8 +75,9 @@ def test_installed_ign_prints_what_was_recorded(name: str) -> None:
 
 
 @pytest.mark.skipif(not IGN.exists(), reason="ign is not installed (ignition-tools, sdformat-sdf)")
-def test_installed_ign_judges_the_workspaces_as_we_do(workspaces_dir: Path) -> None:
-    stages = sorted((workspaces_dir / "gazebo_models" / "stages").glob("*.sdf"))
+@pytest.mark.parametrize("folder", [_YARD, *shared_cases(SHARED / "workspaces/gazebo_models")])
+def test_installed_ign_judges_the_workspaces_as_we_do(folder: Path) -> None:
+    stages = sorted((folder / "stages").glob("*.sdf"))
     # The first has no link, the last is the whole robot.
     for file in (stages[0], stages[-1]):
         document = read_document_file(str(file), release=Release.V12, find=lambda _uri: None)
