@@ -47,7 +47,13 @@ def run(options: argparse.Namespace) -> int:
         _wait(graph, client, kind.name, ended)
         while not ended.is_set():
             start_s = time.monotonic()
-            _call(client, request)
+            try:
+                _call(client, request)
+            except ToolError:
+                # Who ends the command in the midst of a call does not want to hear of that.
+                if ended.is_set() or node.closed:
+                    break
+                raise
             if options.rate is None:
                 break
             ended.wait(max(0.0, start_s + 1.0 / options.rate - time.monotonic()))
