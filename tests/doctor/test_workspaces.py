@@ -1,4 +1,4 @@
-"""The documents' own packages, which are known to run: what the doctor says of them is true."""
+"""Packages that are known to run, examples and documents: what the doctor says is true."""
 
 from __future__ import annotations
 
@@ -6,10 +6,21 @@ from pathlib import Path
 
 import pytest
 from tests.doctor.conftest import codes
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.doctor import Options, Report, examine
 from gazelle.workspace import Workspace
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+OWN_LAUNCHES: list[tuple[str, str, list[str]]] = [
+    ("scout_ws", "scout_robot scout.launch", []),
+    ("four_wheel_ws", "courier_robot courier.launch", []),
+    ("arm_ws", "heron_bringup heron.launch.py", []),
+    # Written for the PR2, whose transmissions had no interface.
+    ("pr2_style_ws", "tandem_controller robot.launch", ["control.hardware-interface-missing"] * 2),
+    # Balloons that the plug-in's wind is to carry.
+    ("own_plugin_ws", "gust_plugins gust.launch", ["inertia.density"] * 2),
+]
 # Workspace, words, arguments, environment: exactly these warnings and errors, each of them true.
 LAUNCHES: list[tuple[str, str, dict[str, str], dict[str, str], list[str]]] = [
     ("catkin_ws", "urdf_exam mira_spawn.launch", {}, {}, []),
@@ -52,48 +63,69 @@ def _examined(
 
 @pytest.mark.reference
 @pytest.mark.parametrize(
-    ("workspace", "words", "arguments", "environ", "expected"),
-    LAUNCHES,
-    ids=[row[1].replace(" ", "-") for row in LAUNCHES],
+    ("folder", "words", "arguments", "environ", "expected"),
+    [
+        *((EXAMPLES / name, words, {}, {}, expected) for name, words, expected in OWN_LAUNCHES),
+        *shared_cases(*((SHARED / "workspaces" / row[0], *row[1:]) for row in LAUNCHES)),
+    ],
+    ids=lambda value: value.replace(" ", "-") if isinstance(value, str) else "",
 )
 def test_launch_that_runs_has_no_false_warning(
-    workspace: str,
+    folder: Path,
     words: str,
     arguments: dict[str, str],
     environ: dict[str, str],
     expected: list[str],
-    workspaces_dir: Path,
     tmp_path: Path,
 ) -> None:
-    report = _examined(workspaces_dir / workspace, words, arguments, environ, tmp_path)
+    report = _examined(folder, words, arguments, environ, tmp_path)
     assert codes(report) == expected, [str(item) for item in report.findings]
 
 
 @pytest.mark.tutorial
-def test_p1_tags_of_2011_get_notices(workspaces_dir: Path, tmp_path: Path) -> None:
-    folder = workspaces_dir / "catkin_ws"
-    report = _examined(folder, "tutorial_controller robot.launch", {}, {}, tmp_path)
+@pytest.mark.parametrize(
+    ("folder", "package", "lines"),
+    [
+        (EXAMPLES / "pr2_style_ws", "tandem_controller", [94]),
+        *shared_cases((SHARED / "workspaces/catkin_ws", "tutorial_controller", [127, 134])),
+    ],
+)
+def test_p1_tags_of_2011_get_notices(
+    folder: Path, package: str, lines: list[int], tmp_path: Path
+) -> None:
+    report = _examined(folder, f"{package} robot.launch", {}, {}, tmp_path)
     old = [item for item in report.findings if item.code == "urdf.old-controller"]
-    assert [item.span.line for item in old if item.span] == [127, 134]
+    assert [item.span.line for item in old if item.span] == lines
     assert report.exit_code < 2
     (tags,) = [section for section in report.sections if section.name == "tags"]
     assert [row[0] for row in tags.rows if row[2] == "urdf.old-controller"] == [
-        "robot.xml:127",
-        "robot.xml:134",
+        f"robot.xml:{line}" for line in lines
     ]
 
 
 @pytest.mark.reference
-def test_first_moments_show_the_transforms_that_real_gazebo_sent(
-    workspaces_dir: Path, tmp_path: Path
+@pytest.mark.parametrize(
+    ("folder", "words", "sent"),
+    [
+        (EXAMPLES / "scout_ws", "scout_robot scout.launch", {"odom → base_footprint"}),
+        *shared_cases(
+            (
+                SHARED / "workspaces/catkin_ws",
+                "slam_robot slam_robot_gazebo.launch",
+                # Recorded from Gazebo 11: odom → base_footprint → both wheels at 100 Hz.
+                {
+                    "odom → base_footprint",
+                    "base_footprint → left_wheel_link",
+                    "base_footprint → right_wheel_link",
+                },
+            )
+        ),
+    ],
+)
+def test_first_moments_show_the_transforms_that_real_gazebo_sends(
+    folder: Path, words: str, sent: set[str], tmp_path: Path
 ) -> None:
-    folder = workspaces_dir / "catkin_ws"
-    report = _examined(folder, "slam_robot slam_robot_gazebo.launch", {}, {}, tmp_path)
+    report = _examined(folder, words, {}, {}, tmp_path)
     (frames,) = [section for section in report.sections if section.name == "frames"]
     simulated = {row[0].strip() for row in frames.rows if row[2] == "/gazebo"}
-    # Recorded from Gazebo 11: odom → base_footprint → both wheels at 100 Hz.
-    assert simulated == {
-        "odom → base_footprint",
-        "base_footprint → left_wheel_link",
-        "base_footprint → right_wheel_link",
-    }
+    assert simulated == sent

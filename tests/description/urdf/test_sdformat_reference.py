@@ -7,7 +7,7 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 import pytest
-from tests.shared_files import SHARED
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
@@ -60,7 +60,7 @@ _SAMPLE = Converted(
 )  # fmt: skip
 
 
-@pytest.fixture(scope="module", params=[_OWN, *([_SAMPLE] if SHARED.is_dir() else [])])
+@pytest.fixture(scope="module", params=[_OWN, *shared_cases(_SAMPLE)])
 def converted(request: pytest.FixtureRequest) -> Converted:
     return request.param
 

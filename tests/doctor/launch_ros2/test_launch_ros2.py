@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.launch_ros2 import LaunchReading, check_launch
@@ -272,6 +273,19 @@ def test_files_that_include_each_other_come_to_an_end(check: Check) -> None:
     assert [path.name for path in reading.launch_files] == ["a.launch.xml"]
 
 
+def test_launch_file_of_an_example(examples_dir: Path) -> None:
+    root = examples_dir / "arm_ws" / "src"
+    found, reading = checked(root / "heron_bringup" / "launch" / "heron.launch.py", root)
+    assert {item.severity for item in found} == {Severity.INFO}
+    assert [row[2] for row in reading.sections[0].rows][:4] == [
+        "robot_state_publisher",
+        "spawn_entity.py",
+        "spawner",
+        "move_group",
+    ]
+
+
+@needs_shared
 def test_documents_launch_file(workspaces_dir: Path) -> None:
     root = workspaces_dir / "ros2_ws" / "src"
     found, reading = checked(root / "luck_gazebo" / "launch" / "gazebo_moveit.launch.py", root)

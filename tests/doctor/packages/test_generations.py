@@ -5,8 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
+from tests.shared_files import SHARED, shared_cases
+
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages import check_environment
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
 
 FIXTURES = Path(__file__).parents[1] / "fixtures" / "pain_01_generations"
 
@@ -44,8 +49,15 @@ def test_section_says_part_distribution_reason_and_treatment(check: Any) -> None
     )
 
 
-def test_tutorial_of_2011_is_dated(check: Any, workspaces_dir: Path) -> None:
-    _, (section,) = check("tutorial_controller", workspaces_dir / "catkin_ws" / "src")
+@pytest.mark.parametrize(
+    ("name", "root"),
+    [
+        ("tandem_controller", EXAMPLES / "pr2_style_ws/src"),
+        *shared_cases(("tutorial_controller", SHARED / "workspaces/catkin_ws/src")),
+    ],
+)
+def test_tutorial_of_2011_is_dated(check: Any, name: str, root: Path) -> None:
+    _, (section,) = check(name, root)
     texts = {(row[0], row[1]) for row in section.rows}
     assert ("launch", "Fuerte and before") in texts
     assert ("description", "Diamondback to Fuerte") in texts

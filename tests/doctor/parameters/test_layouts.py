@@ -6,10 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
 from gazelle.workspace import Workspace
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
 
 FIXTURES = Path(__file__).parents[1] / "fixtures" / "pain_08_parameters"
 Check = Callable[..., Diagnostics]
@@ -145,8 +148,19 @@ def test_files_of_moveit_maps_and_loops_are_left_alone(check: Check) -> None:
         assert list(check(text, 2)) == [], text
 
 
-def test_documents_parameter_files_have_no_finding(workspaces_dir: Path) -> None:
-    for name in ("urdf_exam", "slam_robot", "urdf_tutorial"):
-        assert list(package(name, workspaces_dir / "catkin_ws" / "src")) == []
-    for name in ("luck_gazebo", "luck_robot"):
-        assert list(package(name, workspaces_dir / "ros2_ws" / "src")) == []
+@pytest.mark.parametrize(
+    ("workspace", "names"),
+    [
+        (EXAMPLES / "arm_ws", ("heron_bringup", "heron_moveit_config")),
+        (EXAMPLES / "four_wheel_ws", ("courier_robot",)),
+        (EXAMPLES / "pr2_style_ws", ("tandem_controller",)),
+        (EXAMPLES / "scout_ws", ("scout_robot",)),
+        *shared_cases(
+            (SHARED / "workspaces/catkin_ws", ("urdf_exam", "slam_robot", "urdf_tutorial")),
+            (SHARED / "workspaces/ros2_ws", ("luck_gazebo", "luck_robot")),
+        ),
+    ],
+)
+def test_parameter_files_that_run_have_no_finding(workspace: Path, names: tuple[str, ...]) -> None:
+    for name in names:
+        assert list(package(name, workspace / "src")) == []

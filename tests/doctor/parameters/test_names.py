@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.parameters import check_description_text, check_package_parameters
@@ -109,6 +110,19 @@ def test_ros1_controller_of_another_interface(tmp_path: Path) -> None:
     assert item.fix.endswith("or type: position_controllers/JointPositionController")
 
 
+def test_robots_of_the_examples_agree(examples_dir: Path) -> None:
+    found, (section,) = checked("heron_moveit_config", examples_dir / "arm_ws" / "src")
+    assert list(found) == []
+    assert [row[0] for row in section.rows] == [
+        *(f"joint_{number}" for number in range(1, 7)),
+        "finger_joint",
+    ]
+    found, (section,) = checked("courier_robot", examples_dir / "four_wheel_ws" / "src")
+    assert list(found) == []
+    assert ("head_swivel", "continuous", "position", "head", "") in section.rows
+
+
+@needs_shared
 def test_documents_robots_agree(workspaces_dir: Path) -> None:
     found, (section,) = checked("luck_robot", workspaces_dir / "ros2_ws" / "src")
     assert list(found) == []

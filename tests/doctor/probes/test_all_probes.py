@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.doctor.probes.worlds import block, ground, probed
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.loader import load_models
 from gazelle.description.model import World
@@ -17,6 +18,14 @@ from gazelle.doctor.probes.robots import robots_of
 from gazelle.workspace import Workspace
 
 MODELS = "turtlebot3_ws/src/turtlebot3_simulations/turtlebot3_gazebo/models"
+REPOSITORY = Path(__file__).parents[3]
+BARROW = REPOSITORY / "tests/workspaces/ros1/src/yard_gazebo/models/barrow"
+OWN_RUN_WELL = [
+    REPOSITORY / "examples/scout_ws/src/scout_robot/urdf/scout.urdf.xacro",
+    REPOSITORY / "examples/four_wheel_ws/src/courier_robot/urdf/courier.urdf.xacro",
+    REPOSITORY / "examples/arm_ws/src/heron_description/urdf/heron.urdf.xacro",
+    BARROW,
+]
 RUN_WELL = [
     "catkin_ws/src/slam_robot/urdf/slam_robot_gazebo.urdf",
     "catkin_ws/src/urdf_exam/urdf/mira_gazebo.urdf",
@@ -28,9 +37,12 @@ RUN_WELL = [
 ]
 
 
-@pytest.mark.parametrize("name", RUN_WELL)
-def test_robot_that_runs_well_passes(name: str, workspaces_dir: Path) -> None:
-    path = workspaces_dir / name
+@pytest.mark.parametrize(
+    "path",
+    [*OWN_RUN_WELL, *shared_cases(*(SHARED / "workspaces" / name for name in RUN_WELL))],
+    ids=lambda path: path.name,
+)
+def test_robot_that_runs_well_passes(path: Path) -> None:
     workspace = Workspace.discover(cwd=path.parent)
     models = load_models(path, workspace=workspace, diagnostics=Diagnostics())
     placed = tuple(stood_on_ground(model) for model in models)
@@ -54,10 +66,9 @@ def test_world_without_robots_is_not_probed() -> None:
     assert list(found) == []
 
 
-def test_things_are_probed_only_where_there_is_no_robot(workspaces_dir: Path) -> None:
-    (robot,) = load_models(
-        workspaces_dir / "gazebo_models/my_robot", workspace=None, diagnostics=Diagnostics()
-    )
+@pytest.mark.parametrize("path", [BARROW, *shared_cases(SHARED / "workspaces" / RUN_WELL[3])])
+def test_things_are_probed_only_where_there_is_no_robot(path: Path) -> None:
+    (robot,) = load_models(path, workspace=None, diagnostics=Diagnostics())
     cube = block(0.1)
     assert robots_of(World(models=(ground(), cube))) == (cube,)
     assert robots_of(World(models=(ground(), cube, robot))) == (robot,)
