@@ -18,7 +18,7 @@ OWN_LAUNCHES: list[tuple[str, str, list[str]]] = [
     ("arm_ws", "heron_bringup heron.launch.py", []),
     # Written for the PR2, whose transmissions had no interface.
     ("pr2_style_ws", "tandem_controller robot.launch", ["control.hardware-interface-missing"] * 2),
-    # Balloons that the plug-in's wind is to carry.
+    # Things so light that the plug-in's wind moves them.
     ("own_plugin_ws", "gust_plugins gust.launch", ["inertia.density"] * 2),
 ]
 # Workspace, words, arguments, environment: exactly these warnings and errors, each of them true.

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import MeshError, load_mesh, load_mesh_reported
@@ -207,6 +208,7 @@ def test_a_scene_without_triangles_says_so(dae):
         load_mesh(dae(LINES))
 
 
+@needs_shared
 @pytest.mark.reference
 def test_sample_meshes_are_as_trimesh_reads_them(workspaces_dir: Path):
     trimesh = pytest.importorskip("trimesh")
@@ -228,6 +230,7 @@ def _metres(path: Path) -> float:
     return float(found.group(1)) if found else 1.0
 
 
+@needs_shared
 def test_turtlebots_walls_stand_upright(workspaces_dir: Path):
     """Its files say Y_UP and its world places them unrotated: Gazebo must not turn them."""
     (wall,) = workspaces_dir.rglob("wall.dae")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_typestore
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.interfaces import (
     Duration,
@@ -26,6 +28,7 @@ from gazelle.interfaces import (
 )
 from gazelle.interfaces.definition import FORMATS, NUMPY_NAMES, Array, attribute_name
 
+RECORDED = Path(__file__).parents[1] / "workspaces/recorded/ros1"
 pytestmark = pytest.mark.reference
 STORES = {
     Generation.ROS1: get_typestore(Stores.ROS1_NOETIC),
@@ -111,15 +114,16 @@ def test_type_hashes_of_all_jazzy_messages_are_equal():
     assert [name for name in names if type_hash(name) != hashes.hash_rihs01(name)] == []
 
 
-def test_recorded_bags_are_read_and_written_back_byte_by_byte(oracles_dir):
+@pytest.mark.parametrize("folder", [RECORDED, *shared_cases(SHARED / "oracles/ros_live")])
+def test_recorded_bags_are_read_and_written_back_byte_by_byte(folder):
     for bag in ("t.bag", "tf.bag"):
-        assert _written_back(oracles_dir, bag) > 0
+        assert _written_back(folder / bag) > 0
 
 
-def _written_back(oracles_dir, bag):
+def _written_back(bag):
     """Return how many messages of a bag are the same again."""
     count = 0
-    with Reader(oracles_dir / "ros_live" / bag) as reader:
+    with Reader(bag) as reader:
         for connection, _, data in reader.messages():
             view = ros1_message_type(connection.msgtype)
             assert view._md5sum == connection.digest
@@ -132,8 +136,8 @@ def _written_back(oracles_dir, bag):
     return count
 
 
-def test_rosmsg_outputs_match_the_recorded_ones(oracles_dir):
-    folder = oracles_dir / "ros_live"
+@pytest.mark.parametrize("folder", [RECORDED, *shared_cases(SHARED / "oracles/ros_live")])
+def test_rosmsg_outputs_match_the_recorded_ones(folder):
     assert _output(folder / "msg_show.txt") == show_message("sensor_msgs/JointState").strip()
     assert _output(folder / "srv_show.txt") == show_service("std_srvs/SetBool").strip()
     assert _output(folder / "msg_md5.txt") == md5sum("sensor_msgs/LaserScan")

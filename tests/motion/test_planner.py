@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.model import Box
 from gazelle.errors import NotFoundError, UserFileError
@@ -159,9 +160,29 @@ def test_a_folder_without_a_robot_is_an_error(tmp_path: Path) -> None:
         Planner.load(tmp_path)
 
 
-def test_luck_plans_to_ready(workspaces_dir: Path) -> None:
-    planner = Planner.load(workspaces_dir / "ros2_ws" / "src" / "luck_robot")
-    motion = planner.plan("ready")
-    expected = [0.0, 0.5, -0.6, 0.0, 0.4, 0.0]
+# Largest way over its speed, and the time that speeding up takes.
+_ARMS_OF_PACKAGES = [
+    (
+        Path(__file__).parents[2] / "examples/arm_ws/src/heron_moveit_config",
+        "arm",
+        [0.0, -0.3, 1.9, 0.0, 1.5416, 0.0],
+        1.9 / 1.0 + 0.5,
+    ),
+    *shared_cases(
+        (
+            SHARED / "workspaces/ros2_ws/src/luck_robot",
+            "",
+            [0.0, 0.5, -0.6, 0.0, 0.4, 0.0],
+            0.6 / 0.1 + 1.0,
+        )
+    ),
+]
+
+
+@pytest.mark.parametrize(("folder", "group", "expected", "duration_s"), _ARMS_OF_PACKAGES)
+def test_arm_of_a_package_plans_to_ready(
+    folder: Path, group: str, expected: list[float], duration_s: float
+) -> None:
+    motion = Planner.load(folder).plan("ready", group=group)
     np.testing.assert_allclose(motion.trajectory.positions[-1], expected, atol=1e-9)
-    assert motion.trajectory.duration_s == pytest.approx(0.6 / 0.1 + 1.0, rel=0.05)
+    assert motion.trajectory.duration_s == pytest.approx(duration_s, rel=0.05)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.motion.problems import REACHES_M, Case, case_of, robot_named
+from tests.shared_files import shared_cases
 
 from gazelle.motion.planning import FINE_STEP, PlanningError, first_fault, plan
 from gazelle.motion.timing import parameterise
@@ -18,9 +19,7 @@ _EVERY = 10
 """A tenth of the problems is planned in every test run, all of them by the soak."""
 
 
-def _solvable(name: str, request: pytest.FixtureRequest) -> list[Case]:
-    if name == "luck":
-        request.getfixturevalue("workspaces_dir")
+def _solvable(name: str) -> list[Case]:
     robot = robot_named(name)
     rows: list[Any] = json.loads(_FILE.read_text(encoding="utf-8"))[name]
     assert len(rows) == 100
@@ -31,9 +30,9 @@ def _solvable(name: str, request: pytest.FixtureRequest) -> list[Case]:
     ]
 
 
-@pytest.mark.parametrize("name", sorted(REACHES_M))
-def test_what_ompl_solves_is_solved(name: str, request: pytest.FixtureRequest) -> None:
-    cases = _solvable(name, request)
+@pytest.mark.parametrize("name", [*sorted(set(REACHES_M) - {"luck"}), *shared_cases("luck")])
+def test_what_ompl_solves_is_solved(name: str) -> None:
+    cases = _solvable(name)
     unsolved = []
     for number, case in enumerate(cases):
         try:

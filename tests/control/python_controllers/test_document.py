@@ -1,14 +1,17 @@
-"""The files of the PR2 tutorial as they are, with their controller written in Python."""
+"""Files in the style of the PR2 tutorial as they are, with their controller written in Python."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 import gazelle
 from gazelle.workspace import Workspace
 
+TANDEM = Path(__file__).parents[3] / "examples/pr2_style_ws/src/tandem_controller"
+DOCUMENT = SHARED / "workspaces/catkin_ws/src/tutorial_controller"
 PACKAGE = """\
 <package format="2"><name>my_controller</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>MIT</license>
@@ -49,24 +52,52 @@ class MyControllerPlugin:
 
 
 @pytest.mark.tutorial
-def test_the_type_of_the_yaml_is_the_class_in_python(workspaces_dir: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("robot", "parameters", "namespace", "joints", "drift_rad_s"),
+    [
+        (
+            TANDEM / "urdf/robot.xml",
+            TANDEM / "config/controller.yaml",
+            "tandem_controller",
+            ("joint_front", "joint_rear"),
+            # Its body of 6 kg gives way a little more.
+            0.1,
+        ),
+        *shared_cases(
+            (
+                DOCUMENT / "robot.xml",
+                DOCUMENT / "controller.yaml",
+                "my_controller_ns",
+                ("joint_w1", "joint_w2"),
+                0.05,
+            )
+        ),
+    ],
+)
+def test_the_type_of_the_yaml_is_the_class_in_python(
+    robot: Path,
+    parameters: Path,
+    namespace: str,
+    joints: tuple[str, str],
+    drift_rad_s: float,
+    tmp_path: Path,
+) -> None:
     package = tmp_path / "src" / "my_controller"
     (package / "scripts").mkdir(parents=True)
     (package / "package.xml").write_text(PACKAGE)
     (package / "scripts" / "controller.py").write_text(CONTROLLER)
-    folder = workspaces_dir / "catkin_ws" / "src" / "tutorial_controller"
     workspace = Workspace.discover(extra=[tmp_path / "src"], environ={}, cwd=tmp_path)
     with gazelle.Simulation.load(
-        folder / "robot.xml",
+        robot,
         world=None,
         workspace=workspace,
-        parameters=folder / "controller.yaml",
+        parameters=parameters,
     ) as sim:
-        record = sim.controller_manager().spawn("my_controller_ns")
+        record = sim.controller_manager().spawn(namespace)
         assert record.type == "MyControllerPlugin"
-        assert record.commands == ("joint_w1/effort", "joint_w2/effort")
+        assert record.commands == tuple(f"{name}/effort" for name in joints)
         gains = record.controller.user.pid.gains
         assert (gains.p, gains.i, gains.d, gains.i_max) == (150.0, 2.0, 30.0, 1.0)
         sim.run(seconds=1.0)
-        assert sim.joint("joint_w1").velocity == pytest.approx(0.5, abs=0.01)
-        assert sim.joint("joint_w2").velocity == pytest.approx(0.0, abs=0.05)
+        assert sim.joint(joints[0]).velocity == pytest.approx(0.5, abs=0.01)
+        assert sim.joint(joints[1]).velocity == pytest.approx(0.0, abs=drift_rad_s)

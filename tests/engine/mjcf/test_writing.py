@@ -8,7 +8,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from tests.shared_files import SHARED
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.conversion import Beside
 from gazelle.description.loader import load_world
@@ -32,6 +32,8 @@ from gazelle.engine.mjcf import to_mjcf
 from gazelle.geometry import Pose
 from gazelle.workspace import Workspace
 
+EXAMPLES = Path(__file__).parents[3] / "examples"
+SCOUT = EXAMPLES / "scout_ws/src/scout_robot/urdf/scout.urdf.xacro"
 ROBOTS = (
     "catkin_ws/src/slam_robot/urdf/slam_robot_gazebo.urdf",
     "catkin_ws/src/urdf_exam/urdf/mira_gazebo.urdf",
@@ -42,13 +44,15 @@ ROBOTS = (
 
 
 @pytest.fixture(scope="module")
-def workspace(workspaces_dir: Path) -> Workspace:
-    roots = ("catkin_ws", "ros2_ws", "turtlebot3_ws")
+def workspace() -> Workspace:
+    """The examples, and the samples where they are."""
+    samples = SHARED / "workspaces"
+    roots = [*sorted(EXAMPLES.glob("*_ws")), *sorted(samples.glob("*_ws"))]
     environ = {
-        "ROS_PACKAGE_PATH": ":".join(str(workspaces_dir / name / "src") for name in roots),
-        "GAZEBO_MODEL_PATH": str(workspaces_dir / "gazebo_models"),
+        "ROS_PACKAGE_PATH": ":".join(str(root / "src") for root in roots),
+        "GAZEBO_MODEL_PATH": str(samples / "gazebo_models"),
     }
-    return Workspace.discover(environ=environ, cwd=workspaces_dir)
+    return Workspace.discover(environ=environ, cwd=EXAMPLES)
 
 
 def written(world: World, folder: Path) -> tuple[mujoco.MjModel, Diagnostics, str]:
@@ -98,15 +102,13 @@ def assert_robot_moves_the_same(file: Path, workspace: Workspace, folder: Path) 
     assert not found.errors
 
 
-def test_a_robot_of_ours_moves_the_same_on_the_ground(examples_dir, tmp_path) -> None:
-    workspace = Workspace.discover(environ={}, cwd=examples_dir, extra=[examples_dir / "scout_ws"])
-    file = workspace.package("scout_robot").path / "urdf" / "scout.urdf.xacro"
+@pytest.mark.parametrize(
+    "file",
+    [SCOUT, *shared_cases(*(SHARED / "workspaces" / name for name in ROBOTS))],
+    ids=lambda file: file.name,
+)
+def test_robots_move_the_same_on_the_ground(file, workspace, tmp_path) -> None:
     assert_robot_moves_the_same(file, workspace, tmp_path)
-
-
-@pytest.mark.parametrize("name", ROBOTS if SHARED.is_dir() else ["the documents' robots"])
-def test_robots_move_the_same_on_the_ground(name, workspace, workspaces_dir, tmp_path) -> None:
-    assert_robot_moves_the_same(workspaces_dir / name, workspace, tmp_path)
 
 
 def test_springy_contacts_keep_their_springs(tmp_path) -> None:
@@ -175,14 +177,22 @@ def test_textures_are_written_as_png(tmp_path) -> None:
     assert "grass.jpg' is left out: it needs a file beside the text" in item.message
 
 
-def test_what_acts_from_outside_is_told(workspace, workspaces_dir, tmp_path) -> None:
-    file = workspaces_dir / ROBOTS[0]
+@pytest.mark.parametrize(
+    ("file", "plugins", "words"),
+    [
+        (SCOUT, 4, "4 plug-ins, 3 sensors"),
+        *shared_cases(
+            (SHARED / "workspaces" / ROBOTS[0], 3, "3 plug-ins, 2 sensors, 2 transmissions")
+        ),
+    ],
+)
+def test_what_acts_from_outside_is_told(file, plugins, words, workspace, tmp_path) -> None:
     world = load_world(file, workspace=workspace, diagnostics=Diagnostics())
     _, found, text = written(world, tmp_path)
     [item] = found.by_code("convert.mjcf-outside")
-    assert "3 plug-ins, 2 sensors, 2 transmissions" in item.message
+    assert words in item.message
     assert item.span.file == str(file)
-    assert "is not in the file: 3 plug-ins" in text
+    assert f"is not in the file: {plugins} plug-ins" in text
 
 
 def test_velocity_decay_and_slip_are_told(tmp_path) -> None:

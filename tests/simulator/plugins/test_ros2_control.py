@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.shared_files import needs_shared
 
 from gazelle.description.xacro.expander import expand_xacro
 from gazelle.diagnostics import Diagnostics
@@ -274,6 +275,43 @@ def test_after_a_reset_the_arm_is_at_its_initial_value_and_holds(load: Load, plu
 
 
 @pytest.fixture
+def heron(load: Load, examples_dir: Path) -> Callable[..., Simulation]:
+    """The arm of the examples as its launch file makes it."""
+    workspace = Workspace.discover(environ={}, cwd=examples_dir / "arm_ws")
+    file = workspace.package("heron_description").path / "urdf" / "heron.urdf.xacro"
+
+    def bring_up(hardware: str = "gazebo_ros2_control/GazeboSystem") -> Simulation:
+        expanded = expand_xacro(file, workspace=workspace, diagnostics=Diagnostics())
+        assert expanded is not None
+        text = expanded.text.replace("gazebo_ros2_control/GazeboSystem", hardware)
+        return load(text, workspace=workspace, world=None)
+
+    return bring_up
+
+
+def test_heron_does_not_fall_and_its_controllers_run(heron: Callable[..., Simulation]) -> None:
+    sim = heron()
+    names = [f"joint_{number}" for number in range(1, 7)]
+    start = [sim.joint(name).position for name in names]
+    sim.run(seconds=1.0)
+    assert [sim.joint(name).position for name in names] == pytest.approx(start, abs=1e-5)
+    manager = sim.controller_manager()
+    for name in ("joint_state_broadcaster", "arm_controller"):
+        manager.load(name)
+        manager.start(name)
+    sim.run(seconds=1.0)
+    assert [sim.joint(name).position for name in names] == pytest.approx(start, abs=1e-5)
+    assert "/arm_controller/follow_joint_trajectory" in sim.server.controls.actions
+
+
+def test_heron_has_mock_hardware_without_simulation(heron: Callable[..., Simulation]) -> None:
+    sim = heron("mock_components/GenericSystem")
+    (component,) = sim.server.controls.manager().robot.components
+    assert component.plugin == "mock_components/GenericSystem"
+    assert "moves nothing" in found(sim, "control.hardware-plugin-other")
+
+
+@pytest.fixture
 def luck(load: Load, workspaces_dir: Path) -> Callable[..., Simulation]:
     """The LUCK arm as its launch file makes it: xacro, then the parameter file put in."""
     source = workspaces_dir / "ros2_ws" / "src"
@@ -298,6 +336,7 @@ def luck(load: Load, workspaces_dir: Path) -> Callable[..., Simulation]:
     return bring_up
 
 
+@needs_shared
 @pytest.mark.tutorial
 def test_luck_does_not_fall_and_its_controllers_run(luck: Callable[..., Simulation]) -> None:
     sim = luck()
@@ -313,6 +352,7 @@ def test_luck_does_not_fall_and_its_controllers_run(luck: Callable[..., Simulati
     assert "/test_group_controller/follow_joint_trajectory" in sim.server.controls.actions
 
 
+@needs_shared
 @pytest.mark.tutorial
 def test_luck_has_mock_hardware_without_simulation(luck: Callable[..., Simulation]) -> None:
     sim = luck(use_sim="false")

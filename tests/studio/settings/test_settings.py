@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.shared_files import SHARED, shared_cases
 
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
@@ -53,6 +54,9 @@ Mystery: {}
 """
 
 
+REPOSITORY = Path(__file__).parents[3]
+
+
 def test_rviz_file_of_ros1_gives_displays_groups_and_view() -> None:
     value = rviz_value(_ROS1, "a.rviz")
     assert (value["fixed_frame"], value["background"]) == ("odom", "48; 48; 48")
@@ -84,9 +88,17 @@ def test_rviz_file_of_ros2_is_the_same_display() -> None:
     assert value["panels"] == ["rviz_common/Displays", "nav2_rviz_plugins/Navigation 2"]
 
 
-def test_files_of_turtlebot3_and_luck_are_read(workspaces_dir: Path) -> None:
-    files = sorted(workspaces_dir.rglob("*.rviz"))
-    assert len(files) >= 10
+@pytest.mark.parametrize(
+    ("folder", "least"),
+    [
+        (REPOSITORY / "examples", 1),
+        (REPOSITORY / "src/gazelle", 3),
+        *shared_cases((SHARED / "workspaces", 10)),
+    ],
+)
+def test_files_of_packages_that_run_are_read(folder: Path, least: int) -> None:
+    files = sorted(folder.rglob("*.rviz"))
+    assert len(files) >= least
     for file in files:
         value: Any = METHODS["rviz.open"](None, Params("rviz.open", {"path": str(file)}))  # type: ignore[arg-type]
         assert value["fixed_frame"] and value["displays"], file
