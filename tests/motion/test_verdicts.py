@@ -20,6 +20,9 @@ _EVERY = 10
 
 
 def _solvable(name: str) -> list[Case]:
+    if name == "luck":
+        # Hulls of its meshes touch each other where the meshes do not.
+        pytest.importorskip("coacd")
     robot = robot_named(name)
     rows: list[Any] = json.loads(_FILE.read_text(encoding="utf-8"))[name]
     assert len(rows) == 100

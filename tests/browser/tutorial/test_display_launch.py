@@ -4,34 +4,51 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 from tests.browser.scene.rviz_page import RvizPage
 from tests.browser.tutorial.terminal import Session
+from tests.shared_files import SHARED, shared_cases
 
 pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
+_OWN = Path(__file__).parents[2] / "workspaces/ros1/src/shown_robot"
+_DOCUMENT = SHARED / "workspaces/catkin_ws/src/urdf_tutorial"
 _LINKS = 4
 _WHEEL = "base_to_left_wheel"
 
 
+# A page takes seconds: our own robot is shown where the document's is not there.
+class Shown(NamedTuple):
+    """A package, its launch file and the robot's file in it."""
+
+    folder: Path
+    launch: str
+    model: str
+
+
 @pytest.fixture
-def display(session: Any, workspaces_dir: Path, look: Any) -> Any:
+def display(session: Any, look: Any) -> Any:
     """``roslaunch urdf_tutorial display.launch model:=…`` and the page it opens."""
 
-    def begin(model: str) -> tuple[Session, RvizPage]:
-        folder = workspaces_dir / "catkin_ws/src/urdf_tutorial"
-        line = f"roslaunch urdf_tutorial display.launch model:={model}"
-        launched = session(line, cwd=folder)
+    def begin(shown: Shown) -> tuple[Session, RvizPage]:
+        line = f"roslaunch {shown.folder.name} {shown.launch} model:={shown.model}"
+        launched = session(line, cwd=shown.folder)
         launched.shows(launched.first, "rviz")
         return launched, RvizPage(look(launched.url, size=(1280, 800)), launched)
 
     return begin
 
 
-def test_slider_turns_the_wheel_of_the_robot(display: Any) -> None:
-    launched, page = display("urdf/mobile_robot.urdf")
+@pytest.mark.parametrize(
+    "shown",
+    shared_cases(Shown(_DOCUMENT, "display.launch", "urdf/mobile_robot.urdf"))
+    or [Shown(_OWN, "show.launch", "urdf/barrow.urdf")],
+    ids=lambda shown: shown.model,
+)
+def test_slider_turns_the_wheel_of_the_robot(display: Any, shown: Shown) -> None:
+    launched, page = display(shown)
     page.shows("RobotModel", links=_LINKS, placed=_LINKS)
     sliders = page.seen.panel("joint_state_publisher_gui")
     slider = sliders.get_by_role("slider", name=_WHEEL)
@@ -50,10 +67,18 @@ def test_slider_turns_the_wheel_of_the_robot(display: Any) -> None:
     launched.eventually(lambda: abs(turned[-1]) < 1e-3)
 
 
-@pytest.mark.parametrize("model", ["urdf/mobile_robot.urdf.xacro", "urdf/mobile_robot_stl.urdf"])
-def test_other_formats_of_the_robot_are_drawn(display: Any, model: str) -> None:
-    _, page = display(model)
-    links = 1 if "stl" in model else _LINKS
+@pytest.mark.parametrize(
+    "shown",
+    shared_cases(
+        Shown(_DOCUMENT, "display.launch", "urdf/mobile_robot.urdf.xacro"),
+        Shown(_DOCUMENT, "display.launch", "urdf/mobile_robot_stl.urdf"),
+    )
+    or [Shown(_OWN, "show.launch", "urdf/barrow.urdf.xacro")],
+    ids=lambda shown: shown.model,
+)
+def test_other_formats_of_the_robot_are_drawn(display: Any, shown: Shown) -> None:
+    _, page = display(shown)
+    links = 1 if "stl" in shown.model else _LINKS
     page.shows("RobotModel", links=links, placed=links)
     assert page.display("RobotModel")["level"] == "ok"
     page.seen.shot()

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 from tests.browser.scene.gazebo_page import GazeboPage
 from tests.browser.tutorial.terminal import Session
+from tests.shared_files import SHARED, needs_shared, shared_cases
 
 from gazelle.graph import Graph
 from gazelle.interfaces import fill, service_type
@@ -45,13 +46,38 @@ class World:
             client.unregister()
 
 
+class Models(NamedTuple):
+    """A folder of models with a robot of two wheels among them.
+
+    Attributes:
+        folder: of the models.
+        name, title: the robot's.
+        wheels: its joints.
+    """
+
+    folder: Path
+    name: str
+    title: str
+    wheels: tuple[str, str]
+
+
+_YARD = Path(__file__).parents[2] / "workspaces/ros1/src/yard_gazebo/models"
+_SAMPLES = SHARED / "workspaces/gazebo_models"
+# A page takes seconds: our own models are shown where the document's are not there.
+_CASES = shared_cases(
+    Models(_SAMPLES, "my_robot", "My Robot", ("left_wheel_hinge", "right_wheel_hinge"))
+) or [Models(_YARD, "barrow", "Barrow (motor)", ("left_hinge", "right_hinge"))]
+
+
+@pytest.fixture(params=_CASES)
+def models(request: pytest.FixtureRequest) -> Models:
+    return request.param
+
+
 @pytest.fixture
-def gazebo(
-    session: Callable[..., Session], workspaces_dir: Path, look: Any
-) -> Iterator[GazeboPage]:
+def gazebo(session: Callable[..., Session], models: Models, look: Any) -> Iterator[GazeboPage]:
     """``gazebo``, as the document starts it, and its page."""
-    models = workspaces_dir / "gazebo_models"
-    begun = session("gazebo", GAZEBO_MODEL_PATH=str(models))
+    begun = session("gazebo", GAZEBO_MODEL_PATH=str(models.folder))
     begun.shows(begun.first, "gazebo")
     seen = look(begun.url, size=(1440, 900))
     with Graph.open(port=begun.first.port, role="client", environ={}) as graph:
@@ -60,47 +86,47 @@ def gazebo(
         yield page
 
 
-def test_my_robot_is_inserted_by_name_and_moved_by_a_tenth_of_a_newton_metre(
-    gazebo: GazeboPage,
+def test_robot_is_inserted_by_name_and_moved_by_a_tenth_of_a_newton_metre(
+    gazebo: GazeboPage, models: Models
 ) -> None:
     world = gazebo.simulation
-    card = gazebo.panel("insert").get_by_role("button", name="Insert my_robot")
-    assert "My Robot" in card.inner_text()
+    card = gazebo.panel("insert").get_by_role("button", name=f"Insert {models.name}")
+    assert models.title in card.inner_text()
     card.click()
-    gazebo.eventually(lambda: "my_robot" in gazebo.report()["models"])
-    assert "my_robot" in world.models()
+    gazebo.eventually(lambda: models.name in gazebo.report()["models"])
+    assert models.name in world.models()
     panel = gazebo.panel("joints-force")
-    panel.get_by_label("Model").select_option("my_robot")
-    for wheel in ("left_wheel_hinge", "right_wheel_hinge"):
+    panel.get_by_label("Model").select_option(models.name)
+    for wheel in models.wheels:
         force = panel.get_by_label(f"{wheel} force (N·m)")
         force.fill("0.1")
         force.press("Enter")
     # Two wheels of 0.1 m push 3 kg and their own 2 · 1 kg·m²/(0.1 m)²: 0.00985 m/s².
-    gazebo.eventually(lambda: world.state("my_robot").twist.linear.x > 0.02)
+    gazebo.eventually(lambda: world.state(models.name).twist.linear.x > 0.02)
     gazebo.seen.shot("pushed")
-    assert abs(world.state("my_robot").twist.linear.y) < 0.01
-    effort = panel.locator("[data-joint=left_wheel_hinge] output").nth(2)
+    assert abs(world.state(models.name).twist.linear.y) < 0.01
+    effort = panel.locator(f"[data-joint={models.wheels[0]}] output").nth(2)
     assert float(effort.inner_text()) == pytest.approx(0.1, abs=1e-3)
 
 
+@needs_shared
 def test_stages_without_a_link_are_told_and_shapes_and_files_come_in(
-    gazebo: GazeboPage, workspaces_dir: Path
+    gazebo: GazeboPage, models: Models
 ) -> None:
     world, seen = gazebo.simulation, gazebo.seen
-    for stage in (1, 2):
-        file = workspaces_dir / f"gazebo_models/stages/my_robot_{stage}.sdf"
+    for file in (models.folder / f"stages/my_robot_{stage}.sdf" for stage in (1, 2)):
         with seen.page.expect_file_chooser() as waiting:
             gazebo.panel("insert").get_by_role("button", name="File…").click()
         waiting.value.set_files(file)
-        assert "model 'my_robot' has no link" in seen.toast()
-        seen.shot(f"stage {stage}")
+        assert f"model '{models.name}' has no link" in seen.toast()
+        seen.shot(file.stem)
         seen.page.locator(".toast").get_by_role("button").last.click()
     gazebo.panel("insert").get_by_role("button", name="box", exact=True).click()
     gazebo.eventually(lambda: gazebo.report()["selected"] == {"model": "box"})
     _drag_along_x(gazebo, "box")
     gazebo.seen.page.keyboard.press("Delete")
     gazebo.eventually(lambda: "box" not in world.models())
-    _drop(gazebo, workspaces_dir / "catkin_ws/src/urdf_tutorial/urdf/mobile_robot.urdf")
+    _drop(gazebo, models.folder.parent / "catkin_ws/src/urdf_tutorial/urdf/mobile_robot.urdf")
     gazebo.eventually(lambda: "mobile_robot" in gazebo.report()["models"])
     gazebo.eventually(lambda: world.state("mobile_robot").pose.position.z > 0.2)
     seen.shot("dropped")

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from tests.browser.scene.gazebo_page import GazeboPage
 from tests.browser.tutorial.robot import Robot, choose_panel
+from tests.shared_files import needs_shared
 
 from gazelle.geometry import load_mesh
 
@@ -67,6 +68,7 @@ def _pixels(png: bytes) -> Any:
         return np.asarray(opened.convert("RGB"))
 
 
+@needs_shared
 def test_visuals_and_collisions_are_seen_apart(paused_mira: Robot, window: Any) -> None:
     """M2: the cylinder and the sphere of the URDF, over the meshes and without them."""
     page = _gazebo(paused_mira, window)
@@ -83,6 +85,7 @@ def test_visuals_and_collisions_are_seen_apart(paused_mira: Robot, window: Any) 
     page.seen.shot("visuals")
 
 
+@needs_shared
 def test_play_lets_mira_fall_and_its_head_droop(paused_mira: Robot, window: Any) -> None:
     """M5: without actuators."""
     page = _gazebo(paused_mira, window, "gzclient")
@@ -110,6 +113,7 @@ def _follows(page: GazeboPage, robot: Robot, link: str) -> None:
     page.eventually(is_there)
 
 
+@needs_shared
 def test_another_head_is_seen(
     launch: Callable[..., Robot], window: Any, workspaces_dir: Path, tmp_path: Path
 ) -> None:
@@ -151,6 +155,7 @@ def _sizes_of_meshes(page: GazeboPage) -> list[list[float]]:
     return list(page.seen.page.evaluate(script))
 
 
+@needs_shared
 def test_a_published_command_moves_the_joint_and_is_plotted(
     controlled_mira: Robot, window: Any
 ) -> None:
@@ -187,6 +192,7 @@ def _value(plot: Any, curve: str) -> float:
     return float(text) if text not in ("", "–") else float("nan")
 
 
+@needs_shared
 def test_gains_are_changed_while_mira_runs(controlled_mira: Robot, window: Any) -> None:
     """M11: without its gain the controller lets the head fall, with it the head comes up."""
     url = controlled_mira.type("rosrun", "rqt_reconfigure", "rqt_reconfigure")
@@ -209,6 +215,7 @@ def test_gains_are_changed_while_mira_runs(controlled_mira: Robot, window: Any) 
     page.eventually(lambda: abs(controlled_mira.joint("pitch_joint")) < 0.02)
 
 
+@needs_shared
 def test_the_camera_s_picture_is_shown(launch: Callable[..., Robot], window: Any) -> None:
     """M12: ``rosrun rqt_image_view rqt_image_view`` beside Gazebo's window."""
     robot = launch("urdf_exam", "mira_spawn_camera.launch")
