@@ -91,6 +91,8 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """What the person who runs the tests has at home is neither read nor written."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONUSERBASE", site.getuserbase())
+        # What the environment of these tests has is no part of the tests of a user, run inside.
+        patch.setenv("PYTEST_ADDOPTS", "-p no:randomly")
         for variable, folder in _FOUND_BY_HOME.items():
             if variable not in os.environ and (found := Path.home() / folder).is_dir():
                 patch.setenv(variable, str(found))
