@@ -175,8 +175,9 @@ class Member:
 
     def _on_goal(self, goal: ServerGoal) -> None:
         _check(goal.request.theta)
-        goal.accept()
         with self._lock:
+            # A command that comes as soon as the goal is known to be accepted ends it already.
+            goal.accept()
             result = self._result()
             previous, self._goal = self._goal, goal
             self._start_rad = self.turtle.theta_rad
