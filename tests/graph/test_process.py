@@ -6,12 +6,11 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import at_most, stretched
 
 from gazelle.graph import Graph, ServiceUnavailableError
 from gazelle.interfaces import service_type
@@ -84,11 +83,10 @@ def test_dead_process_is_noticed_at_once(
     process = start("victim")
     eventually(graph.discovery.known)
     assert graph.node_names() == ("/victim",)
-    begin = time.monotonic()
-    process.send_signal(how)
-    assert graph.discovery.wait_for(lambda known: not tuple(known), 10)
     # A fraction of a second on a machine with nothing else to do; ten where leases have to end.
-    assert time.monotonic() - begin < 5.0
+    with at_most(5.0):
+        process.send_signal(how)
+        assert graph.discovery.wait_for(lambda known: not tuple(known), stretched(10))
     assert graph.entities() == ()
 
 
@@ -122,10 +120,9 @@ def test_stopped_subscriber_stalls_nobody_and_comes_back(
     eventually(lambda: publisher.matched)
     listener.send_signal(signal.SIGSTOP)
     message = publisher.message_class(data="x" * 1_000_000)
-    begin = time.monotonic()
-    for _ in range(50):
-        publisher.publish(message)
-    assert time.monotonic() - begin < 5.0
+    with at_most(5.0):
+        for _ in range(50):
+            publisher.publish(message)
     listener.send_signal(signal.SIGCONT)
     eventually(lambda: not publisher.matched)
     eventually(lambda: publisher.matched)
