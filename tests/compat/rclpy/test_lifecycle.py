@@ -43,7 +43,7 @@ def test_callbacks_decide_where_a_transition_ends(passes: Callable[..., Any]) ->
         + """
 assert str(TransitionCallbackReturn.ERROR) == 'TransitionCallbackReturnType.ERROR'
 S, F, E = (TransitionCallbackReturn[n] for n in ('SUCCESS', 'FAILURE', 'ERROR'))
-state = lambda: node._machine.state.label
+state = lambda: node._LifecycleNodeMixin__machine.state.label
 assert node.trigger_configure() is S and state() == 'inactive'
 assert not node.pub.is_activated and node.pub.publish(String(data='lost')) is None
 assert node.trigger_activate() is F and state() == 'inactive'

@@ -250,3 +250,55 @@ rclpy.spin(node)
     # Results can come before the words that were printed before them.
     running.wait_for_line("executing 1")
     assert [line for line in running.lines if "exec" in line] == ["executing 2", "executing 1"]
+
+
+def test_names_of_a_users_own_node_get_in_nobodys_way(passes: Callable[..., Any]) -> None:
+    """Many a node has a method ``run`` or ``post``, a ``_count`` or a ``_graph``."""
+    passes(
+        HEAD
+        + """
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.ticks = 0
+        self.create_service(Trigger, 'start', self.start)
+        self.create_timer(0.01, self.tick)
+        self.declare_parameter('speed', 1.0)
+        self._count = self._info = self._graph = self._full = self._pending = None
+        self._created = self._answers = self._overrides = self._events = None
+
+    def start(self, request, response):
+        response.success = True
+        return response
+
+    def tick(self):
+        self.ticks += 1
+
+    def run(self):
+        raise AssertionError('nobody called it')
+
+    post = keep = stop = update = _keep = _destroy = _refusal = run
+
+robot = Robot()
+executor = SingleThreadedExecutor()
+executor.add_node(robot)
+executor.add_node(node)
+answer = node.create_client(Trigger, '/start').call_async(Trigger.Request())
+executor.spin_until_future_complete(answer)
+assert answer.result().success
+from rcl_interfaces.srv import GetParameters
+asked = GetParameters.Request(names=['speed'])
+answer = node.create_client(GetParameters, '/robot/get_parameters').call_async(asked)
+executor.spin_until_future_complete(answer)
+assert answer.result().values[0].double_value == 1.0
+while robot.ticks < 2:
+    executor.spin_once()
+assert robot.count_publishers('/rosout') == 2
+assert ('/start', ['std_srvs/srv/Trigger']) in (
+    robot.get_service_names_and_types_by_node('robot', '/')
+)
+robot.set_parameters([rclpy.Parameter('speed', value=2.0)])
+assert robot.get_parameter('speed').value == 2.0
+robot.destroy_node()
+"""
+    )

@@ -172,7 +172,7 @@ class Subscription:
         if self.events is not None:
             self.events.note()
         self._messages.append((message, info, time.time_ns()))
-        self._node.post(self)
+        self._node.post_work(self)
 
 
 class Service:
@@ -205,7 +205,7 @@ class Service:
         self._impl.unregister()
 
     def _on_request(self, request: Any) -> Callable[[], Any]:
-        return self._node.run(self.callback_group, lambda: self._respond(request))
+        return self._node.run_in_executor(self.callback_group, lambda: self._respond(request))
 
     async def _respond(self, request: Any) -> Any:
         response = self.callback(request, self.srv_type.Response())
@@ -303,7 +303,7 @@ class Client:
                 future.set_result(response)
 
         if not future.cancelled():
-            self._node.post(Once(self.callback_group, finish))
+            self._node.post_work(Once(self.callback_group, finish))
 
 
 def check_type(kind: Any, part: str) -> None:

@@ -246,4 +246,4 @@ class EventWatch:
 
     def _call(self, callback: Callback, info: Any) -> None:
         if callback is not None:
-            self._node.post(Once(self._group, lambda: callback(info)))
+            self._node.post_work(Once(self._group, lambda: callback(info)))

@@ -37,7 +37,7 @@ class GuardCondition:
             if self._is_triggered or self._is_destroyed:
                 return
             self._is_triggered = True
-        self._node.post(self)
+        self._node.post_work(self)
 
     def take(self) -> Callable[[], Any] | None:
         """Return the call that was asked for."""

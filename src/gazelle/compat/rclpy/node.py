@@ -112,25 +112,25 @@ class Node(ParameterHolder, GraphQueries):
             )
             self.is_destroyed = False
             self.executor: Any = None
-            self._pending: deque[Work] = deque()
-            self._answers: set[threading.Event] = set()
-            self._created: list[Any] = []
+            self.__pending: deque[Work] = deque()
+            self.__answers: set[threading.Event] = set()
+            self.__created: list[Any] = []
             self._default_callback_group = MutuallyExclusiveCallbackGroup()
             self._clock = ROSClock()
             self._clock.attach(self.graph_node.clock)
-            self._logger = logging.RcutilsLogger(self._logger_name())
+            self._logger = logging.RcutilsLogger(self.__logger_name())
             logging.attach_node(self._logger.name, self.graph_node)
             for logger, level in {**given.log_levels, **own.log_levels}.items():
                 if logger in ("", self._logger.name):
                     self._logger.set_level(logging.get_logging_severity_from_string(level))
-            overrides = {**given.parameters(self._full), **own.parameters(self._full)}
+            overrides = {**given.parameters(self._rcl_full), **own.parameters(self._rcl_full)}
             overrides |= {one.name: one.value for one in parameter_overrides or []}
-            self._offer_parameters(overrides, allow_undeclared_parameters)
-            self._offer_type_descriptions()
+            self.__offer_parameters(overrides, allow_undeclared_parameters)
+            self.__offer_type_descriptions()
             if enable_logger_service:
                 offer_logger_levels(self)
             if automatically_declare_parameters_from_overrides:
-                self._declare_overrides()
+                self.__declare_overrides()
 
     def __enter__(self) -> Node:
         return self
@@ -146,44 +146,44 @@ class Node(ParameterHolder, GraphQueries):
     @property
     def publishers(self) -> Iterator[Publisher]:
         """Publishers of this node."""
-        return (one for one in self._created if isinstance(one, Publisher))
+        return (one for one in self.__created if isinstance(one, Publisher))
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
         """Subscriptions of this node."""
-        return (one for one in self._created if isinstance(one, Subscription))
+        return (one for one in self.__created if isinstance(one, Subscription))
 
     @property
     def services(self) -> Iterator[Service]:
         """Services of this node."""
-        return (one for one in self._created if isinstance(one, Service))
+        return (one for one in self.__created if isinstance(one, Service))
 
     @property
     def clients(self) -> Iterator[Client]:
         """Clients of this node."""
-        return (one for one in self._created if isinstance(one, Client))
+        return (one for one in self.__created if isinstance(one, Client))
 
     @property
     def timers(self) -> Iterator[Timer]:
         """Timers of this node."""
-        return (one for one in self._created if isinstance(one, Timer))
+        return (one for one in self.__created if isinstance(one, Timer))
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
         """Guard conditions of this node."""
-        return (one for one in self._created if isinstance(one, GuardCondition))
+        return (one for one in self.__created if isinstance(one, GuardCondition))
 
     def get_name(self) -> str:
         """Return the node's own name."""
-        return self._full.rpartition("/")[2]
+        return self._rcl_full.rpartition("/")[2]
 
     def get_namespace(self) -> str:
         """Return the namespace, ``/`` for none."""
-        return self._full.rpartition("/")[0] or "/"
+        return self._rcl_full.rpartition("/")[0] or "/"
 
     def get_fully_qualified_name(self) -> str:
         """Return namespace and name."""
-        return self._full
+        return self._rcl_full
 
     def get_clock(self) -> ROSClock:
         """Return the node's clock."""
@@ -199,7 +199,7 @@ class Node(ParameterHolder, GraphQueries):
         Raises:
             InvalidServiceNameException: the name is not legal.
         """
-        return self._resolved(service, only_expand=only_expand, is_service=True)
+        return self._rcl_resolved(service, only_expand=only_expand, is_service=True)
 
     def create_publisher(
         self,
@@ -229,7 +229,7 @@ class Node(ParameterHolder, GraphQueries):
         check_type(msg_type, "msg")
         full = self.resolve_topic_name(topic)
         qos = overridden(self, full, "publisher", as_profile(qos_profile), qos_overriding_options)
-        made = self._keep(publisher_class(self, msg_type, topic, qos))
+        made = self.__keep(publisher_class(self, msg_type, topic, qos))
         group = callback_group or self._default_callback_group
         events = event_callbacks or PublisherEventCallbacks()
         made.events = EventWatch(self, topic, full, qos, events, group)
@@ -267,7 +267,7 @@ class Node(ParameterHolder, GraphQueries):
         full = self.resolve_topic_name(topic)
         given = as_profile(qos_profile)
         qos = overridden(self, full, "subscription", given, qos_overriding_options)
-        made = self._keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
+        made = self.__keep(Subscription(self, msg_type, topic, callback, qos, group=group, raw=raw))
         events = event_callbacks or SubscriptionEventCallbacks()
         made.events = EventWatch(self, topic, full, qos, events, group)
         return made
@@ -289,7 +289,7 @@ class Node(ParameterHolder, GraphQueries):
         del qos_profile
         check_type(srv_type, "srv")
         group = callback_group or self._default_callback_group
-        return self._keep(Service(self, srv_type, srv_name, callback, group))
+        return self.__keep(Service(self, srv_type, srv_name, callback, group))
 
     def create_client(
         self,
@@ -307,7 +307,7 @@ class Node(ParameterHolder, GraphQueries):
         del qos_profile
         check_type(srv_type, "srv")
         group = callback_group or self._default_callback_group
-        return self._keep(Client(self, srv_type, srv_name, group))
+        return self.__keep(Client(self, srv_type, srv_name, group))
 
     def create_timer(
         self,
@@ -320,7 +320,7 @@ class Node(ParameterHolder, GraphQueries):
         """Call back once a period of the node's clock."""
         period_ns = int(float(timer_period_sec) * _S_TO_NS)
         group = callback_group or self._default_callback_group
-        return self._keep(
+        return self.__keep(
             Timer(self, callback, period_ns, clock or self._clock, group, autostart=autostart)
         )
 
@@ -329,7 +329,7 @@ class Node(ParameterHolder, GraphQueries):
     ) -> GuardCondition:
         """Prepare a call that `trigger` asks for, from any thread."""
         group = callback_group or self._default_callback_group
-        return self._keep(GuardCondition(self, callback, group))
+        return self.__keep(GuardCondition(self, callback, group))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Return something that sleeps at a rate.
@@ -346,27 +346,27 @@ class Node(ParameterHolder, GraphQueries):
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Stop offering a topic."""
-        return self._destroy(publisher)
+        return self.__destroy(publisher)
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
         """Stop receiving a topic."""
-        return self._destroy(subscription)
+        return self.__destroy(subscription)
 
     def destroy_service(self, service: Service) -> bool:
         """Stop answering a service."""
-        return self._destroy(service)
+        return self.__destroy(service)
 
     def destroy_client(self, client: Client) -> bool:
         """Give a client up."""
-        return self._destroy(client)
+        return self.__destroy(client)
 
     def destroy_timer(self, timer: Timer) -> bool:
         """Stop a timer."""
-        return self._destroy(timer)
+        return self.__destroy(timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
         """Give a guard condition up."""
-        return self._destroy(guard)
+        return self.__destroy(guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Stop a rate."""
@@ -380,9 +380,9 @@ class Node(ParameterHolder, GraphQueries):
         self.is_destroyed = True
         if self.executor is not None:
             self.executor.remove_node(self)
-        for one in reversed(self._created):
+        for one in reversed(self.__created):
             one.destroy()
-        for event in tuple(self._answers):
+        for event in tuple(self.__answers):
             event.set()
         self._parameters.close()
         self.graph_node.shutdown("destroyed")
@@ -390,22 +390,22 @@ class Node(ParameterHolder, GraphQueries):
 
     # What entities and executors call.
 
-    def keep(self, one: Any) -> None:
+    def keep_entity(self, one: Any) -> None:
         """Destroy something together with the node: an action's end."""
-        self._created.append(one)
+        self.__created.append(one)
 
-    def post(self, work: Work) -> None:
+    def post_work(self, work: Work) -> None:
         """Let the executor that spins this node do some work; from any thread."""
-        self._pending.append(work)
+        self.__pending.append(work)
         if self.executor is not None:
             self.executor.wake()
 
     def next_work(self) -> tuple[Work, Callable[[], Any]] | None:
         """Return the oldest work whose group lets it run now, and claim the group."""
-        for _ in range(len(self._pending)):
-            work = self._pending.popleft()
+        for _ in range(len(self.__pending)):
+            work = self.__pending.popleft()
             if not work.callback_group.beginning_execution(work):
-                self._pending.append(work)
+                self.__pending.append(work)
                 continue
             callback = work.take()
             if callback is not None:
@@ -413,7 +413,9 @@ class Node(ParameterHolder, GraphQueries):
             work.callback_group.ending_execution(work)
         return None
 
-    def run(self, group: CallbackGroup, callback: Callable[[], Any]) -> Callable[[], Any]:
+    def run_in_executor(
+        self, group: CallbackGroup, callback: Callable[[], Any]
+    ) -> Callable[[], Any]:
         """Let the executor run a function or coroutine; return what waits for its value.
 
         That raises `ServiceRefusedError` when the node is destroyed meanwhile.
@@ -432,44 +434,44 @@ class Node(ParameterHolder, GraphQueries):
             try:
                 done.wait()
             finally:
-                self._answers.discard(done)
+                self.__answers.discard(done)
             if not found:
-                raise ServiceRefusedError(f"node {self._full} could not answer")
+                raise ServiceRefusedError(f"node {self._rcl_full} could not answer")
             return found[0]
 
-        self._answers.add(done)
-        self.post(Once(group, run))
+        self.__answers.add(done)
+        self.post_work(Once(group, run))
         return value
 
     @property
-    def _full(self) -> str:
+    def _rcl_full(self) -> str:
         return self.graph_node.name
 
-    def _logger_name(self) -> str:
-        return self._full.strip("/").replace("/", ".")
+    def __logger_name(self) -> str:
+        return self._rcl_full.strip("/").replace("/", ".")
 
-    def _offer_parameters(self, overrides: dict[str, Any], allow_undeclared: bool) -> None:
-        self._overrides = overrides
-        self._allow_undeclared = allow_undeclared
-        self._uninitialized = {}
-        self._pre_callbacks, self._set_callbacks, self._post_callbacks = [], [], []
+    def __offer_parameters(self, overrides: dict[str, Any], allow_undeclared: bool) -> None:
+        self._rcl_overrides = overrides
+        self._rcl_allow_undeclared = allow_undeclared
+        self._rcl_uninitialized = {}
+        self._rcl_pre_callbacks, self._rcl_set_callbacks, self._rcl_post_callbacks = [], [], []
         self._parameters = NodeParameters(
             self.graph_node,
-            self._full,
+            self._rcl_full,
             {_SIM_TIME: overrides.get(_SIM_TIME) is True},
-            self._on_set,
+            self._rcl_on_set,
             allow_undeclared=allow_undeclared,
             strict=True,
-            run=self._run_parameters,
+            run=self.__run_parameters,
             now_ns=self._clock.now_ns,
         )
-        self._take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
+        self._rcl_take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
 
-    def _declare_overrides(self) -> None:
-        for key in [key for key in self._overrides if not self.has_parameter(key)]:
-            self.declare_parameter(key, self._overrides[key])
+    def __declare_overrides(self) -> None:
+        for key in [key for key in self._rcl_overrides if not self.has_parameter(key)]:
+            self.declare_parameter(key, self._rcl_overrides[key])
 
-    def _offer_type_descriptions(self) -> None:
+    def __offer_type_descriptions(self) -> None:
         name = START_TYPE_DESCRIPTION_SERVICE_PARAM
         text = "If enabled, start the ~/get_type_description service."
         known = message_type("rcl_interfaces/msg/ParameterDescriptor")
@@ -477,23 +479,23 @@ class Node(ParameterHolder, GraphQueries):
         if self.declare_parameter(name, True, descriptor).value:
             offer_type_descriptions(self.graph_node)
 
-    def _run_parameters(self, command: Callable[[], Any]) -> Any:
+    def __run_parameters(self, command: Callable[[], Any]) -> Any:
         """Handle a request in the thread that spins, so that callbacks meet no other thread."""
         if self.executor is None:
             return command()
-        return self.run(self._default_callback_group, command)()
+        return self.run_in_executor(self._default_callback_group, command)()
 
-    def _take_effect(self, changes: dict[str, Any]) -> None:
+    def _rcl_take_effect(self, changes: dict[str, Any]) -> None:
         if _SIM_TIME in changes:
             self.graph_node.clock.use(bool(changes[_SIM_TIME]))
 
-    def _keep(self, one: _T) -> _T:
-        self._created.append(one)
+    def __keep(self, one: _T) -> _T:
+        self.__created.append(one)
         return one
 
-    def _destroy(self, one: Any) -> bool:
-        if one not in self._created:
+    def __destroy(self, one: Any) -> bool:
+        if one not in self.__created:
             return False
-        self._created.remove(one)
+        self.__created.remove(one)
         one.destroy()
         return True

@@ -76,27 +76,27 @@ class GraphQueries:
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Return the nodes' global names."""
-        return list(self._graph.node_names(include_hidden=True))
+        return list(self._rcl_graph.node_names(include_hidden=True))
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Return the nodes' own names and namespaces."""
-        found = (split(name) for name in self._graph.node_names(include_hidden=True))
+        found = (split(name) for name in self._rcl_graph.node_names(include_hidden=True))
         return [(name, namespace) for namespace, name in found]
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """Return all topics."""
         del no_demangle
-        topics = self._graph.topics(include_hidden=True)
+        topics = self._rcl_graph.topics(include_hidden=True)
         return [(one.name, [one.type_name]) for one in topics]
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """Return all services."""
-        services = self._graph.services(include_hidden=True)
+        services = self._rcl_graph.services(include_hidden=True)
         return [(one.name, [one.type_name]) for one in services]
 
     def get_action_names_and_types(self) -> NamesAndTypes:
         """Return all actions of ROS 2."""
-        found = actions_of(self._graph.entities())
+        found = actions_of(self._rcl_graph.entities())
         return [(one.name, [one.type_name]) for one in found if one.generation == 2]
 
     def get_publisher_names_and_types_by_node(
@@ -104,46 +104,48 @@ class GraphQueries:
     ) -> NamesAndTypes:
         """Return what a node publishes."""
         del no_demangle
-        return _pairs(self._info(node_name, node_namespace).publications)
+        return _pairs(self.__info(node_name, node_namespace).publications)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return what a node subscribes."""
         del no_demangle
-        return _pairs(self._info(node_name, node_namespace).subscriptions)
+        return _pairs(self.__info(node_name, node_namespace).subscriptions)
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return the services that a node answers."""
-        return _pairs(self._info(node_name, node_namespace).services)
+        return _pairs(self.__info(node_name, node_namespace).services)
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return the services that a node calls."""
-        return _pairs(self._info(node_name, node_namespace).clients)
+        return _pairs(self.__info(node_name, node_namespace).clients)
 
     def count_publishers(self, topic_name: str) -> int:
         """Return how many publishers a topic has."""
         return len(
-            self._graph.publishers_info(self.resolve_topic_name(topic_name, only_expand=True))
+            self._rcl_graph.publishers_info(self.resolve_topic_name(topic_name, only_expand=True))
         )
 
     def count_subscribers(self, topic_name: str) -> int:
         """Return how many subscriptions a topic has."""
         return len(
-            self._graph.subscriptions_info(self.resolve_topic_name(topic_name, only_expand=True))
+            self._rcl_graph.subscriptions_info(
+                self.resolve_topic_name(topic_name, only_expand=True)
+            )
         )
 
     def count_clients(self, service_name: str) -> int:
         """Return how many clients a service has."""
-        return self._count(Kind.CLIENT, service_name)
+        return self.__count(Kind.CLIENT, service_name)
 
     def count_services(self, service_name: str) -> int:
         """Return how many servers a service has."""
-        return self._count(Kind.SERVICE, service_name)
+        return self.__count(Kind.SERVICE, service_name)
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Return the nodes' own names, namespaces and enclaves, which are all ``/``."""
@@ -156,17 +158,17 @@ class GraphQueries:
         def is_there(entities: Iterable[Entity]) -> bool:
             return any(one.kind is Kind.NODE and one.node == wanted for one in entities)
 
-        return self._graph.discovery.wait_for(is_there, timeout)
+        return self._rcl_graph.discovery.wait_for(is_there, timeout)
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the publishers of a topic."""
         full = self.resolve_topic_name(topic_name)
-        return [_endpoint(self._graph, one) for one in self._graph.publishers_info(full)]
+        return [_endpoint(self._rcl_graph, one) for one in self._rcl_graph.publishers_info(full)]
 
     def get_subscriptions_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return the subscriptions of a topic."""
         full = self.resolve_topic_name(topic_name)
-        return [_endpoint(self._graph, one) for one in self._graph.subscriptions_info(full)]
+        return [_endpoint(self._rcl_graph, one) for one in self._rcl_graph.subscriptions_info(full)]
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return a topic's global name, after remapping unless only expanded.
@@ -175,9 +177,11 @@ class GraphQueries:
             InvalidTopicNameException: the name is not legal.
             ValueError: it has an unknown substitution.
         """
-        return self._resolved(topic, only_expand=only_expand)
+        return self._rcl_resolved(topic, only_expand=only_expand)
 
-    def _resolved(self, name: str, *, only_expand: bool = False, is_service: bool = False) -> str:
+    def _rcl_resolved(
+        self, name: str, *, only_expand: bool = False, is_service: bool = False
+    ) -> str:
         validate_topic_name(name, is_service=is_service)
         namespace, own = split(self.graph_node.name)
         full = expand_topic_name(name, own, namespace)
@@ -185,15 +189,15 @@ class GraphQueries:
         return full if only_expand else self.graph_node.resolve_name(full)
 
     @property
-    def _graph(self) -> Graph:
+    def _rcl_graph(self) -> Graph:
         return self.graph_node.graph
 
-    def _count(self, kind: Kind, name: str) -> int:
+    def __count(self, kind: Kind, name: str) -> int:
         full = self.resolve_topic_name(name, only_expand=True)
-        return sum(one.kind is kind and one.name == full for one in self._graph.entities())
+        return sum(one.kind is kind and one.name == full for one in self._rcl_graph.entities())
 
-    def _info(self, name: str, namespace: str) -> NodeInfo:
-        return self._graph.node_info(join(namespace or "/", name))
+    def __info(self, name: str, namespace: str) -> NodeInfo:
+        return self._rcl_graph.node_info(join(namespace or "/", name))
 
 
 def _pairs(endpoints: Any) -> NamesAndTypes:

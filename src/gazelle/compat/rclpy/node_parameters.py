@@ -30,12 +30,12 @@ class ParameterHolder:
     """Declares, gets and sets parameters, and offers them to others."""
 
     _parameters: NodeParameters
-    _overrides: dict[str, Any]
-    _allow_undeclared: bool
-    _uninitialized: dict[str, Parameter.Type]
-    _pre_callbacks: list[Callback]
-    _set_callbacks: list[Callback]
-    _post_callbacks: list[Callback]
+    _rcl_overrides: dict[str, Any]
+    _rcl_allow_undeclared: bool
+    _rcl_uninitialized: dict[str, Parameter.Type]
+    _rcl_pre_callbacks: list[Callback]
+    _rcl_set_callbacks: list[Callback]
+    _rcl_post_callbacks: list[Callback]
 
     def declare_parameter(
         self,
@@ -60,17 +60,17 @@ class ParameterHolder:
         """
         if not name or not isinstance(name, str):
             raise InvalidParameterException(str(name))
-        if name in self._parameters.values or name in self._uninitialized:
+        if name in self._parameters.values or name in self._rcl_uninitialized:
             raise ParameterAlreadyDeclaredException([name])
         known = _descriptor(descriptor)
         wanted = value if isinstance(value, Parameter.Type) else None
         given = None if wanted is not None else value
-        if not ignore_override and name in self._overrides:
-            given = _fitting(name, self._overrides[name], value, known)
+        if not ignore_override and name in self._rcl_overrides:
+            given = _fitting(name, self._rcl_overrides[name], value, known)
         elif wanted is not None:
-            self._uninitialized[name] = wanted
+            self._rcl_uninitialized[name] = wanted
             return Parameter(name)
-        reason = self._refusal([Parameter(name, value=given)])
+        reason = self.__refusal([Parameter(name, value=given)])
         if reason:
             raise InvalidParameterValueException(name, given, reason)
         self._parameters.declare(name, given, known)
@@ -95,16 +95,16 @@ class ParameterHolder:
             ParameterNotDeclaredException: there is none of the name.
             ParameterImmutableException: it is read-only.
         """
-        if self._uninitialized.pop(name, None) is not None:
+        if self._rcl_uninitialized.pop(name, None) is not None:
             return
-        self._check_declared(name)
+        self.__check_declared(name)
         if self._parameters.descriptor(name).read_only:
             raise ParameterImmutableException(name)
         self._parameters.undeclare(name)
 
     def has_parameter(self, name: str) -> bool:
         """Tell whether it is declared."""
-        return name in self._parameters.values or name in self._uninitialized
+        return name in self._parameters.values or name in self._rcl_uninitialized
 
     def get_parameter(self, name: str) -> Parameter:
         """Return a parameter.
@@ -113,11 +113,11 @@ class ParameterHolder:
             ParameterNotDeclaredException: there is none of the name.
             ParameterUninitializedException: it was declared by type and has no value.
         """
-        if name in self._uninitialized:
+        if name in self._rcl_uninitialized:
             raise ParameterUninitializedException(name)
-        if name not in self._parameters.values and self._allow_undeclared:
+        if name not in self._parameters.values and self._rcl_allow_undeclared:
             return Parameter(name)
-        self._check_declared(name)
+        self.__check_declared(name)
         return Parameter(name, value=self._parameters.values[name])
 
     def get_parameters(self, names: Iterable[str]) -> list[Parameter]:
@@ -161,14 +161,14 @@ class ParameterHolder:
         Raises:
             ParameterNotDeclaredException: one is not declared.
         """
-        for callback in self._pre_callbacks:
+        for callback in self._rcl_pre_callbacks:
             parameter_list = callback(parameter_list)
         for one in parameter_list:
-            if one.name in self._uninitialized:
+            if one.name in self._rcl_uninitialized:
                 self._parameters.declare(one.name, one.value)
-                del self._uninitialized[one.name]
-            if not self._allow_undeclared:
-                self._check_declared(one.name)
+                del self._rcl_uninitialized[one.name]
+            if not self._rcl_allow_undeclared:
+                self.__check_declared(one.name)
         reason = self._parameters.set({one.name: one.value for one in parameter_list})
         result = message_type("rcl_interfaces/msg/SetParametersResult")
         return result(successful=not reason, reason=reason)
@@ -193,7 +193,7 @@ class ParameterHolder:
             ParameterImmutableException: it is read-only.
             InvalidParameterValueException: neither value fits.
         """
-        self._check_declared(name)
+        self.__check_declared(name)
         if self._parameters.descriptor(name).read_only:
             raise ParameterImmutableException(name)
         known = _descriptor(descriptor)
@@ -209,7 +209,7 @@ class ParameterHolder:
 
     def describe_parameter(self, name: str) -> Any:
         """Return ``rcl_interfaces/msg/ParameterDescriptor`` of a parameter."""
-        self._check_declared(name)
+        self.__check_declared(name)
         return self._parameters._descriptor_message(name)
 
     def describe_parameters(self, names: Iterable[str]) -> list[Any]:
@@ -218,50 +218,50 @@ class ParameterHolder:
 
     def add_pre_set_parameters_callback(self, callback: Callback) -> None:
         """Call something that may change what is to be set."""
-        self._pre_callbacks.insert(0, callback)
+        self._rcl_pre_callbacks.insert(0, callback)
 
     def add_on_set_parameters_callback(self, callback: Callback) -> None:
         """Call something that judges what is to be set, with a ``SetParametersResult``."""
-        self._set_callbacks.insert(0, callback)
+        self._rcl_set_callbacks.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callback) -> None:
         """Call something after parameters were set."""
-        self._post_callbacks.insert(0, callback)
+        self._rcl_post_callbacks.insert(0, callback)
 
     def remove_on_set_parameters_callback(self, callback: Callback) -> None:
         """Ask a callback no more."""
-        self._set_callbacks.remove(callback)
+        self._rcl_set_callbacks.remove(callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callback) -> None:
         """Ask a callback no more."""
-        self._pre_callbacks.remove(callback)
+        self._rcl_pre_callbacks.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: Callback) -> None:
         """Tell a callback no more."""
-        self._post_callbacks.remove(callback)
+        self._rcl_post_callbacks.remove(callback)
 
-    def _on_set(self, changes: dict[str, Any]) -> str:
+    def _rcl_on_set(self, changes: dict[str, Any]) -> str:
         """Judge a change from whomever; why it is refused, or nothing."""
         parameters = [Parameter(name, value=value) for name, value in changes.items()]
-        reason = self._refusal(parameters)
+        reason = self.__refusal(parameters)
         if reason:
             return reason
-        self._take_effect(changes)
-        for callback in self._post_callbacks:
+        self._rcl_take_effect(changes)
+        for callback in self._rcl_post_callbacks:
             callback(parameters)
         return ""
 
-    def _take_effect(self, changes: dict[str, Any]) -> None:
+    def _rcl_take_effect(self, changes: dict[str, Any]) -> None:
         """Hear of values that count from now on."""
 
-    def _refusal(self, parameters: list[Parameter]) -> str:
-        for callback in self._set_callbacks:
+    def __refusal(self, parameters: list[Parameter]) -> str:
+        for callback in self._rcl_set_callbacks:
             result = callback(parameters)
             if not result.successful:
                 return str(result.reason) or "refused"
         return ""
 
-    def _check_declared(self, name: str) -> None:
+    def __check_declared(self, name: str) -> None:
         if name not in self._parameters.values:
             raise ParameterNotDeclaredException([name], did_you_mean(name, self._parameters.values))
 

@@ -121,7 +121,7 @@ class Timer:
             if self._is_posted or self._canceled:
                 return
             self._is_posted = True
-        self._node.post(self)
+        self._node.post_work(self)
 
 
 class Rate:

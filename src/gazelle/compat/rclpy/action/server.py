@@ -222,7 +222,7 @@ class ActionServer:
             run=self._post,
             result_timeout_s=result_timeout,
         )
-        node.keep(self)
+        node.keep_entity(self)
 
     def register_goal_callback(self, goal_callback: Callback | None) -> None:
         """Set what decides on goals; the default takes all.
@@ -268,7 +268,7 @@ class ActionServer:
         executor.create_task(self._execute, execute_callback or self._execute_callback, handle)
 
     def _post(self, work: Callable[[], object]) -> None:
-        self._node.post(Once(self.callback_group, work))
+        self._node.post_work(Once(self.callback_group, work))
 
     def _on_goal(self, goal: ServerGoal) -> None:
         handle = self._handles[goal.goal_id] = ServerGoalHandle(self, goal)

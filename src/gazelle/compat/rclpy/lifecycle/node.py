@@ -45,59 +45,59 @@ class LifecycleNodeMixin(ManagedEntity):
         enable_communication_interface: bool = True,
         callback_group: CallbackGroup | None = None,
     ) -> None:
-        node = self._node("LifecycleNodeMixin")
-        self._machine = StateMachine()
-        self._managed_entities: list[ManagedEntity] = []
-        self._events: Any = None
+        node = self.__node("LifecycleNodeMixin")
+        self.__machine = StateMachine()
+        self.__managed_entities: list[ManagedEntity] = []
+        self.__events: Any = None
         if enable_communication_interface:
             event = message_type("lifecycle_msgs/msg/TransitionEvent")
             with node.graph_node.announced_together():
-                self._events = node.create_publisher(event, "~/transition_event", 10)
+                self.__events = node.create_publisher(event, "~/transition_event", 10)
                 for name, kind, answer in (
-                    ("change_state", "ChangeState", self._on_change_state),
-                    ("get_state", "GetState", self._on_get_state),
-                    ("get_available_states", "GetAvailableStates", self._on_get_states),
+                    ("change_state", "ChangeState", self.__on_change_state),
+                    ("get_state", "GetState", self.__on_get_state),
+                    ("get_available_states", "GetAvailableStates", self.__on_get_states),
                     (
                         "get_available_transitions",
                         "GetAvailableTransitions",
-                        self._on_get_available,
+                        self.__on_get_available,
                     ),
-                    ("get_transition_graph", "GetAvailableTransitions", self._on_get_graph),
+                    ("get_transition_graph", "GetAvailableTransitions", self.__on_get_graph),
                 ):
                     service = service_type(f"lifecycle_msgs/srv/{kind}")
                     node.create_service(service, f"~/{name}", answer, callback_group=callback_group)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities; a node's own callback calls this one."""
-        return self._tell("on_configure", state)
+        return self.__tell("on_configure", state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities."""
-        return self._tell("on_cleanup", state)
+        return self.__tell("on_cleanup", state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities."""
-        return self._tell("on_shutdown", state)
+        return self.__tell("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities: lifecycle publishers begin to send."""
-        return self._tell("on_activate", state)
+        return self.__tell("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities: lifecycle publishers fall silent."""
-        return self._tell("on_deactivate", state)
+        return self.__tell("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities; success leads back to ``unconfigured``."""
-        return self._tell("on_error", state)
+        return self.__tell("on_error", state)
 
     def trigger_configure(self) -> TransitionCallbackReturn:
         """Configure the node."""
-        return self._change_state("configure")
+        return self.__change_state("configure")
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
         """Clean the node up."""
-        return self._change_state("cleanup")
+        return self.__change_state("cleanup")
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
         """End the node, from any of its states.
@@ -105,19 +105,19 @@ class LifecycleNodeMixin(ManagedEntity):
         Raises:
             RuntimeError: it has ended already.
         """
-        if self._machine.find("shutdown") is None:
+        if self.__machine.find("shutdown") is None:
             raise RuntimeError(
-                f"Shutdown transtion not possible from state {self._machine.state.label}"
+                f"Shutdown transtion not possible from state {self.__machine.state.label}"
             )
-        return self._change_state("shutdown")
+        return self.__change_state("shutdown")
 
     def trigger_activate(self) -> TransitionCallbackReturn:
         """Make the node active."""
-        return self._change_state("activate")
+        return self.__change_state("activate")
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
         """Make the node inactive."""
-        return self._change_state("deactivate")
+        return self.__change_state("deactivate")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Let something follow the node's state.
@@ -127,34 +127,34 @@ class LifecycleNodeMixin(ManagedEntity):
         """
         if not isinstance(entity, ManagedEntity):
             raise TypeError("Expected a rclpy.lifecycle.ManagedEntity instance.")
-        self._managed_entities.append(entity)
+        self.__managed_entities.append(entity)
 
     def create_lifecycle_publisher(
         self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, **_options: Any
     ) -> LifecyclePublisher:
         """Offer a topic on which messages go out only while the node is active."""
         check_type(msg_type, "msg")
-        node = self._node("LifecycleNodeMixin")
+        node = self.__node("LifecycleNodeMixin")
         made = LifecyclePublisher(node, msg_type, topic, as_profile(qos_profile))
-        node.keep(made)
+        node.keep_entity(made)
         self.add_managed_entity(made)
         return made
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
         """Stop offering a topic."""
-        if publisher in self._managed_entities:
-            self._managed_entities.remove(publisher)
-        return self._node("LifecycleNodeMixin").destroy_publisher(publisher)
+        if publisher in self.__managed_entities:
+            self.__managed_entities.remove(publisher)
+        return self.__node("LifecycleNodeMixin").destroy_publisher(publisher)
 
-    def _node(self, name: str) -> Node:
+    def __node(self, name: str) -> Node:
         if not isinstance(self, Node):
             raise RuntimeError(
                 f"{name} uses Node fields so Node needs to be in the inheritance tree."
             )
         return self
 
-    def _tell(self, callback: str, state: LifecycleState) -> TransitionCallbackReturn:
-        for entity in self._managed_entities:
+    def __tell(self, callback: str, state: LifecycleState) -> TransitionCallbackReturn:
+        for entity in self.__managed_entities:
             answer = getattr(entity, callback)(state)
             if not isinstance(answer, TransitionCallbackReturn):
                 raise TypeError(
@@ -165,29 +165,29 @@ class LifecycleNodeMixin(ManagedEntity):
                 return answer
         return TransitionCallbackReturn.SUCCESS
 
-    def _change_state(self, wanted: int | str) -> TransitionCallbackReturn:
-        before = self._machine.state
-        first = self._machine.find(wanted)
+    def __change_state(self, wanted: int | str) -> TransitionCallbackReturn:
+        before = self.__machine.state
+        first = self.__machine.find(wanted)
         if first is None:
-            known = ", ".join(f"{one.label} [{one.id}]" for one in self._machine.available())
+            known = ", ".join(f"{one.label} [{one.id}]" for one in self.__machine.available())
             warning = f"No transition matching {wanted} found for current state {before.label}"
             get_logger("rcl_lifecycle").warning(f"{warning} (possible: {known or 'none'})")
             text = f"Unable to start transition {wanted} from current state"
-            self._node("LifecycleNodeMixin").get_logger().error(
+            self.__node("LifecycleNodeMixin").get_logger().error(
                 f"{text} ({before.state_id}, '{before.label}')"
             )
             return _ERROR
-        self._go(first)
-        answer = self._run_callback(before)
+        self.__go(first)
+        answer = self.__run_callback(before)
         if answer is _ERROR:
             # Now it is errorprocessing, and that callback decides where it ends.
-            self._run_callback(before)
+            self.__run_callback(before)
         return answer
 
-    def _run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
+    def __run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
         """Call what belongs to the present state and take the transition it asks for."""
-        name = _CALLBACKS[self._machine.state.label]
-        logger = self._node("LifecycleNodeMixin").get_logger()
+        name = _CALLBACKS[self.__machine.state.label]
+        logger = self.__node("LifecycleNodeMixin").get_logger()
         try:
             answer = getattr(self, name)(before)
         except Exception as error:  # noqa: BLE001 - a user's callback may raise anything
@@ -196,38 +196,38 @@ class LifecycleNodeMixin(ManagedEntity):
         if not isinstance(answer, TransitionCallbackReturn):
             logger.error(f"{name}() returned {answer!r}; return a TransitionCallbackReturn")
             answer = _ERROR
-        following = self._machine.find(answer.to_label())
+        following = self.__machine.find(answer.to_label())
         if following is not None:
-            self._go(following)
+            self.__go(following)
         return answer
 
-    def _go(self, transition: Transition) -> None:
-        self._machine.go(transition)
-        if self._events is not None:
+    def __go(self, transition: Transition) -> None:
+        self.__machine.go(transition)
+        if self.__events is not None:
             # rcl_lifecycle fills only the states in, neither stamp nor transition.
             event = message_type("lifecycle_msgs/msg/TransitionEvent")()
             event.start_state = _state_message(transition.start)
             event.goal_state = _state_message(transition.goal)
-            self._events.publish(event)
+            self.__events.publish(event)
 
-    def _on_change_state(self, request: Any, response: Any) -> Any:
+    def __on_change_state(self, request: Any, response: Any) -> Any:
         wanted = request.transition.label or int(request.transition.id)
-        response.success = self._change_state(wanted) is TransitionCallbackReturn.SUCCESS
+        response.success = self.__change_state(wanted) is TransitionCallbackReturn.SUCCESS
         return response
 
-    def _on_get_state(self, _request: Any, response: Any) -> Any:
-        response.current_state = _state_message(self._machine.state.state_id)
+    def __on_get_state(self, _request: Any, response: Any) -> Any:
+        response.current_state = _state_message(self.__machine.state.state_id)
         return response
 
-    def _on_get_states(self, _request: Any, response: Any) -> Any:
+    def __on_get_states(self, _request: Any, response: Any) -> Any:
         response.available_states = [_state_message(number) for number in STATES]
         return response
 
-    def _on_get_available(self, _request: Any, response: Any) -> Any:
-        response.available_transitions = [_description(one) for one in self._machine.available()]
+    def __on_get_available(self, _request: Any, response: Any) -> Any:
+        response.available_transitions = [_description(one) for one in self.__machine.available()]
         return response
 
-    def _on_get_graph(self, _request: Any, response: Any) -> Any:
+    def __on_get_graph(self, _request: Any, response: Any) -> Any:
         response.available_transitions = [_description(one) for one in TRANSITIONS]
         return response
 
