@@ -10,7 +10,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import spec_from_file_location, spec_from_loader
 from pathlib import Path
@@ -18,6 +17,7 @@ from types import CodeType, ModuleType
 from typing import Any
 
 from gazelle.compat.generation import message_generation
+from gazelle.compat.import_bases import Loader, MetaPathFinder
 from gazelle.compat.refused import RefusingFinder
 from gazelle.compat.refusing import AttachingFinder
 

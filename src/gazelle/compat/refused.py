@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import NamedTuple
+
+from gazelle.compat.import_bases import MetaPathFinder
 
 __all__ = ["REFUSED", "Refusal", "RefusingFinder", "refusal_of"]
 

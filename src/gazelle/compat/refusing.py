@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from dis import opmap
 from fnmatch import fnmatchcase
 from functools import wraps
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from importlib.util import spec_from_file_location
 from inspect import getattr_static
@@ -19,6 +18,7 @@ from pathlib import Path
 from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
+from gazelle.compat.import_bases import MetaPathFinder
 from gazelle.compat.refused import REFUSED, refusal_of
 from gazelle.compat.refused_parts import REFUSED_PARTS, RefusedPart
 

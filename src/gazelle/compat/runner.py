@@ -77,12 +77,12 @@ def _entry_point(path: Path, wanted: str = "") -> tuple[Path, str, str] | None:
 
     Of several functions in one file it is `wanted`, ``main``, or the first.
     """
-    from gazelle.workspace.entry_points import console_scripts
-
     file = path.absolute()
     root = next((one for one in file.parents if (one / "package.xml").is_file()), None)
     if root is None:
         return None
+    from gazelle.workspace.entry_points import console_scripts
+
     for folder in (root, root / "src"):
         if folder in file.parents:
             module = ".".join(file.relative_to(folder).with_suffix("").parts)

@@ -261,7 +261,7 @@ class NodeParameters:
         event = _message("ParameterEvent")(node=self.node_name)
         event.stamp.sec, event.stamp.nanosec = divmod(self._now_ns(), 1_000_000_000)
         rows = [
-            _message("Parameter")(name=name, value=value_message(value))
+            _message("Parameter")(name=name, value=value_message(value, for_writing=True))
             for name, value in values.items()
         ]
         kind = "deleted" if deleted else "new" if new else "changed"

@@ -54,6 +54,9 @@ _FIELDS = {
     ParameterType.DOUBLE_ARRAY: "double_array_value",
     ParameterType.STRING_ARRAY: "string_array_value",
 }
+_NO_ARRAYS: dict[str, tuple[()]] = {
+    _FIELDS[kind]: () for kind in ParameterType if kind >= ParameterType.BYTE_ARRAY
+}
 _ARRAYS = {
     bool: ParameterType.BOOL_ARRAY,
     int: ParameterType.INTEGER_ARRAY,
@@ -96,14 +99,21 @@ def _array_type(values: Sequence[Any]) -> ParameterType:
     raise GraphError("a ROS 2 parameter's list has items of one type: bool, int, float or str")
 
 
-def value_message(value: Any) -> Any:
+def value_message(value: Any, *, for_writing: bool = False) -> Any:
     """Return ``rcl_interfaces/msg/ParameterValue`` for a Python value.
+
+    Args:
+        value: None where the parameter is not set.
+        for_writing: nobody looks at the arrays it does not hold, so they are no numpy arrays: a
+            node that tells of its parameters at its start would import numpy for them.
 
     Raises:
         GraphError: ROS 2 has no such parameters.
     """
     kind = parameter_type(value)
-    message = wire.resolve_type("rcl_interfaces/msg/ParameterValue")(type=int(kind))
+    message = wire.resolve_type("rcl_interfaces/msg/ParameterValue")(
+        type=int(kind), **(_NO_ARRAYS if for_writing else {})
+    )
     if kind is not ParameterType.NOT_SET:
         items = list(value) if kind >= ParameterType.BYTE_ARRAY else value
         if kind is ParameterType.DOUBLE_ARRAY:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 from typing import Any
 
-import numpy as np
-
 from gazelle.errors import InterfaceError
+from gazelle.interfaces.arrays import is_array
 from gazelle.interfaces.definition import FORMATS, Array, Field, FieldType, attribute_name
 from gazelle.interfaces.message import Message
 from gazelle.interfaces.ros1_message import Ros1Message
@@ -15,6 +15,7 @@ from gazelle.interfaces.ros1_message import Ros1Message
 __all__ = ["check_fields", "find_problem"]
 
 _BITS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
+_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
 _PARTS = {"time": ("secs", "nsecs"), "duration": ("secs", "nsecs")}
 
 
@@ -54,7 +55,7 @@ def _field_problem(item: Field, value: Any, name: str) -> str | None:
     kind = item.type
     if kind.array is Array.ONE:
         return _value_problem(kind, value, name)
-    if isinstance(value, np.ndarray) and value.dtype.kind in "biuf":
+    if is_array(value) and value.dtype.kind in "biuf":
         items: Any = value.ravel().tolist()
     elif isinstance(value, bytes | bytearray) and kind.base in ("uint8", "char", "byte", "int8"):
         items = ()
@@ -89,15 +90,15 @@ def _number_problem(letter: str, base: str, value: Any, name: str) -> str | None
     if letter == "?":
         return None
     if letter in "fd":
-        if not isinstance(value, numbers.Real | np.number):
+        if not isinstance(value, numbers.Real):
             return _wrong(name, f"a number ({base})", value)
-        if letter == "f" and abs(float(value)) > float(np.finfo(np.float32).max):
-            finite = np.isfinite(float(value))
+        if letter == "f" and abs(float(value)) > _LARGEST_FLOAT32:
+            finite = math.isfinite(float(value))
             return f"field '{name}' is {value!r}, too large for {base}" if finite else None
         return None
     if base == "byte" and isinstance(value, bytes) and len(value) == 1:
         return None
-    if not isinstance(value, numbers.Integral | np.integer):
+    if not isinstance(value, numbers.Integral):
         return _wrong(name, f"a whole number ({base})", value)
     bits = _BITS[letter]
     low, high = (0, 2**bits - 1) if letter.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import numpy as np
-
+from gazelle.interfaces.arrays import is_array, is_array_item
 from gazelle.interfaces.ros1_message import Ros1Message
 from gazelle.interfaces.ros1_time import Time, TVal
 
@@ -55,9 +54,9 @@ class _Printer:
             return self._time(value, indent)
         if isinstance(value, Ros1Message):
             return self._message(value, indent)
-        if isinstance(value, np.ndarray):
+        if is_array(value):
             return self._sequence(value.tolist(), indent)
-        if isinstance(value, np.generic):
+        if is_array_item(value):
             return self.text(value.item(), indent)
         if isinstance(value, list | tuple):
             return self._sequence(value, indent)
@@ -104,7 +103,7 @@ class _Printer:
 
 def _python_number(value: Any) -> Any:
     """Return Python's own number: numpy's show their type in a list."""
-    return value.item() if isinstance(value, np.generic) else value
+    return value.item() if is_array_item(value) else value
 
 
 def _quoted(text: str) -> str:

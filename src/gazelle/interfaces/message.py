@@ -6,11 +6,12 @@ the message is written. Byte sequences (``uint8[]``) take `bytes` too.
 
 from __future__ import annotations
 
-import sys
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gazelle.interfaces import library
+from gazelle.interfaces.arrays import is_array
 from gazelle.interfaces.definition import (
     FORMATS,
     NUMPY_NAMES,
@@ -111,8 +112,9 @@ def _forget() -> None:
 
 def values_equal(a: Any, b: Any) -> bool:
     """Return whether two field values are equal; arrays, lists and tuples by their items."""
-    np = _numpy()
-    if np is not None and (isinstance(a, np.ndarray) or isinstance(b, np.ndarray)):
+    if is_array(a) or is_array(b):
+        import numpy as np
+
         if isinstance(a, bytes | bytearray | memoryview):
             a = np.frombuffer(a, np.uint8)
         if isinstance(b, bytes | bytearray | memoryview):
@@ -123,21 +125,12 @@ def values_equal(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _numpy() -> Any:
-    """Return numpy, None where nobody has imported it yet: then no value is an array.
-
-    Commands that make no message, such as ``rostopic list``, start in half the time without it.
-    """
-    return sys.modules.get("numpy")
-
-
 def _rebuild(name: str, values: list[Any]) -> Message:
     return message_type(name)(*values)
 
 
 def _short(value: Any) -> str:
-    np = _numpy()
-    if np is not None and isinstance(value, np.ndarray):
+    if is_array(value):
         return f"<{value.size} × {value.dtype}>" if value.size > 12 else repr(value.tolist())
     return repr(value)
 
@@ -185,12 +178,10 @@ def _default(item: Field, index: int, space: dict[str, Any], above: tuple[str, .
         space[name] = value
         return None
     if letter is not None:
-        import numpy as np
-
         values = item.default if isinstance(item.default, tuple) else ()
         size = kind.size if kind.array is Array.FIXED else 0
-        space[name] = np.array(values or [0] * size, NUMPY_NAMES[letter])
-        return f"{name}.copy()" if space[name].size else name
+        space[name] = _array_maker(values or (0,) * size, NUMPY_NAMES[letter])
+        return f"{name}()"
     if isinstance(item.default, tuple):
         space[name] = item.default
         return f"list({name})"
@@ -199,6 +190,21 @@ def _default(item: Field, index: int, space: dict[str, Any], above: tuple[str, .
         return f"[''] * {count}" if count else "[]"
     space[name] = _nested(kind.base, above)
     return f"[{name}() for _ in range({count})]" if count else "[]"
+
+
+def _array_maker(values: tuple[Any, ...], kind: str) -> Callable[[], Any]:
+    """Return what makes the default of an array; numpy is imported with the first message."""
+    made: Any = None
+
+    def make() -> Any:
+        nonlocal made
+        if made is None:
+            import numpy as np
+
+            made = np.array(values, kind)
+        return made.copy() if values else made
+
+    return make
 
 
 def _nested(name: str, above: tuple[str, ...]) -> type[Message]:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from typing import Any, NoReturn
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from gazelle.errors import InterfaceError
+from gazelle.interfaces.arrays import is_array
 from gazelle.interfaces.definition import NUMPY_NAMES
+
+if TYPE_CHECKING:
+    import numpy as np
 
 __all__ = [
     "ENCAPSULATION_LE",
     "END_PADS",
     "PADS",
-    "contiguous",
     "packer",
     "too_long",
     "wrong_length",
@@ -30,10 +31,7 @@ PADS = {size: tuple(bytes(-rest % size) for rest in range(size)) for size in (2,
 END_PADS = {size: tuple(bytes(1 + -(rest + 1) % size) for rest in range(size)) for size in PADS}
 """By remainder behind a string's letters: its end byte and the zeros up to the multiple."""
 
-
-def contiguous(array: np.ndarray[Any, Any]) -> Any:
-    """Return an array's bytes, without a copy where they lie in one piece."""
-    return array if array.flags.c_contiguous else array.tobytes()
+_COPY_BELOW = 2048
 
 
 def packer(letter: str, label: str) -> Callable[[Any], tuple[Any, int]]:
@@ -43,9 +41,23 @@ def packer(letter: str, label: str) -> Callable[[Any], tuple[Any, int]]:
         letter: `struct` letter of the numbers.
         label: type and field, for messages of errors.
     """
-    kind = np.dtype("<" + NUMPY_NAMES[letter])
+    kind: np.dtype[Any] | None = None
+    array: type[np.ndarray[Any, Any]] | None = None
 
     def pack(values: Any) -> tuple[Any, int]:
+        nonlocal kind, array
+        if values.__class__ is array and values.dtype is kind:
+            count = values.size
+            if count < _COPY_BELOW or not values.flags.c_contiguous:
+                return values.tobytes(), count
+            return values, count
+        if is_array(values):
+            if kind is None:
+                import numpy as np
+
+                kind, array = _kind(letter), np.ndarray
+                return pack(values)
+            return _from_array(values, kind, label)
         if isinstance(values, list | tuple):
             if letter == "B" and values and values[0].__class__ is bytes:
                 return b"".join(values), len(values)
@@ -54,13 +66,23 @@ def packer(letter: str, label: str) -> Callable[[Any], tuple[Any, int]]:
             return values, memoryview(values).nbytes
         if isinstance(values, str) or values is None:
             raise InterfaceError(f"{label} must be a sequence of numbers, is {values!r}")
-        return _from_array(values, kind, label)
+        import numpy as np
+
+        return _from_array(np.array(list(values)), _kind(letter), label)
 
     return pack
 
 
-def _from_array(values: Any, kind: np.dtype[Any], label: str) -> tuple[bytes, int]:
-    array = values if isinstance(values, np.ndarray) else np.array(list(values))
+def _kind(letter: str) -> np.dtype[Any]:
+    # Only here: numpy's import would be a third of the start of a small node.
+    import numpy as np
+
+    return np.dtype("<" + NUMPY_NAMES[letter])
+
+
+def _from_array(array: np.ndarray[Any, Any], kind: np.dtype[Any], label: str) -> tuple[bytes, int]:
+    import numpy as np
+
     if not array.size:
         return b"", 0
     if not np.can_cast(array.dtype, kind, "same_kind") and not _fits(array, kind):
@@ -74,6 +96,8 @@ def _fits(array: np.ndarray[Any, Any], kind: np.dtype[Any]) -> bool:
         return False
     if kind.kind in "fb":
         return True
+    import numpy as np
+
     limits = np.iinfo(kind)
     return bool(array.min() >= limits.min and array.max() <= limits.max)
 

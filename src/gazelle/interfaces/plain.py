@@ -9,9 +9,8 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-import numpy as np
-
 from gazelle.errors import InterfaceError
+from gazelle.interfaces.arrays import is_array, is_array_item
 from gazelle.interfaces.check import find_problem
 from gazelle.interfaces.definition import (
     FORMATS,
@@ -40,7 +39,7 @@ def to_plain(value: Any) -> Any:
         }
     if isinstance(value, TVal):
         return {"secs": value.secs, "nsecs": value.nsecs}
-    if isinstance(value, np.ndarray | np.generic):
+    if is_array(value) or is_array_item(value):
         return value.tolist()
     if isinstance(value, bytes | bytearray | list | tuple):
         return [to_plain(item) for item in value]
@@ -156,7 +155,7 @@ def _time(base: str, value: Any, path: str) -> TVal:
 def _sequence(msg: Any, item: Field, value: Any, keys: Mapping[str, Any], path: str) -> Any:
     kind = item.type
     is_ros1 = msg.GENERATION is Generation.ROS1
-    if isinstance(value, bytes | np.ndarray):
+    if isinstance(value, bytes) or is_array(value):
         return value
     if value == "":
         value = []
@@ -188,6 +187,8 @@ def _scalar(item: Field, value: Any) -> Any:
 
 
 def _array(msg: Any, item: Field, values: list[Any]) -> Any:
+    import numpy as np
+
     try:
         return np.array(values, NUMPY_NAMES[FORMATS[item.type.base]])
     except (TypeError, ValueError, OverflowError):

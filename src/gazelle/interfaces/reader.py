@@ -10,8 +10,6 @@ import struct
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from gazelle.interfaces.binding import Layout, Slot, Wire
 from gazelle.interfaces.definition import NUMPY_NAMES, Array, Generation
 from gazelle.interfaces.emitter import Emitter, fixed_leaves
@@ -29,7 +27,7 @@ def compile_reader(layout: Layout, wire: Wire, endian: str = "<") -> Callable[[A
     """
     is_ros1 = layout.generation is Generation.ROS1
     reader = _Reader(wire, endian, tuples=is_ros1)
-    reader.space |= {"N": object.__new__, "frombuffer": np.frombuffer, "unpack": struct.unpack_from}
+    reader.space |= {"N": object.__new__, "unpack": struct.unpack_from}
     keep = "bytes(b)" if is_ros1 else "memoryview(b).toreadonly()"
     reader.line(f"if b.__class__ is not bytes: b = {keep}")
     reader.line("o = 0")
@@ -143,6 +141,8 @@ class _Reader(Emitter):
             self._eight_start(count)
         value = self._values(slot, count, self._index())
         if not self._tuples and not slot.as_bytes:
+            import numpy as np
+
             empty = np.empty(0, NUMPY_NAMES[slot.letter])
             value += f" if {count} else {self.constant('E', empty)}"
         self.line(f"{target} = {value}")
@@ -157,6 +157,10 @@ class _Reader(Emitter):
                 read = self.constant("U", struct.Struct(f"{self.endian}{count}{letter}"))
                 return f"{read}.unpack_from(b, {start})"
             return f"unpack('{self.endian}%d{letter}' % {count}, b, {start})"
+        # Only here: messages without arrays of numbers need no numpy, whose import takes long.
+        import numpy as np
+
+        self.space["frombuffer"] = np.frombuffer
         kind = self.constant("T", np.dtype(self.endian + NUMPY_NAMES[letter]))
         return f"frombuffer(b, {kind}, {count}, {start})"
 

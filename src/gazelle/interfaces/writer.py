@@ -10,24 +10,19 @@ import struct
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from gazelle.interfaces.binding import Layout, Slot, Wire
-from gazelle.interfaces.definition import NUMPY_NAMES, Array
+from gazelle.interfaces.definition import Array
 from gazelle.interfaces.emitter import Emitter, fixed_leaves
 from gazelle.interfaces.pack import (
     ENCAPSULATION_LE,
     END_PADS,
     PADS,
-    contiguous,
     packer,
     too_long,
     wrong_length,
 )
 
 __all__ = ["compile_writer"]
-
-_COPY_BELOW = 2048
 
 
 def compile_writer(layout: Layout, wire: Wire) -> Callable[[Any], bytes]:
@@ -39,8 +34,6 @@ def compile_writer(layout: Layout, wire: Wire) -> Callable[[Any], bytes]:
     """
     writer = _Writer(wire, "<", "def write(m):")
     writer.space |= {
-        "ND": np.ndarray,
-        "contiguous": contiguous,
         "too_long": too_long,
         "wrong_length": wrong_length,
     }
@@ -147,13 +140,9 @@ class _Writer(Emitter):
     def _numbers(self, slot: Slot, name: str, label: str) -> None:
         """A numeric array: numpy arrays as they are, anything else is packed one by one."""
         size = struct.calcsize(slot.letter)
-        kind = self.constant("T", np.dtype(self.endian + NUMPY_NAMES[slot.letter]))
         pack = self.constant("F", packer(slot.letter, label))
         count = self.fresh("n")
-        self.line(f"if {name}.__class__ is ND and {name}.dtype is {kind}:")
-        self.line(f" {count} = {name}.size")
-        self.line(f" {name} = {name}.tobytes() if {count} < {_COPY_BELOW} else contiguous({name})")
-        self.line(f"else: {name}, {count} = {pack}({name})")
+        self.line(f"{name}, {count} = {pack}({name})")
         if slot.array is Array.FIXED:
             self._length(slot.size, count, label)
             self._align(size)

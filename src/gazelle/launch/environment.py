@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import shutil
 import sys
@@ -83,6 +82,8 @@ def drop_in_folder() -> Path:
 
 def command_folder() -> Path:
     """Return a folder with the ROS-named commands, made on first use for this Python."""
+    import hashlib
+
     key = hashlib.sha256(f"{sys.executable}\0{__file__}".encode()).hexdigest()[:12]
     folder = _cache_home() / "bin" / key
     folder.mkdir(parents=True, exist_ok=True)

@@ -19,8 +19,6 @@ from urllib.parse import urlsplit
 
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, NoGraphError
-from gazelle.launch.config import NodeSpec
-from gazelle.launch.executables import Executable
 from gazelle.parent import PARENT_VARIABLE
 
 if TYPE_CHECKING:
@@ -82,7 +80,7 @@ def start_bridges(environ: Mapping[str, str]) -> None:
             file=sys.stderr,
         )
         subprocess.Popen(
-            _bridge_command(one.bridge).command,
+            _bridge_words(one.bridge),
             env={**environ, PARENT_VARIABLE: str(os.getpid())},
             start_new_session=True,
         )
@@ -96,10 +94,9 @@ def _names_on_graph() -> tuple[str, ...]:
         return ()
 
 
-def _bridge_command(name: str) -> Executable:
+def _bridge_words(name: str) -> tuple[str, ...]:
     """Return what runs a bridge; it ends with the process that starts it."""
-    words = (sys.executable, "-m", "gazelle.cli", "bridge", name)
-    return Executable(words, takes_ros_words=False)
+    return (sys.executable, "-m", "gazelle.cli", "bridge", name)
 
 
 def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console: Console) -> None:
@@ -107,13 +104,18 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
 
     They would take the place of those that the launch sets sooner.
     """
+    # Only launches do: a simulator by itself looks for real ROS without importing them.
+    from gazelle.launch.config import NodeSpec
+    from gazelle.launch.executables import Executable
+
     for one in seen:
         console.plain(
             f"{one.sign}: gazelle bridge {one.bridge} joins it "
             f"(roslaunch --no-bridge or {_VARIABLE}=no keep apart)"
         )
         spec = NodeSpec("gazelle", "bridge", f"{one.bridge}_bridge", output="screen")
-        supervisor.start(spec, _bridge_command(one.bridge), core=True)
+        words = _bridge_words(one.bridge)
+        supervisor.start(spec, Executable(words, takes_ros_words=False), core=True)
         if not _is_joined(one, graph, partial(supervisor.runs, spec)):
             console.warning(f"the bridge to {one.bridge} is not ready; the launch goes on")
 

@@ -2,9 +2,26 @@
 
 from __future__ import annotations
 
-from gazelle.workspace.manifest import Export
-from gazelle.workspace.package import Package
-from gazelle.workspace.resolved import Resolved
-from gazelle.workspace.workspace import Workspace
+# As typing has it: importing that is a part of what not importing the modules below saves.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from gazelle.workspace.manifest import Export
+    from gazelle.workspace.package import Package
+    from gazelle.workspace.resolved import Resolved
+    from gazelle.workspace.workspace import Workspace
 
 __all__ = ["Export", "Package", "Resolved", "Workspace"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for: a node that needs one module of this package needs no other."""
+    if name in __all__:
+        from importlib import import_module
+
+        module = "manifest" if name == "Export" else name.lower()
+        found = getattr(import_module(f"{__name__}.{module}"), name)
+        globals()[name] = found
+        return found
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

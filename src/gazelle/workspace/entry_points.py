@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import configparser
-import tomllib
 from pathlib import Path
 
 __all__ = ["console_scripts"]
@@ -90,6 +89,9 @@ def _from_cfg(text: str) -> dict[str, str]:
 
 
 def _from_pyproject(text: str) -> dict[str, str]:
+    # Few packages of ROS have the file, and its reader takes as long to import as Python itself.
+    import tomllib
+
     scripts = tomllib.loads(text).get("project", {}).get("scripts", {})
     return {str(name): str(target) for name, target in scripts.items()}
 

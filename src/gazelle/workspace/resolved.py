@@ -9,7 +9,6 @@ from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
 from gazelle.limits.names import exists
-from gazelle.workspace.installed import installed_source
 
 __all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
 
@@ -72,6 +71,9 @@ def locate(base: Path, relative: str) -> tuple[Path | None, str]:
     path = base / relative if relative else base
     if exists(path):
         return path, ""
+    # Only here: what reads build files is a third of what a node imports for its workspace.
+    from gazelle.workspace.installed import installed_source
+
     source = installed_source(path.absolute())
     if source is not None:
         return source, ""

@@ -10,10 +10,7 @@ any joined path leads to it, and nothing has to be built. What no rule names is 
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
-import shutil
-import tempfile
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -75,6 +72,8 @@ def _places_below(folder: Path) -> Iterator[str]:
 
 def _linked(folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[str, str]) -> Path:
     """Return the tree of links and texts for these places; made once, and never changed."""
+    import hashlib
+
     rows = "\n".join(f"{place}\t{source}" for place, source in sorted({**files, **texts}.items()))
     digest = hashlib.sha256(f"{folder}\n{rows}".encode(errors="surrogateescape")).hexdigest()[:16]
     failure: OSError | None = None
@@ -94,12 +93,16 @@ def _tops() -> Iterator[Path]:
     """Yield the folders for links: the cache, and one that can be written where it cannot."""
     base = os.environ.get("XDG_CACHE_HOME")
     yield (Path(base) if base else Path.home() / ".cache") / LINKS_FOLDER
+    import tempfile
+
     yield Path(tempfile.gettempdir()) / f"user-{os.getuid()}" / LINKS_FOLDER
 
 
 def _make(
     made: Path, folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[str, str]
 ) -> None:
+    import tempfile
+
     made.parent.mkdir(parents=True, exist_ok=True)
     _forget_others(made.parent)
     with tempfile.TemporaryDirectory(
@@ -128,6 +131,8 @@ def _make(
 
 def _forget_others(top: Path) -> None:
     """Remove the oldest trees, and those whose package is gone."""
+    import shutil
+
     trees = [item for item in top.iterdir() if not item.name.startswith(".")]
     trees.sort(key=lambda item: item.lstat().st_mtime, reverse=True)
     for place, tree in enumerate(trees):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_loader
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+
+from gazelle.compat.import_bases import Loader, MetaPathFinder
 
 __all__ = ["ConfigFinder"]
 

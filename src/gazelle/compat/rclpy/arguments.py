@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import yaml
-
 from gazelle.errors import GraphError
 
 if TYPE_CHECKING:
@@ -166,6 +164,9 @@ def _rule(text: str, option: str) -> _Rule:
 
 
 def _yaml(text: str) -> Any:
+    # Most nodes are given no values.
+    import yaml
+
     try:
         return yaml.safe_load(text)
     except yaml.YAMLError:

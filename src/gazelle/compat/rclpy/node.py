@@ -101,8 +101,7 @@ class Node(ParameterHolder, GraphQueries):
         own = parse_ros_arguments(cli_args or [])
         name = own.node_name(given.node_name(node_name))
         space = own.namespace(node_name) or given.namespace(node_name) or namespace or ""
-        # Whoever sees the node sees its services too.
-        with self.context.graph.announcements.together():
+        with self.context.graph.announcements.together():  # who sees the node sees its services
             self.graph_node = self.context.graph.create_node(
                 name,
                 namespace=resolve(space or "/"),

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
-import yaml
-
 from gazelle.errors import GraphError
 from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
@@ -100,6 +98,8 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 def get_parameter_value(string_value: str) -> Any:
     """Return ``ParameterValue`` of a text as the command line takes it: YAML, or the text."""
+    import yaml
+
     try:
         return value_message(yaml.safe_load(string_value))
     except (yaml.YAMLError, GraphError):

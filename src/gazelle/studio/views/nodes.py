@@ -23,7 +23,6 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.studio.plugins.names import own_panel
 from gazelle.studio.views.presence import Request, is_switched_off, present, say
 
 __all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
@@ -96,6 +95,8 @@ def rqt(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     plugin = options.get("-s") or options.get("--standalone") or ""
     if plugin:
         found = _PLUGIN.match(plugin)
+        from gazelle.studio.plugins.names import own_panel
+
         panel = own_panel(plugin) or (found["package"] if found else plugin)
         return run_view(panel, {}, arguments, graph, stop)
     file = options.get("--perspective-file", "")
