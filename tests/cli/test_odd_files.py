@@ -27,11 +27,48 @@ def test_check_urdf_reads_what_a_command_writes() -> None:
     assert found.returncode == 0
 
 
-@pytest.mark.parametrize("command", ["check_urdf", "xacro", "gz sdf -k", "ign sdf -k"])
-def test_endless_device_and_silent_pipe_are_refused(command: str, tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    found = _run(f"for file in /dev/zero {tmp_path}/pipe; do {_GAZELLE} {command} $file; done")
-    text = found.stdout + found.stderr
+_COMMANDS = ("check_urdf", "xacro", "gz sdf -k", "ign sdf -k")
+# All commands in one process: what is shown is that none of them waits, not how it starts.
+_EVERY = """
+import contextlib, sys
+from gazelle.cli.main import main
+sys.stderr = sys.stdout
+for command in sys.argv[2:]:
+    for file in ("/dev/zero", sys.argv[1]):
+        print("==", command, flush=True)
+        with contextlib.suppress(SystemExit):
+            main([*command.split(), file])
+"""
+
+
+@pytest.fixture(scope="module")
+def pipe(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A pipe that nobody writes to."""
+    path = tmp_path_factory.mktemp("odd") / "pipe"
+    os.mkfifo(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def told(pipe: Path) -> dict[str, str]:
+    """What each command says of an endless device and of the pipe."""
+    done = subprocess.run(
+        [sys.executable, "-c", _EVERY, str(pipe), *_COMMANDS],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=stretched(),
+        check=True,
+    )  # fmt: skip
+    texts = dict.fromkeys(_COMMANDS, "")
+    for part in done.stdout.split("== ")[1:]:
+        command, _, text = part.partition("\n")
+        texts[command] += text
+    return texts
+
+
+@pytest.mark.parametrize("command", _COMMANDS)
+def test_endless_device_and_silent_pipe_are_refused(
+    command: str, told: dict[str, str], pipe: Path
+) -> None:
+    text = told[command]
     assert "Traceback" not in text
     assert "it is a device, not a file" in text
-    assert str(tmp_path / "pipe") in text
+    assert str(pipe) in text

@@ -111,40 +111,59 @@ def test_refused_modules_say_what_they_are() -> None:
     assert {row.module for row in REFUSED} <= listed
 
 
-@pytest.mark.parametrize(
-    ("program", "error"),
-    [
-        (
-            "from rclpy.waitable import Waitable",
-            "ModuleNotFoundError: No module named 'rclpy.waitable': gazelle: it is rclpy's inside",
-        ),
-        (
-            "from rclpy.impl.rcutils_logger import RcutilsLogger",
-            "No module named 'rclpy.impl.rcutils_logger': gazelle: it is rclpy's inside",
-        ),
-        (
-            "from launch.frontend.parse_substitution import get_grammar_path",
-            "ImportError: cannot import name 'get_grammar_path' from",
-        ),
-        (
-            "import rclpy.clock; rclpy.clock.ClockHandle",
-            "has no attribute 'ClockHandle': gazelle: it belongs to rclpy's C library",
-        ),
-        (
-            "from rclpy.node import Node; Node.__new__(Node).handle",
-            "AttributeError: 'Node' object has no attribute 'handle': gazelle: it belongs to",
-        ),
-        (
-            "from rclpy.client import Client; Client(client_impl=1)",
-            "TypeError: Client() got an unexpected keyword argument 'client_impl': gazelle: it is"
-            " filled in by rclpy itself",
-        ),
-    ],
+_USES = (
+    (
+        "from rclpy.waitable import Waitable",
+        "ModuleNotFoundError: No module named 'rclpy.waitable': gazelle: it is rclpy's inside",
+    ),
+    (
+        "from rclpy.impl.rcutils_logger import RcutilsLogger",
+        "No module named 'rclpy.impl.rcutils_logger': gazelle: it is rclpy's inside",
+    ),
+    (
+        "from launch.frontend.parse_substitution import get_grammar_path",
+        "ImportError: cannot import name 'get_grammar_path' from",
+    ),
+    (
+        "import rclpy.clock; rclpy.clock.ClockHandle",
+        "has no attribute 'ClockHandle': gazelle: it belongs to rclpy's C library",
+    ),
+    (
+        "from rclpy.node import Node; Node.__new__(Node).handle",
+        "AttributeError: 'Node' object has no attribute 'handle': gazelle: it belongs to",
+    ),
+    (
+        "from rclpy.client import Client; Client(client_impl=1)",
+        "TypeError: Client() got an unexpected keyword argument 'client_impl': gazelle: it is"
+        " filled in by rclpy itself",
+    ),
 )
-def test_uses_of_refused_names_end_with_their_sentence(program: str, error: str) -> None:
-    done = _python(program)
-    assert error in done.stderr
-    assert "gazelle: it " in done.stderr
+# Each in the same process, told as Python itself would.
+_EACH = """
+import json, sys, traceback
+for program in json.loads(sys.argv[1]):
+    print("==", file=sys.stderr)
+    try:
+        exec(program, {})
+    except Exception:
+        traceback.print_exc()
+"""
+
+
+@pytest.fixture(scope="module")
+def told() -> dict[str, str]:
+    """What each use of a refused name ends with."""
+    programs = [program for program, _ in _USES]
+    done = _python(_EACH, json.dumps(programs))
+    return dict(zip(programs, done.stderr.split("==\n")[1:], strict=True))
+
+
+@pytest.mark.parametrize(("program", "error"), _USES)
+def test_uses_of_refused_names_end_with_their_sentence(
+    told: dict[str, str], program: str, error: str
+) -> None:
+    assert error in told[program]
+    assert "gazelle: it " in told[program]
 
 
 def test_refused_names_are_not_there_and_a_users_own_are() -> None:
@@ -161,11 +180,11 @@ print(Mine().waitables)
     assert done.stdout == "False False 3\n4\n", done.stderr
 
 
-def _python(program: str) -> subprocess.CompletedProcess[str]:
+def _python(program: str, *words: str) -> subprocess.CompletedProcess[str]:
     file = "import gazelle.compat.finder as f; f.install()\n" + program
     modules = Path(__file__).parents[2] / "src" / "gazelle" / "compat" / "modules"
     return subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(modules)!r}); {file}"],
+        [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(modules)!r}); {file}", *words],
         capture_output=True,
         text=True,
         check=False,

@@ -41,7 +41,12 @@ for word in sys.argv[1:]:
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A package ``tests_pkg`` with the executable ``does``."""
-    folder = tmp_path / "src" / "tests_pkg"
+    return write_package(tmp_path)
+
+
+def write_package(workspace: Path) -> Path:
+    """Write the package into a workspace; return its folder."""
+    folder = workspace / "src" / "tests_pkg"
     (folder / "scripts").mkdir(parents=True)
     (folder / "package.xml").write_text(
         "<package><name>tests_pkg</name><version>1.0.0</version>"

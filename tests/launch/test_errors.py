@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import socket
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.launch.conftest import write_package
 
 from gazelle.cli.main import main
 
@@ -31,8 +33,17 @@ _JOINT = (
     '<joint name="j" type="continuous"><parent link="base"/><child link="arm"/>'
     '<axis xyz="0 0 1"/></joint>'
 )
+_WORLD = """<sdf version="1.6"><world name="w">
+  <include><uri>model://tablet</uri></include>
+  <include><uri>model://ground_plane</uri></include>
+</world></sdf>
+"""
 _LAUNCH = """<launch>
-  <include file="$(find gazebo_ros)/launch/empty_world.launch"/>
+  <include file="$(find gazebo_ros)/launch/empty_world.launch">
+    <arg name="world_name" value="$(find tests_pkg)/some.world"/>
+    <arg name="gui" value="false"/>
+    <arg name="paused" value="true"/>
+  </include>
   <param name="robot_description" textfile="$(find tests_pkg)/robot.urdf"/>
   <node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/>
   <node pkg="gazebo_ros" type="spawn_model" name="spawn" output="screen"
@@ -41,17 +52,41 @@ _LAUNCH = """<launch>
 """
 
 
-@pytest.fixture
-def robot(gazelle: Run, package: Path, tmp_path: Path) -> Run:
-    """Launches a world with a robot in it."""
+def _write(package: Path, mass: str = "1", joint: str = _JOINT) -> None:
+    """Write a launch file with a world and a robot in it."""
+    robot = _ROBOT.format(mass=mass, joint=joint)
+    texts = {"robot.urdf": robot, "robot.launch": _LAUNCH, "some.world": _WORLD}
+    for name, text in texts.items():
+        (package / name).write_text(text, encoding="utf-8")
 
-    def run(mass: str = "1", joint: str = _JOINT) -> Any:
-        text = _ROBOT.format(mass=mass, joint=joint)
-        (package / "robot.urdf").write_text(text, encoding="utf-8")
-        (package / "robot.launch").write_text(_LAUNCH, encoding="utf-8")
-        return gazelle("roslaunch", "tests_pkg", "robot.launch", cwd=tmp_path)
 
-    return run
+@dataclass
+class _Mistaken:
+    """A launch that goes on in spite of all the mistakes in its world and its robot.
+
+    Attributes:
+        run: the launch, when its robot is spawned.
+        package: with the files.
+        models: the folder of models it was told of.
+    """
+
+    run: Any
+    package: Path
+    models: Path
+
+
+@pytest.fixture(scope="module")
+def mistaken(module_gazelle: Run, tmp_path_factory: pytest.TempPathFactory) -> _Mistaken:
+    """One launch for all that only look at what it says."""
+    folder = tmp_path_factory.mktemp("mistaken")
+    package, models = write_package(folder), folder / "models"
+    models.mkdir()
+    _write(package, mass="1kg")
+    run = module_gazelle(
+        "roslaunch", "tests_pkg", "robot.launch", cwd=folder, GAZEBO_MODEL_PATH=str(models)
+    )
+    run.wait_for_line("Spawn status: SpawnModel: Successfully spawned entity")
+    return _Mistaken(run, package, models)
 
 
 def _only(lines: list[str], code: str) -> str:
@@ -64,10 +99,9 @@ def _only(lines: list[str], code: str) -> str:
 
 
 def test_missing_mesh_zero_inertia_and_unknown_plugin_are_told_and_the_robot_is_spawned(
-    robot: Run, package: Path
+    mistaken: _Mistaken,
 ) -> None:
-    run = robot()
-    run.wait_for_line("Spawn status: SpawnModel: Successfully spawned entity")
+    run, package = mistaken.run, mistaken.package
     urdf = package / "robot.urdf"
     mesh = _only(run.lines, "urdf.mesh-missing")
     assert mesh.startswith(f"{urdf}:5:23: warning: the visual mesh of link 'base' cannot be seen")
@@ -81,21 +115,19 @@ def test_missing_mesh_zero_inertia_and_unknown_plugin_are_told_and_the_robot_is_
     assert run.popen.poll() is None
 
 
-def test_bad_number_is_named_and_the_link_goes_without_inertial(robot: Run, package: Path) -> None:
+def test_bad_number_is_named_and_the_link_goes_without_inertial(mistaken: _Mistaken) -> None:
     """urdfdom: "Could not parse inertial element for Link [base]", and the robot is taken."""
-    run = robot(mass="1kg")
-    run.wait_for_line("Spawn status: SpawnModel: Successfully spawned entity")
+    run, urdf = mistaken.run, mistaken.package / "robot.urdf"
     line = _only(run.lines, "xml.bad-number")
-    assert line.startswith(
-        f"{package / 'robot.urdf'}:3:28: warning: <mass value>: '1kg' is not a finite number"
-    )
+    assert line.startswith(f"{urdf}:3:28: warning: <mass value>: '1kg' is not a finite number")
     assert '    <inertial><mass value="1kg"/>\n' in run.text
 
 
 def test_two_roots_are_named_by_the_simulator_and_in_one_line_by_other_nodes(
-    robot: Run, package: Path
+    gazelle: Run, package: Path, tmp_path: Path
 ) -> None:
-    run = robot(joint="")
+    _write(package, joint="")
+    run = gazelle("roslaunch", "tests_pkg", "robot.launch", cwd=tmp_path)
     run.wait_for_line(r"\[spawn-\d\] process has died")
     line = _only(run.lines, "urdf.two-roots")
     assert line.startswith(f"{package / 'robot.urdf'}:7:3: error: two root links found: 'base' and")
@@ -104,27 +136,14 @@ def test_two_roots_are_named_by_the_simulator_and_in_one_line_by_other_nodes(
 
 
 def test_missing_model_lists_where_it_was_looked_for_and_the_world_goes_on(
-    gazelle: Run, package: Path, tmp_path: Path
+    mistaken: _Mistaken,
 ) -> None:
-    world = package / "some.world"
-    world.write_text(
-        '<sdf version="1.6"><world name="w">\n'
-        "  <include><uri>model://tablet</uri></include>\n"
-        "  <include><uri>model://ground_plane</uri></include>\n</world></sdf>",
-        encoding="utf-8",
-    )
-    models = tmp_path / "models"
-    models.mkdir()
-    run = gazelle(
-        "roslaunch", "gazebo_ros", "empty_world.launch", f"world_name:={world}",
-        GAZEBO_MODEL_PATH=str(models),
-    )  # fmt: skip
-    run.wait_for_line("Finished loading Gazebo ROS API Plugin")
+    run, world = mistaken.run, mistaken.package / "some.world"
     line = _only(run.lines, "sdf.missing-model")
     assert line.startswith(f"{world}:2:12: warning: included model 'model://tablet' not found")
-    assert f"    {models / 'tablet'}" in run.lines
+    assert f"    {mistaken.models / 'tablet'}" in run.lines
     answer = run.call("/gazebo/get_world_properties", "gazebo_msgs/srv/GetWorldProperties")
-    assert answer.model_names == ["ground_plane"]
+    assert answer.model_names == ["ground_plane", "r"]
 
 
 def test_all_mistakes_of_a_launch_file_are_told_at_once_and_nothing_starts(

@@ -6,19 +6,60 @@ import os
 import re
 import signal
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.launch.conftest import node as written_node
+from tests.launch.conftest import write_package
+from tests.patience import stretched
 
 Launch = Callable[..., Any]
 
 
-def test_ends_of_nodes_are_told_as_roslaunch_does_and_the_last_one_ends_the_launch(
-    launch: Launch, node: Launch
-) -> None:
-    run = launch(node("fine", "exit=0") + node("bad", "exit=3"))
+@dataclass
+class _Ended:
+    """A launch whose nodes have all ended.
+
+    Attributes:
+        run: the launch.
+        package: with the script that its nodes run.
+        ros_home: where its logs are.
+    """
+
+    run: Any
+    package: Path
+    ros_home: Path
+
+
+@pytest.fixture(scope="module")
+def ended(module_gazelle: Launch, tmp_path_factory: pytest.TempPathFactory) -> _Ended:
+    """One launch for all that only look at what its nodes said and left."""
+    folder = tmp_path_factory.mktemp("ended")
+    file = folder / "test.launch"
+    nodes = (
+        written_node("fine", "exit=0"),
+        written_node("bad", "exit=3"),
+        written_node("quiet", "say=hello complain=trouble"),
+        written_node("loud", "say=hi", output="screen"),
+        '<env name="COLOUR" value="blue"/>',
+        written_node("one", "env=COLOUR cwd env=ROS_NAMESPACE", output="screen", ns="deep"),
+        written_node(
+            "two", "cwd env=PRE", cwd="node", output="screen", launch_prefix="env PRE=fix"
+        ),
+    )
+    package, home = write_package(folder), folder / "ros_home"
+    file.write_text(f"<launch>{''.join(nodes)}</launch>", encoding="utf-8")
+    run = module_gazelle("roslaunch", str(file), cwd=folder, ROS_HOME=str(home))
     assert run.wait() == 0
+    return _Ended(run, package, home)
+
+
+def test_ends_of_nodes_are_told_as_roslaunch_does_and_the_last_one_ends_the_launch(
+    ended: _Ended,
+) -> None:
+    run = ended.run
     assert re.search(
         r"\[fine-\d\] process has finished cleanly\nlog file: .*/fine-\d\*\.log", run.text
     )
@@ -53,30 +94,18 @@ def test_respawn_starts_again_under_the_same_label_after_its_delay(
 
 
 def test_node_sees_its_environment_folder_arguments_and_prefix(
-    launch: Launch, node: Launch, package: Path, tmp_path: Path
+    ended: _Ended,
 ) -> None:
-    body = (
-        '<env name="COLOUR" value="blue"/>'
-        + node("one", "env=COLOUR cwd env=ROS_NAMESPACE", output="screen", ns="deep")
-        + node("two", "cwd env=PRE", cwd="node", output="screen", launch_prefix="env PRE=fix")
-    )
-    run = launch(body)
-    assert run.wait() == 0
-    assert {"COLOUR is blue", "ROS_NAMESPACE is /deep", "PRE is fix"} <= set(run.lines)
-    assert f"cwd is {tmp_path / 'ros_home'}" in run.lines
-    assert f"cwd is {package / 'scripts'}" in run.lines
+    lines = set(ended.run.lines)
+    assert {"COLOUR is blue", "ROS_NAMESPACE is /deep", "PRE is fix"} <= lines
+    assert f"cwd is {ended.ros_home}" in lines
+    assert f"cwd is {ended.package / 'scripts'}" in lines
 
 
-def test_log_output_goes_to_files_and_standard_error_to_the_terminal(
-    launch: Launch, node: Launch, tmp_path: Path
-) -> None:
-    run = launch(
-        node("quiet", "say=hello complain=trouble") + node("loud", "say=hi", output="screen")
-    )
-    assert run.wait() == 0
-    assert "hello" not in run.lines
-    assert {"trouble", "hi"} <= set(run.lines)
-    (file,) = (tmp_path / "ros_home" / "log" / "latest").glob("quiet-*-stdout.log")
+def test_log_output_goes_to_files_and_standard_error_to_the_terminal(ended: _Ended) -> None:
+    assert "hello" not in ended.run.lines
+    assert {"trouble", "hi"} <= set(ended.run.lines)
+    (file,) = (ended.ros_home / "log" / "latest").glob("quiet-*-stdout.log")
     assert file.read_text(encoding="utf-8") == "hello\n"
 
 
@@ -89,19 +118,19 @@ def test_screen_and_log_options_override_the_file(launch: Launch, node: Launch) 
     assert "hello" not in run.lines
 
 
-@pytest.mark.parametrize(
-    ("ignored", "last"), [("ignore=SIGINT", "SIGTERM"), ("ignore=SIGINT ignore=SIGTERM", "SIGKILL")]
-)
-def test_stubborn_nodes_get_stronger_signals(
-    launch: Launch, node: Launch, ignored: str, last: str
-) -> None:
+def test_stubborn_nodes_get_stronger_signals(launch: Launch, node: Launch) -> None:
+    # The mule dies of SIGTERM, for which a busy machine needs a while.
+    nodes = {"mule": "ignore=SIGINT", "rock": "ignore=SIGINT ignore=SIGTERM"}
     run = launch(
-        node("mule", f"{ignored} say=ready wait", output="screen"),
-        "--sigint-timeout=0.2", "--sigterm-timeout=0.2",
+        "".join(node(name, f"{ignored} say={name}_ready wait", output="screen")
+                for name, ignored in nodes.items()),
+        "--sigint-timeout=0.2", f"--sigterm-timeout={stretched(1.0)}",
     )  # fmt: skip
-    run.wait_for_line("^ready$")
+    for name in nodes:
+        run.wait_for_line(f"^{name}_ready$")
     assert run.stop() == 0
-    assert re.findall(r"\[mule-2\] escalating to (\w+)", run.text)[-1] == last
+    told = re.findall(r"\[(\w+)-\d\] escalating to (\w+)", run.text)
+    assert dict(told) == {"mule": "SIGTERM", "rock": "SIGKILL"}
     assert run.processes() == {}
 
 
@@ -154,7 +183,8 @@ def test_killed_process_of_light_nodes_is_replaced(launch: Launch) -> None:
 def test_killed_simulator_is_reported_and_comes_back_when_the_file_says_so(
     gazelle: Launch,
 ) -> None:
-    run = gazelle("roslaunch", "gazebo_ros", "empty_world.launch", "respawn_gazebo:=true")
+    run = gazelle("roslaunch", "gazebo_ros", "empty_world.launch", "respawn_gazebo:=true",
+                  "gui:=false")  # fmt: skip
     pid = int(re.search(r"\[(\d+)\]", run.wait_for_line(r"process\[gazebo-2\]: started"))[1])
     run.messages({"/clock": 1})
     os.kill(pid, signal.SIGKILL)

@@ -75,11 +75,11 @@ def test_a_failing_test_shows_the_output_and_what_is_there_instead(speech_tests:
 def test_topic(gazelle_launch):
     start(gazelle_launch).topic("/wordz", timeout_s=0.5)
 
-def test_message(gazelle_launch):
-    start(gazelle_launch).topic("/words").next(timeout_s=0.2)
-
 def test_listener(gazelle_launch):
     launch = start(gazelle_launch)
+    with pytest.raises(AssertionError, match="on '/words' within 0.2 s; published by /speaker, "
+                       "with nothing sent"):
+        launch.topic("/words").next(timeout_s=0.2)
     with pytest.raises(AssertionError, match="no parameter '/speaker/ent' within 0.1 s; did you"):
         launch.param("/speaker/ent", timeout_s=0.1)
     with pytest.raises(AssertionError, match="no node '/speker' within 0.1 s; did you mean '/sp"):
@@ -97,14 +97,11 @@ def test_listener(gazelle_launch):
 """
     )
     text = ran.stdout
-    assert "3 failed" in text, text
+    assert "2 failed" in text, text
     assert "no topic '/wordz' within 0.5 s; did you mean '/words'?" in text, text
-    assert (
-        "no message on '/words' within 0.2 s; published by /speaker, with nothing sent" in text
-    ), text
     assert "no line matches 'never written' within 0.5 s" in text, text
-    assert text.count("-- roslaunch speech speech.launch --") == 3
-    assert text.count("the speaker is ready") == 3
+    assert text.count("-- roslaunch speech speech.launch --") == 2
+    assert text.count("the speaker is ready") == 2
 
 
 def test_a_launch_that_fails_is_not_waited_for(speech_tests: Pytest) -> None:
@@ -151,7 +148,7 @@ def _environment(process: psutil.Process) -> dict[str, str]:
 def test_workers_of_xdist_get_graphs_of_their_own(speech_tests: Pytest) -> None:
     ran = speech_tests(
         """
-@pytest.mark.parametrize("number", range(12))
+@pytest.mark.parametrize("number", range(6))
 def test_alone(gazelle_graph, number):
     assert gazelle_graph.is_hub
     gazelle_graph.create_node("only_one")
@@ -160,7 +157,7 @@ def test_alone(gazelle_graph, number):
         "-n",
         "2",
     )
-    assert "12 passed" in ran.stdout, ran.stdout
+    assert "6 passed" in ran.stdout, ran.stdout
 
 
 def test_the_marker_sets_seed_and_port_and_refuses_what_it_does_not_know(
@@ -175,9 +172,9 @@ def test_port(gazelle_graph):
 @pytest.mark.gazelle(seed=3)
 def test_seed(gazelle_launch, gazelle_simulation):
     assert gazelle_simulation().time_s == 0.0
-    launch = gazelle_launch("gazebo_ros", "empty_world.launch")
+    launch = gazelle_launch("gazebo_ros", "empty_world.launch", args={{"gui": False}})
     launch.wait_until(0.01)
-    assert launch.title == "roslaunch --seed 3 gazebo_ros empty_world.launch"
+    assert launch.title == "roslaunch --seed 3 gazebo_ros empty_world.launch gui:=false"
 
 @pytest.mark.gazelle(sead=3)
 def test_unknown(gazelle_graph):

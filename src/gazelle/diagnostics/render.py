@@ -35,10 +35,14 @@ def render(
         stream: where to; standard error when None.
         sources: texts of spans that are no files, by `SourceSpan.file`.
     """
+    found = grouped(diagnostics)
+    if not found:
+        # Most launches and commands have nothing to tell, and rich takes long to import.
+        return
     from rich.console import Console
 
     console = Console(file=stream or sys.stderr, soft_wrap=True, highlight=False)
-    for item in grouped(diagnostics):
+    for item in found:
         console.print(_rich_text(item, sources or {}))
 
 

@@ -27,7 +27,7 @@ def test_its_lidar_sees_the_walls(gazelle_launch):
     scan = launch.topic("/scan").next()
     assert scan.header.frame_id == "lidar_link"
     assert scan.ranges[180] == pytest.approx(4.0, abs=0.05)
-    launch.wait_until(sim_time_s=5.0)
+    launch.wait_until(sim_time_s=2.0)
     state = launch.call("/gazebo/get_model_state", model_name="scout")
     assert state.success
     assert abs(state.pose.position.x) < 1e-3
