@@ -11,7 +11,9 @@ import pytest
 import yaml
 
 from gazelle.errors import LaunchError
+from gazelle.graph import Node
 from gazelle.interfaces import message_type
+from gazelle.nodes import robot_state_publisher
 from gazelle.nodes.robot_state_publisher import StateToTf
 from gazelle.nodes.tree import joint_tree, read_description, segment_names
 
@@ -184,6 +186,25 @@ def test_two_nodes_of_ros2_with_one_name_stay(bench: Any, tmp_path: Path) -> Non
         bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
     bench.eventually(lambda: len(got) == 2)
     assert bench.stop() == [0, 0]
+
+
+def test_description_stays_when_another_node_of_its_name_takes_the_parameter(
+    bench: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A node of ROS 2 that starts forgets the parameters of one that had its name."""
+    read = robot_state_publisher.take_description_file
+
+    def read_and_lose(node: Node, name: str) -> str:
+        text = read(node, name)
+        node.parameters.delete(node.name)
+        return text
+
+    monkeypatch.setattr(robot_state_publisher, "take_description_file", read_and_lose)
+    (tmp_path / "r.urdf").write_text(ROBOT)
+    got = bench.listen("/robot_description", "std_msgs/msg/String")
+    bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
+    bench.eventually(lambda: [one.data for one in got] == [ROBOT])
+    assert bench.stop() == [0]
 
 
 _ON_WORLD = ROBOT.replace(

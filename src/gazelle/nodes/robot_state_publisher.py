@@ -28,8 +28,9 @@ from gazelle.nodes.parameters import private, private_number, start_node
 from gazelle.nodes.tree import (
     DESCRIPTION,
     TreeJoint,
+    description_of,
     joint_tree,
-    robot_of,
+    robot_in,
     segment_names,
     take_description_file,
 )
@@ -44,9 +45,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     ros2 = arguments.generation == 2
     if ros2 and arguments.rest:
-        take_description_file(node, arguments.rest[0])
-    model = robot_of(node)
-    if model is None:
+        text: str | None = take_description_file(node, arguments.rest[0])
+    else:
+        text = description_of(node)
+    model = None if text is None else robot_in(node, text)
+    if text is None or model is None:
         node.shutdown()
         return 1
     frequency_hz = private_number(
@@ -61,19 +64,13 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     if ros2:
         for name in segment_names(model):
             node.log("info", f"got segment {name}")
-        _publish_description(node)
+        kind: Any = message_type("std_msgs/msg/String")
+        node.create_publisher(DESCRIPTION, kind, latch=True).publish(kind(data=text))
     is_static = bool(private(node, arguments, "use_tf_static", True))
     _connect(node, states, is_static, _begin_ns(node, arguments))
     stop.wait()
     node.shutdown()
     return 0
-
-
-def _publish_description(node: Node) -> None:
-    name = node.parameters.search(DESCRIPTION) or DESCRIPTION
-    kind: Any = message_type("std_msgs/msg/String")
-    publisher = node.create_publisher(DESCRIPTION, kind, latch=True)
-    publisher.publish(kind(data=str(node.parameters.get(name))))
 
 
 def _prefix(node: Node, arguments: NodeArguments) -> str:

@@ -25,9 +25,11 @@ from gazelle.interfaces import message_type
 __all__ = [
     "DESCRIPTION",
     "TreeJoint",
+    "description_of",
     "joint_tree",
     "published_robot_of",
     "read_description",
+    "robot_in",
     "robot_of",
     "segment_names",
     "take_description_file",
@@ -104,17 +106,22 @@ def _sdf_robot(root: Tag, context: ReadContext) -> Model | None:
 
 
 def robot_of(node: Node) -> Model | None:
-    """Return the robot of the nearest ``robot_description``; None when the node has said why not.
+    """Return the robot of `description_of`; None when the node has said why not."""
+    text = description_of(node)
+    return None if text is None else robot_in(node, text)
+
+
+def description_of(node: Node) -> str | None:
+    """Return the nearest ``robot_description``; None when the node has said that there is none.
 
     The node's own ``robot_description`` remap applies, and the search goes up its namespaces.
     """
     name = node.parameters.search(DESCRIPTION) or node.resolve_name(DESCRIPTION)
     try:
-        text = str(node.parameters.get(name))
+        return str(node.parameters.get(name))
     except (GraphError, KeyError):
         node.log("error", f"Could not find parameter {name} on parameter server")
         return None
-    return _read_or_say(node, text)
 
 
 def published_robot_of(node: Node, words: Sequence[str], stop: threading.Event) -> Model | None:
@@ -129,7 +136,7 @@ def published_robot_of(node: Node, words: Sequence[str], stop: threading.Event) 
         LaunchError: the file cannot be read.
     """
     if words:
-        take_description_file(node, words[0])
+        return robot_in(node, take_description_file(node, words[0]))
     if node.parameters.search(DESCRIPTION):
         return robot_of(node)
     topic = node.resolve_name(DESCRIPTION)
@@ -145,11 +152,14 @@ def published_robot_of(node: Node, words: Sequence[str], stop: threading.Event) 
     while not stop.is_set() and not came.wait(_LOOK_S):
         continue
     subscription.unregister()
-    return _read_or_say(node, found[0]) if found else None
+    return robot_in(node, found[0]) if found else None
 
 
-def take_description_file(node: Node, name: str) -> None:
+def take_description_file(node: Node, name: str) -> str:
     """Let a file be the node's ``robot_description``, as ROS 2's nodes do with an argument.
+
+    Returns:
+        The file's text: another node of this name may take the parameter away.
 
     Raises:
         LaunchError: it cannot be read, or is no robot.
@@ -160,9 +170,11 @@ def take_description_file(node: Node, name: str) -> None:
         raise LaunchError(f"Unable to open urdf file: {name}: {error}") from error
     read_description(text)
     node.parameters.set(node.resolve_name(f"~{DESCRIPTION}"), text)
+    return text
 
 
-def _read_or_say(node: Node, text: str) -> Model | None:
+def robot_in(node: Node, text: str) -> Model | None:
+    """Return the robot of a description; None when the node has said what is wrong with it."""
     try:
         return read_description(text)
     except LaunchError as error:
