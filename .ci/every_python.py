@@ -162,7 +162,7 @@ def _outcome(
         )
         if installed.returncode:
             return Outcome(run, False, "pip cannot install it", time.monotonic() - begin)
-        command = [str(venv / "bin" / "python"), "-m", "pytest", "-n", "2"]
+        command = [str(venv / "bin" / "python"), "-m", "pytest", "-n", "auto"]
         command += ["-o", f"cache_dir={folder}/pytest", *(["-m", "quick"] if quick else [])]
         code, last = _followed([*command, *pytest_arguments], venv)
     return Outcome(run, code == 0, last, time.monotonic() - begin)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import itertools
 import os
 import re
@@ -84,6 +85,38 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
         return None
     config.option.loadscopereorder = False
     return LoadFileScheduling(config, log)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One worker more than processors: many a test waits for a process or for time to pass."""
+    return _processors() + 1
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session: pytest.Session) -> None:
+    """Let each worker of a whole run import a part of the tests first.
+
+    All workers import all tests, and in a fresh clone each would rewrite and compile all of them;
+    what one has done, the others read.
+    """
+    numbers = getattr(session.config, "workerinput", None)
+    folder = Path(__file__).parent
+    if numbers is None or [Path(one).resolve() for one in session.config.args] != [folder]:
+        return
+    own, count = int(numbers["workerid"].removeprefix("gw")), numbers["workercount"]
+    files = sorted(one for one in folder.rglob("test_*.py") if "workspaces" not in one.parts)
+    for file in files[own::count]:
+        name = ".".join(("tests", *file.relative_to(folder).with_suffix("").parts))
+        # Collecting it says what is wrong, or that it is to be skipped.
+        with contextlib.suppress(Exception, pytest.skip.Exception):
+            importlib.import_module(name)
+
+
+def _processors() -> int:
+    # Those of this process: containers may have fewer than the machine.
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -23,7 +23,7 @@ from gazelle.interfaces import fill, message_type
 from gazelle.studio import Server, Studio
 
 # A browser that draws in software wants the machine for itself: these run after all others, by
-# `pytest tests/browser`, not beside them in the processes of `pytest -n 2`.
+# `pytest tests/browser`, not beside them in the processes of `pytest -n auto`.
 collect_ignore_glob = ["*"] if "PYTEST_XDIST_WORKER" in os.environ else []
 
 _CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
