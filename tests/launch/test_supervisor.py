@@ -129,7 +129,7 @@ def test_stubborn_nodes_get_stronger_signals(launch: Launch, node: Launch) -> No
     for name in nodes:
         run.wait_for_line(f"^{name}_ready$")
     assert run.stop() == 0
-    told = re.findall(r"\[(\w+)-\d\] escalating to (\w+)", run.text)
+    told = re.findall(r"\[(mule|rock)-\d\] escalating to (\w+)", run.text)
     assert dict(told) == {"mule": "SIGTERM", "rock": "SIGKILL"}
     assert run.processes() == {}
 
