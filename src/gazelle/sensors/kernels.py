@@ -54,7 +54,7 @@ _ZERO = np.float32(0.0)
 _HALF = np.float32(0.5)
 
 
-@njit(fastmath=_LOOSE, nogil=True, inline="always", cache=True)
+@njit(fastmath=_LOOSE, nogil=True, cache=True)
 def _texel(texels, offset, width, height, u, v):
     """Bilinear look-up with wrapping; sides are powers of two, v points up."""
     x = u * width - _HALF

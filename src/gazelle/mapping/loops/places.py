@@ -82,5 +82,7 @@ def _doubts(edges: Edges, count: int) -> NDArray[np.float64]:
 
 
 def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    ways: NDArray[np.float64] = shortest_ways(edges.tail, edges.head, lengths, count, count - 1)
+    # One layout, whatever these are parts of: another one would be compiled for anew.
+    tails, heads = np.ascontiguousarray(edges.tail), np.ascontiguousarray(edges.head)
+    ways: NDArray[np.float64] = shortest_ways(tails, heads, lengths, count, count - 1)
     return ways

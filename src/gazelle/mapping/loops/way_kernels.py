@@ -1,10 +1,8 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loop of finding shortest ways through the graph of poses."""
 
 from __future__ import annotations
-
-import heapq
 
 import numpy as np
 from numba import njit
@@ -25,29 +23,70 @@ def shortest_ways(tails, heads, lengths, count, source):
         count: of nodes.
         source: the node.
     """
+    many = tails.shape[0]
     starts = np.zeros(count + 1, np.int64)
-    for e in range(tails.shape[0]):
+    for e in range(many):
         starts[tails[e] + 1] += 1
         starts[heads[e] + 1] += 1
-    starts = np.cumsum(starts)
-    fill = starts[:-1].copy()
-    edges = np.empty(2 * tails.shape[0], np.int64)
-    for e in range(tails.shape[0]):
+    fill = np.empty(count, np.int64)
+    for k in range(count):
+        fill[k] = starts[k]
+        starts[k + 1] += starts[k]
+    edges = np.empty(2 * many, np.int64)
+    for e in range(many):
         edges[fill[tails[e]]] = e
         fill[tails[e]] += 1
         edges[fill[heads[e]]] = e
         fill[heads[e]] += 1
-    ways = np.full(count, np.inf)
+    ways = np.empty(count)
+    for k in range(count):
+        ways[k] = np.inf
+    # A heap of lengths and the nodes they lead to; each edge puts one there in each direction.
+    keys, nodes = np.empty(2 * many + 1), np.empty(2 * many + 1, np.int64)
+    keys[0], nodes[0], waiting = 0.0, source, 1
     ways[source] = 0.0
-    heap = [(0.0, source)]
-    while heap:
-        way, node = heapq.heappop(heap)
+    while waiting > 0:
+        way, node = keys[0], nodes[0]
+        waiting -= 1
+        _sink(keys, nodes, waiting)
         if way > ways[node]:
             continue
         for k in range(starts[node], starts[node + 1]):
             e = edges[k]
             other = heads[e] if tails[e] == node else tails[e]
-            if way + lengths[e] < ways[other]:
-                ways[other] = way + lengths[e]
-                heapq.heappush(heap, (ways[other], other))
+            longer = way + lengths[e]
+            if longer < ways[other]:
+                ways[other] = longer
+                _rise(keys, nodes, waiting, longer, other)
+                waiting += 1
     return ways
+
+
+@njit(cache=True, nogil=True)
+def _rise(keys, nodes, k, key, node):
+    """Put something at the end of a heap, place k, and let it rise."""
+    while k > 0:
+        parent = (k - 1) >> 1
+        if keys[parent] <= key:
+            break
+        keys[k], nodes[k] = keys[parent], nodes[parent]
+        k = parent
+    keys[k], nodes[k] = key, node
+
+
+@njit(cache=True, nogil=True)
+def _sink(keys, nodes, count):
+    """Put the last of a heap at the top and let it sink; `count` is without it."""
+    key, node = keys[count], nodes[count]
+    k = 0
+    while True:
+        child = 2 * k + 1
+        if child >= count:
+            break
+        if child + 1 < count and keys[child + 1] < keys[child]:
+            child += 1
+        if keys[child] >= key:
+            break
+        keys[k], nodes[k] = keys[child], nodes[child]
+        k = child
+    keys[k], nodes[k] = key, node

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, PLR0917
 """The compiled inner loops of scan matching.
 
 A field is a float32 array (height, width) of values within [0, 1], row 0 lowest y, its cell
@@ -12,6 +12,8 @@ import math
 
 import numpy as np
 from numba import njit
+
+from gazelle.mapping.matching.step_kernels import emptied, stepped
 
 __all__ = ["best_in_window", "mean_value", "pooled", "refine", "stamp"]
 
@@ -133,13 +135,13 @@ def refine(field, x0, y0, cell, points, guess, prior, information, weight, itera
         The pose and the Hessian of the first term, which is what the scan says of the pose.
     """
     height, width = field.shape
-    pose = guess.copy()
-    data = np.zeros((3, 3))
-    slope = np.zeros(3)
+    pose, slope, step = np.empty(3), np.empty(3), np.empty(3)
+    data = np.empty((3, 3))
+    for k in range(3):
+        pose[k] = guess[k]
     scale = 1.0 / cell
     for _ in range(iterations):
-        data[:] = 0.0
-        slope[:] = 0.0
+        emptied(data, slope)
         c, s = math.cos(pose[2]), math.sin(pose[2])
         for i in range(points.shape[0]):
             rx = c * points[i, 0] - s * points[i, 1]
@@ -166,18 +168,12 @@ def refine(field, x0, y0, cell, points, guess, prior, information, weight, itera
             slope[0] += dx * error
             slope[1] += dy * error
             slope[2] += dt * error
-        data[1, 0], data[2, 0], data[2, 1] = data[0, 1], data[0, 2], data[1, 2]
-        data *= weight
-        away = pose - prior
-        away[2] = (away[2] + math.pi) % (2 * math.pi) - math.pi
-        normal = data + information
+        stepped(data, slope, weight, information, pose, prior, 1e-3, step)
+        length = math.sqrt(step[0] * step[0] + step[1] * step[1])
+        share = 0.1 / length if length > 0.1 else 1.0
         for k in range(3):
-            normal[k, k] += 1e-3 + 1e-3 * normal[k, k]
-        step = np.linalg.solve(normal, slope * weight - information @ away)
-        length = math.sqrt(step[0] ** 2 + step[1] ** 2)
-        if length > 0.1:
-            step *= 0.1 / length
-        pose += step
+            step[k] *= share
+            pose[k] += step[k]
         if length < 1e-4 and abs(step[2]) < 1e-4:
             break
     return pose, data

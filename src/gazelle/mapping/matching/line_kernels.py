@@ -14,6 +14,8 @@ import math
 import numpy as np
 from numba import njit
 
+from gazelle.mapping.matching.step_kernels import emptied, stepped
+
 __all__ = ["accumulate", "refine_on_lines"]
 
 
@@ -107,20 +109,23 @@ def refine_on_lines(
     height, width = places.shape
     middle_x, middle_y = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
     sigma, farthest, fewest, widest = told[0], told[1], told[2], told[3]
-    pose = guess.copy()
-    data = np.zeros((3, 3))
-    slope = np.zeros(3)
+    pose, slope, step = np.empty(3), np.empty(3), np.empty(3)
+    data = np.empty((3, 3))
+    for k in range(3):
+        pose[k] = guess[k]
     # Points hardly move from one step to the next: their lines are those of the same cells.
-    known = np.full(points.shape[0], -1, np.int64)
-    are_lines = np.zeros(points.shape[0], np.bool_)
-    lines = np.empty((points.shape[0], 4))
+    count = points.shape[0]
+    known = np.empty(count, np.int64)
+    are_lines = np.empty(count, np.bool_)
+    lines = np.empty((count, 4))
+    for i in range(count):
+        known[i] = -1
     used = 0
     for _ in range(iterations):
-        data[:] = 0.0
-        slope[:] = 0.0
+        emptied(data, slope)
         used = 0
         c, s = math.cos(pose[2]), math.sin(pose[2])
-        for i in range(points.shape[0]):
+        for i in range(count):
             rx = c * points[i, 0] - s * points[i, 1]
             ry = s * points[i, 0] + c * points[i, 1]
             x, y = rx + pose[0], ry + pose[1]
@@ -151,14 +156,9 @@ def refine_on_lines(
             slope[0] -= weight * nx * off
             slope[1] -= weight * ny * off
             slope[2] -= weight * nt * off
-        data[1, 0], data[2, 0], data[2, 1] = data[0, 1], data[0, 2], data[1, 2]
-        away = pose - prior
-        away[2] = (away[2] + math.pi) % (2 * math.pi) - math.pi
-        normal = data + information
+        stepped(data, slope, 1.0, information, pose, prior, 1e-6, step)
         for k in range(3):
-            normal[k, k] += 1e-3 + 1e-6 * normal[k, k]
-        step = np.linalg.solve(normal, slope - information @ away)
-        pose += step
+            pose[k] += step[k]
         if abs(step[0]) < 1e-4 and abs(step[1]) < 1e-4 and abs(step[2]) < 1e-5:
             break
     return pose, data, used

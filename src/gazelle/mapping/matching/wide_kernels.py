@@ -179,8 +179,10 @@ def _best_of_block(values, words, cells, box, ox, oy, reach, done, best, sums):
             if is_done or ox + b > reach or oy + a > reach:
                 sums[a, b] = 0
     while True:
-        most = np.argmax(sums)
-        a, b = most // _SIDE, most % _SIDE
+        a, b = 0, 0
+        for k in range(_SIDE * _SIDE):
+            if sums[k // _SIDE, k % _SIDE] > sums[a, b]:
+                a, b = k // _SIDE, k % _SIDE
         if sums[a, b] <= best * _FULL:
             return best, best_x, best_y
         sums[a, b] = 0

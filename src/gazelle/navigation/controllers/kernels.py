@@ -25,7 +25,10 @@ def distance_field(costs, targets, lone):
     grid until the path leaves it; with `lone` only the last of these. Obstacles are not crossed.
     """
     height, width = costs.shape
-    field = np.full((height, width), np.float32(BLOCKED), np.float32)
+    field = np.empty((height, width), np.float32)
+    for y in range(height):
+        for x in range(width):
+            field[y, x] = BLOCKED
     queue = np.empty(height * width, np.int32)
     count = 0
     begun = False

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, D417, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, D417, PLR0917
 """The compiled loops of localisation; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations
@@ -62,16 +62,19 @@ def log_sums(particles, ends, used, field, outside, ox, oy, inverse, out):
 def fitting_shares(particles, ends, distances, near, ox, oy, inverse):
     """Return, by beam, the share of particles for which it ends nearer to a wall than `near`."""
     height, width = distances.shape
-    shares = np.zeros(ends.shape[0])
+    count = ends.shape[0]
+    shares = np.zeros(count)
     for k in range(particles.shape[0]):
         c = math.cos(particles[k, 2])
         s = math.sin(particles[k, 2])
-        for b in range(ends.shape[0]):
+        for b in range(count):
             u = math.floor((particles[k, 0] + c * ends[b, 0] - s * ends[b, 1] - ox) * inverse)
             v = math.floor((particles[k, 1] + s * ends[b, 0] + c * ends[b, 1] - oy) * inverse)
             if u >= 0 and v >= 0 and u < width and v < height and distances[v, u] < near:
                 shares[b] += 1.0
-    return shares / max(particles.shape[0], 1)
+    for b in range(count):
+        shares[b] /= max(particles.shape[0], 1)
+    return shares
 
 
 @njit(cache=True, nogil=True)
@@ -142,6 +145,19 @@ def beam_likelihoods(
 
 
 @njit(cache=True, nogil=True)
+def _place(cumulative, chance):
+    """Return how many of the running sums are not greater; numpy's search takes long to compile."""
+    low, high = 0, cumulative.shape[0]
+    while low < high:
+        middle = (low + high) >> 1
+        if cumulative[middle] <= chance:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@njit(cache=True, nogil=True)
 def resample(particles, cumulative, chances, draws, elsewhere, least, most, error, quantile):
     """Return so many particles as the spread of what is drawn needs (KLD sampling, Fox 2001).
 
@@ -151,11 +167,13 @@ def resample(particles, cumulative, chances, draws, elsewhere, least, most, erro
         draws: particles to take where `chances` are not below, by uniform numbers, and the random
             poses, as columns u, x, y, yaw.
     """
-    table = np.full(1 << 16, np.int64(-1), np.int64)
-    mask = (1 << 16) - 1
-    while table.shape[0] < 4 * most:
-        table = np.full(2 * table.shape[0], np.int64(-1), np.int64)
-        mask = table.shape[0] - 1
+    size = 1 << 16
+    while size < 4 * most:
+        size *= 2
+    mask = size - 1
+    table = np.empty(size, np.int64)
+    for k in range(size):
+        table[k] = -1
     drawn = np.empty((most, 3))
     bins = 0
     count = 0
@@ -165,8 +183,7 @@ def resample(particles, cumulative, chances, draws, elsewhere, least, most, erro
             drawn[count, 1] = draws[count, 2]
             drawn[count, 2] = draws[count, 3]
         else:
-            source = np.searchsorted(cumulative, draws[count, 0], "right")
-            source = min(source, particles.shape[0] - 1)
+            source = min(_place(cumulative, draws[count, 0]), particles.shape[0] - 1)
             drawn[count, 0] = particles[source, 0]
             drawn[count, 1] = particles[source, 1]
             drawn[count, 2] = particles[source, 2]

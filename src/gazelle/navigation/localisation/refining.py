@@ -79,6 +79,8 @@ class Refiner:
             return out
         x, y = self._map.origin
         used = np.ones(len(ends), bool)
+        # One layout, whatever they are a part of: another one would be compiled for anew.
+        ends = np.ascontiguousarray(ends)
         log_sums(poses, ends, used, self._field, self._outside, float(x), float(y),
                  1.0 / self._map.resolution_m, out)  # fmt: skip
         return np.asarray(out * min(1.0, _INDEPENDENT / len(ends)))

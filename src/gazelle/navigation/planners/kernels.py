@@ -39,8 +39,11 @@ def navfn_potential(costs, table, start, stop, quadratic, threshold, increment):
     height, width = costs.shape
     n = height * width
     flat = costs.ravel()
-    potential = np.full(n, np.float32(HIGH), np.float32)
-    pending = np.zeros(n, np.bool_)
+    potential = np.empty(n, np.float32)
+    pending = np.empty(n, np.bool_)
+    for k in range(n):
+        potential[k] = HIGH
+        pending[k] = False
     current = np.empty(n, np.int32)
     following = np.empty(n, np.int32)
     later = np.empty(n, np.int32)

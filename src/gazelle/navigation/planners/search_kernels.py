@@ -53,6 +53,14 @@ def _sift_down(keys, cells, count):
 
 
 @njit(cache=True, nogil=True)
+def _widened(values, wider):
+    """Return `wider` with the values at its beginning."""
+    for k in range(values.shape[0]):
+        wider[k] = values[k]
+    return wider
+
+
+@njit(cache=True, nogil=True)
 def astar(costs, table, start, goal, reach, most):
     """Return (cells from start to goal, cost, cells looked at) by A* over eight neighbours.
 
@@ -71,13 +79,18 @@ def astar(costs, table, start, goal, reach, most):
         if table[k] < FORBIDDEN:
             dearest = max(dearest, table[k])
     buckets = int(8.0 * dearest + 8.0) + 8
-    heads = np.full(buckets, -1, np.int32)
+    heads = np.empty(buckets, np.int32)
+    for k in range(buckets):
+        heads[k] = -1
     room = 65536
     cells = np.empty(room, np.int32)
     links = np.empty(room, np.int32)
     lengths = np.empty(room, np.float32)
-    g = np.full(n, np.float32(HIGH), np.float32)
-    parent = np.full(n, np.int32(-1), np.int32)
+    g = np.empty(n, np.float32)
+    parent = np.empty(n, np.int32)
+    for k in range(n):
+        g[k] = HIGH
+        parent[k] = -1
     gx = goal % width
     gy = goal // width
     diagonal = np.float32(_ROOT2)
@@ -146,9 +159,9 @@ def astar(costs, table, start, goal, reach, most):
                 else:
                     if used == room:
                         room *= 2
-                        cells = np.concatenate((cells, np.empty(used, np.int32)))
-                        links = np.concatenate((links, np.empty(used, np.int32)))
-                        lengths = np.concatenate((lengths, np.empty(used, np.float32)))
+                        cells = _widened(cells, np.empty(room, np.int32))
+                        links = _widened(links, np.empty(room, np.int32))
+                        lengths = _widened(lengths, np.empty(room, np.float32))
                     entry = used
                     used += 1
                 cells[entry] = q
@@ -214,9 +227,13 @@ def theta_star(costs, table, start, goal, corners, weight):
     """
     height, width = costs.shape
     n = height * width
-    g = np.full(n, HIGH)
-    parent = np.full(n, -1, np.int32)
-    closed = np.zeros(n, np.bool_)
+    g = np.empty(n)
+    parent = np.empty(n, np.int32)
+    closed = np.empty(n, np.bool_)
+    for k in range(n):
+        g[k] = HIGH
+        parent[k] = -1
+        closed[k] = False
     room = 4096
     keys = np.empty(room, np.float32)
     cells = np.empty(room, np.int32)
@@ -268,19 +285,22 @@ def theta_star(costs, table, start, goal, corners, weight):
                 parent[q] = source
                 if count == room:
                     room *= 2
-                    wider = np.empty(room, np.float32)
-                    wider[:count] = keys
-                    keys = wider
-                    longer = np.empty(room, np.int32)
-                    longer[:count] = cells
-                    cells = longer
+                    keys = _widened(keys, np.empty(room, np.float32))
+                    cells = _widened(cells, np.empty(room, np.int32))
                 keys[count] = new + weight * math.hypot(u - gx, v - gy)
                 cells[count] = q
                 _sift_up(keys, cells, count)
                 count += 1
     if g[goal] >= HIGH:
         return np.empty(0, np.int64), HIGH
-    path = [goal]
-    while path[-1] != start:
-        path.append(parent[path[-1]])
-    return np.array(path)[::-1].copy(), g[goal]
+    length = 1
+    c = goal
+    while c != start:
+        c = parent[c]
+        length += 1
+    path = np.empty(length, np.int64)
+    c = goal
+    for k in range(length - 1, -1, -1):
+        path[k] = c
+        c = parent[c]
+    return path, g[goal]
