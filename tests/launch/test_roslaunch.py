@@ -5,20 +5,44 @@ from __future__ import annotations
 import re
 import subprocess
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.launch.conftest import node as written_node
+from tests.launch.conftest import write_package
 
 from gazelle.graph import Graph
 
 Run = Callable[..., Any]
 
 
-def test_summary_lists_parameters_and_nodes_by_namespace(launch: Run, node: Run) -> None:
+@dataclass
+class _Ended:
+    """A launch that has ended, and the folder with what it left."""
+
+    run: Any
+    folder: Path
+
+
+@pytest.fixture(scope="module")
+def ended(module_gazelle: Run, tmp_path_factory: pytest.TempPathFactory) -> _Ended:
+    """One launch for all that look at what it said and wrote."""
+    folder = tmp_path_factory.mktemp("ended")
+    write_package(folder)
     body = '<param name="k" value="2.5"/><param name="long" value="abcdefghijklmnopqrstuvwxyz"/>'
-    run = launch(body + node("b") + node("a", ns="deep"))
+    body += written_node("b") + written_node("a", ns="deep")
+    file = folder / "test.launch"
+    file.write_text(f"<launch>{body}</launch>", encoding="utf-8")
+    words = (f"--pid={folder / 'launch.pid'}", "--run_id=my_run", str(file))
+    run = module_gazelle("roslaunch", *words, cwd=folder, ROS_HOME=str(folder / "ros_home"))
     assert run.wait() == 0
+    return _Ended(run, folder)
+
+
+def test_summary_lists_parameters_and_nodes_by_namespace(ended: _Ended) -> None:
+    run = ended.run
     start = run.lines.index("SUMMARY")
     end = next(i for i, line in enumerate(run.lines) if line.startswith("ROS_MASTER_URI="))
     assert run.lines[start:end] == [
@@ -57,11 +81,9 @@ def test_dash_reads_standard_input(gazelle: Run, package: Path) -> None:
     assert "piped" in run.lines
 
 
-def test_pid_option_writes_the_launchers_number(launch: Run, node: Run, tmp_path: Path) -> None:
-    file = tmp_path / "launch.pid"
-    run = launch(node("n"), f"--pid={file}")
-    assert run.wait() == 0
-    assert int(file.read_text(encoding="utf-8")) == run.popen.pid
+def test_pid_option_writes_the_launchers_number(ended: _Ended) -> None:
+    written = (ended.folder / "launch.pid").read_text(encoding="utf-8")
+    assert int(written) == ended.run.popen.pid
 
 
 def test_wait_option_joins_the_graph_that_comes(launch: Run, node: Run, free_port: int) -> None:
@@ -122,10 +144,8 @@ def test_second_launch_joins_the_first_ones_graph(launch: Run, node: Run, gazell
     assert first.stop() == 0
 
 
-def test_latest_points_at_the_newest_run(launch: Run, node: Run, tmp_path: Path) -> None:
-    run = launch(node("n"), "--run_id=my_run")
-    assert run.wait() == 0
-    latest = tmp_path / "ros_home" / "log" / "latest"
+def test_latest_points_at_the_newest_run(ended: _Ended) -> None:
+    latest = ended.folder / "ros_home" / "log" / "latest"
     assert latest.readlink().name == "my_run"
     assert (latest / "rosout.log").is_file()
 

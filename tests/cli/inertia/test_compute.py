@@ -100,9 +100,11 @@ def test_bodies_of_the_table_in_document_mira_are_known_by_name() -> None:
     }
 
 
-def surface(at: Callable, u: tuple[float, float], v: tuple[float, float]) -> np.ndarray:
-    """Triangles (n, 3, 3) of a surface over two parameters."""
-    grid = np.meshgrid(np.linspace(*u, _STEPS + 1), np.linspace(*v, _STEPS + 1), indexing="ij")
+def surface(
+    at: Callable, u: tuple[float, float], v: tuple[float, float], rows: int = _STEPS
+) -> np.ndarray:
+    """Triangles (n, 3, 3) of a surface over two parameters, in so many rows along the second."""
+    grid = np.meshgrid(np.linspace(*u, _STEPS + 1), np.linspace(*v, rows + 1), indexing="ij")
     points = np.stack(at(*grid), axis=-1)
     a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
     both = [np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)]
@@ -142,16 +144,16 @@ def caps() -> np.ndarray:
 
 FINE: dict[str, tuple[list[str], Callable[[], np.ndarray]]] = {
     "box": (["--size", "1", "2", "3"], lambda: hull(CUBE * (1, 2, 3))),
-    "cylinder": (ROUND, lambda: hull(surface(tube, FULL, ENDS)[:, :, :])),
-    "semicylinder": (ROUND, lambda: hull(surface(tube, HALF, ENDS))),
-    "cylindrical shell": (ROUND, lambda: surface(tube, FULL, ENDS)),
-    "half cylindrical shell": (ROUND, lambda: surface(tube, HALF, ENDS)),
+    "cylinder": (ROUND, lambda: hull(surface(tube, FULL, ENDS, 1))),
+    "semicylinder": (ROUND, lambda: hull(surface(tube, HALF, ENDS, 1))),
+    "cylindrical shell": (ROUND, lambda: surface(tube, FULL, ENDS, 1)),
+    "half cylindrical shell": (ROUND, lambda: surface(tube, HALF, ENDS, 1)),
     "sphere": (BALL, lambda: hull(surface(ball, FULL, HALF)[::3])),
     "spherical shell": (BALL, lambda: surface(ball, FULL, HALF)),
     "hemisphere": (BALL, lambda: hull(surface(ball, FULL, (0, PI / 2))[::3])),
     "hemispherical shell": (BALL, lambda: surface(ball, FULL, (0, PI / 2))),
     "slender rod": (["--length", str(L)], thin_rod),
-    "cone": (ROUND, lambda: hull(surface(tube, FULL, (-L / 2, -L / 2)), BOTH[1:])),
+    "cone": (ROUND, lambda: hull(surface(tube, FULL, (-L / 2, -L / 2), 1), BOTH[1:])),
     "capsule": (ROUND, caps),
     "ellipsoid": (
         ["--radii", "1", "2", "3"],
