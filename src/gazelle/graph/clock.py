@@ -11,10 +11,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
+from gazelle.graph.clock_sharing import ClockFinder
+from gazelle.graph.clock_waits import Waits
 from gazelle.graph.errors import TimeJumpError
 from gazelle.graph.wire import resolve_type
 
 if TYPE_CHECKING:
+    from gazelle.graph.clock_page import PageView
     from gazelle.graph.node import Node
     from gazelle.graph.subscription import Subscription
 
@@ -28,7 +31,8 @@ class Clock:
     """The clock of all nodes of a process.
 
     It follows ``/clock`` while the parameter ``/use_sim_time`` is true, and subscribes only
-    then. Simulated time is 0 until the first message, as in ROS 1.
+    then. Simulated time is 0 until the first message, as in ROS 1. Where the publisher shows its
+    time on a page (`gazelle.graph.clock_sharing`), that is looked at and no messages come.
     """
 
     def __init__(self, read_parameter: Callable[[], Any]) -> None:
@@ -39,13 +43,17 @@ class Clock:
         """
         self._read_parameter = read_parameter
         self._switching = threading.RLock()
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
         # Who sleeps, by the time at which it wakes: at 1 kHz, waking everybody each time costs
         # a process with four sleepers a tenth of a core.
         self._sleepers: list[tuple[int, int, threading.Event]] = []
         self._numbers = itertools.count()
         self._nodes: list[Node] = []
         self._subscription: Subscription | None = None
+        self._finder: ClockFinder | None = None
+        self._page: PageView | None = None
+        self._page_jumps = 0
+        self._waits = Waits()
         self._owner: Node | None = None
         self._use_sim_time = False
         self._chosen: bool | None = None
@@ -55,6 +63,8 @@ class Clock:
         self._switches = 0
         self._last_jump_ns = 0
         self._listeners: list[Callable[[int], None]] = []
+        self._untold: list[int] = []
+        self._telling = threading.RLock()
 
     @property
     def use_sim_time(self) -> bool:
@@ -64,11 +74,15 @@ class Clock:
     @property
     def jumps(self) -> int:
         """How often time went backwards, the change from wall time to simulated one included."""
+        self.now_ns()
         return self._jumps
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds: simulated, or since 1970."""
-        return self._sim_ns if self._use_sim_time else time.time_ns()
+        if not self._use_sim_time:
+            return time.time_ns()
+        page = self._page
+        return self._sim_ns if page is None else self._read(page)
 
     def on_jump(self, listener: Callable[[int], None]) -> None:
         """Call `listener(delta_ns)` whenever simulated time goes backwards."""
@@ -79,7 +93,7 @@ class Clock:
         while True:
             if self._use_sim_time and not self._wait_for_start():
                 return False
-            switches, jumps = self._switches, self._jumps
+            switches, jumps = self._switches, self.jumps
             try:
                 return self.sleep_until(self.now_ns() + duration_ns, since=jumps)
             except TimeJumpError:
@@ -104,7 +118,7 @@ class Clock:
             TimeJumpError: time went backwards meanwhile.
         """
         wake = threading.Event()
-        jumps = self._jumps if since is None else since
+        jumps = self.jumps if since is None else since
         while stop is None or not stop.is_set():
             wake.clear()
             with self._lock:
@@ -117,9 +131,35 @@ class Clock:
                     return True
                 number = next(self._numbers)
                 heapq.heappush(self._sleepers, (target_ns, number, wake))
-            self._rest(wake, left_ns, stop)
+                page = self._page if self._use_sim_time else None
+                if self._finder is not None:
+                    self._finder.prefer(messages=self._waits.begin(left_ns))
+            if page is None:
+                self._rest(wake, left_ns, stop)
+            else:
+                self._look_out(page, wake, target_ns, stop)
             self._forget(number)
         return False
+
+    def _look_out(
+        self,
+        page: PageView,
+        wake: threading.Event,
+        target_ns: int,
+        stop: threading.Event | None,
+    ) -> None:
+        """Look at a page until its time has come or gone back, or wait to be woken."""
+        before_ns, still, waits = -1, 0, self._waits
+        while True:
+            now_ns, jumps, _ = page.read()
+            if now_ns >= target_ns or jumps != self._page_jumps:
+                return
+            waits.note(now_ns)
+            still = still + 1 if now_ns == before_ns else 0
+            before_ns = now_ns
+            pause_s = waits.still(still) if still else waits.until(target_ns - now_ns)
+            if wake.wait(pause_s) or (stop is not None and stop.is_set()):
+                return
 
     def _rest(self, wake: threading.Event, left_ns: int, stop: threading.Event | None) -> None:
         """Wait to be woken, for the end of wall time, or for `stop`."""
@@ -157,8 +197,7 @@ class Clock:
         with self._switching:
             self._nodes = [one for one in self._nodes if one is not node]
             if self._owner is node and self._subscription is not None:
-                self._subscription.unregister()
-                self._owner = self._subscription = None
+                self._unsubscribe()
             self.refresh()
 
     def use(self, sim_time: bool | None) -> None:
@@ -189,8 +228,7 @@ class Clock:
             if wanted and self._subscription is None:
                 self._subscribe()
             elif not wanted and self._subscription is not None:
-                self._subscription.unregister()
-                self._owner = self._subscription = None
+                self._unsubscribe()
 
     def _subscribe(self) -> None:
         """Let the first node that is not about to end carry the subscription."""
@@ -204,7 +242,18 @@ class Clock:
                     raise
                 continue
             self._owner, self._subscription = node, subscription
+            self._finder = ClockFinder(node.graph, subscription, self._use_page, self._look)
+            self._finder.start()
             return
+
+    def _unsubscribe(self) -> None:
+        finder, subscription = self._finder, self._subscription
+        self._owner = self._subscription = self._finder = None
+        self._use_page(None, None)
+        if finder is not None:
+            finder.close()
+        if subscription is not None:
+            subscription.unregister()
 
     def close(self) -> None:
         """Wake everybody who sleeps."""
@@ -216,21 +265,78 @@ class Clock:
         stamp = message.clock
         now_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
         with self._lock:
-            delta_ns = now_ns - self._sim_ns
-            self._sim_ns = now_ns
-            if delta_ns < 0:
-                self._jumps += 1
-                self._last_jump_ns = delta_ns
-            self._wake(everybody=delta_ns < 0)
+            if self._page is not None:
+                # It was on its way when the page was found.
+                return
+            self._take(now_ns, now_ns - self._sim_ns)
+        self._tell()
+
+    def _use_page(self, finder: ClockFinder | None, page: PageView | None) -> None:
+        """Look at a page from now on, or take messages."""
+        with self._lock:
+            if finder is not self._finder:
+                # Its subscription has just ended.
+                return
+            if self._page is not None:
+                self._sim_ns = self._catch_up(self._page)
+            self._page = page
+            if page is not None:
+                now_ns, self._page_jumps, _ = page.read()
+                self._take(now_ns, now_ns - self._sim_ns)
+            self._wake(everybody=True)
+        self._tell()
+
+    def _look(self) -> None:
+        """Look at the page at once: time went back, or goes on after it stood still."""
+        with self._lock:
+            if self._page is not None:
+                self._catch_up(self._page)
+                self._wake(everybody=True)
+        self._tell()
+
+    def _read(self, page: PageView) -> int:
+        """Return a page's time; whoever is the first to see that it went back says so."""
+        now_ns, jumps, _ = page.read()
+        if jumps != self._page_jumps:
+            with self._lock:
+                if page is self._page:
+                    self._catch_up(page)
+            # Not here: who asks for the time may hold what the listeners want. At the very end of
+            # Python no thread starts, and nobody listens.
+            with contextlib.suppress(RuntimeError):
+                threading.Thread(target=self._tell, name="clock jump", daemon=True).start()
+        return now_ns
+
+    def _catch_up(self, page: PageView) -> int:
+        """Take in what the page shows; hold the lock."""
+        now_ns, jumps, jump_ns = page.read()
+        if jumps != self._page_jumps:
+            self._page_jumps = jumps
+            self._take(now_ns, jump_ns)
+        return now_ns
+
+    def _take(self, now_ns: int, delta_ns: int) -> None:
+        """Go on to a time, of which the last one differs by so much; hold the lock."""
+        self._sim_ns = now_ns
         if delta_ns < 0:
-            for listener in tuple(self._listeners):
-                listener(delta_ns)
+            self._jumps += 1
+            self._last_jump_ns = delta_ns
+            self._untold.append(delta_ns)
+        self._wake(everybody=delta_ns < 0)
+
+    def _tell(self) -> None:
+        """Tell the listeners of jumps, or wait for whoever is doing so."""
+        with self._telling:
+            while self._untold:
+                delta_ns = self._untold.pop(0)
+                for listener in tuple(self._listeners):
+                    listener(delta_ns)
 
     def _is_sim_time_wanted(self) -> bool:
         return _is_true(self._read_parameter()) if self._chosen is None else self._chosen
 
     def _wait_for_start(self) -> bool:
-        while self._use_sim_time and not self._sim_ns and not self._closed:
+        while self._use_sim_time and not self.now_ns() and not self._closed:
             with contextlib.suppress(TimeJumpError):
                 self.sleep_until(1)
         return not self._closed

@@ -20,6 +20,7 @@ __all__ = [
     "Entity",
     "Kind",
     "Qos",
+    "clock_key",
     "control_key",
     "dds_type",
     "entity_gid",
@@ -266,6 +267,11 @@ def entity_gid(token_text: str) -> bytes:
 def control_key(domain: int, zid: str) -> str:
     """Return the key at which a process answers about itself (pid, shutting down a node)."""
     return f"{_OWN_SPACE}/{domain}/control/{zid}"
+
+
+def clock_key(domain: int, zid: str) -> str:
+    """Return the key at which a process tells of the clock that it shows."""
+    return f"{_OWN_SPACE}/{domain}/clock/{zid}"
 
 
 def parameter_key(what: str) -> str:

@@ -29,6 +29,7 @@ class Publisher:
         topic: global name.
         message_class: class of the messages.
         latch: whether late subscriptions get the last message.
+        graph: the graph it publishes on.
     """
 
     def __init__(
@@ -46,7 +47,7 @@ class Publisher:
         self.message_class = message_class
         self.latch = entity.qos.latched
         self.entity = entity
-        self._graph = graph
+        self.graph = graph
         self._copy_local = copy_local
         self._is_mute = is_mute
         self._closed = is_mute()
@@ -78,7 +79,7 @@ class Publisher:
     @property
     def subscription_count(self) -> int:
         """Number of subscriptions of the topic on the whole graph."""
-        return self._graph.subscription_count(self.topic)
+        return self.graph.subscription_count(self.topic)
 
     def publish(self, message: Any) -> None:
         """Send one message.
@@ -130,7 +131,7 @@ class Publisher:
             self._matcher.undeclare()
             if self._sender is not self._matcher:
                 self._sender.undeclare()
-        self._graph.forget(self)
+        self.graph.forget(self)
 
     def hand_latched(self, subscription: Subscription) -> None:
         """Give the last latched message to a new subscription of this process."""

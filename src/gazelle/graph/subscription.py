@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -89,12 +90,13 @@ class Subscription:
         self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
         self._take = self._handle if inline else self._mailbox.put
         self._local = graph.local.topic(self.topic)
+        self._declare = _declare if takes_latched else _declare_plain
+        self._declaring = threading.Lock()
+        self._subscriber: Any = None
         if is_mute:
             return
         self._local.add_subscription(self, latched=takes_latched)
-        declare = _declare if takes_latched else _declare_plain
-        selector = topic_selector(graph.domain, self.topic)
-        self._subscriber: Any = declare(graph.session, selector, self._on_sample)
+        self.resume()
         self._token = graph.announcements.announce(token(graph.domain, entity))
 
     @property
@@ -114,9 +116,23 @@ class Subscription:
         self._closed = True
         self._local.remove_subscription(self)
         self._token.undeclare()
-        self._subscriber.undeclare()
+        self.rest()
         self._mailbox.close()
         self._graph.forget(self)
+
+    def rest(self) -> None:
+        """Let no messages of other processes come; they see the subscription as before."""
+        with self._declaring:
+            subscriber, self._subscriber = self._subscriber, None
+        if subscriber is not None:
+            subscriber.undeclare()
+
+    def resume(self) -> None:
+        """Let messages of other processes come, if they do not."""
+        with self._declaring:
+            if self._subscriber is None and not self._closed:
+                selector = topic_selector(self._graph.domain, self.topic)
+                self._subscriber = self._declare(self._graph.session, selector, self._on_sample)
 
     def take_local(self, message: Any, attachment: Attachment) -> None:
         """Take a message published in this process."""

@@ -6,16 +6,22 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gazelle.geometry import Pose
+from gazelle.graph import Publisher
+from gazelle.graph.clock_sharing import share_clock
 from gazelle.simulator.messages import message_class, pose_message, stamp, twist_message
+from gazelle.simulator.pace import Mode
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
 
 if TYPE_CHECKING:
+    from gazelle.graph.clock_sharing import SharedClock
     from gazelle.simulator.plugins.context import Resources
+    from gazelle.simulator.ports import PublisherPort
     from gazelle.simulator.world_server import WorldServer
 
 __all__ = ["offer_clock", "offer_entity_states", "offer_states"]
 
+_CLOCK = "/clock"
 # Faster than real time, nobody can use more of them: each costs every process 0.1 ms.
 _CLOCKS_PER_REAL_S = 500.0
 
@@ -32,7 +38,7 @@ def offer_states(
     rate_hz = clock_rate_hz
     if rate_hz is None:
         rate_hz = float(server.node.parameters.get("/gazebo/pub_clock_frequency", 0.0))
-    offer_clock(server, resources, "/clock", rate_hz)
+    offer_clock(server, resources, _CLOCK, rate_hz)
     models, links = (join_names(space, f"{one}_states") for one in ("model", "link"))
     offer_entity_states(server, resources, models, links)
 
@@ -68,19 +74,42 @@ def offer_clock(server: WorldServer, resources: Resources, topic: str, rate_hz: 
     """Publish the world's time while somebody listens, each step at 0 Hz."""
     engine = server.engine
     clock = resources.publisher(topic, "rosgraph_msgs/Clock")
+    shared = _shared(server, resources, clock) if topic == _CLOCK else None
 
     def publish_clock() -> None:
         if not server.paused and engine.iteration % _steps_between_clocks(server):
             return
-        clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
+        if shared is not None and shared.is_on:
+            shared.show(engine.time_ns)
+        if clock.matched:
+            clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
+
+    def wanted() -> bool:
+        if shared is not None:
+            # As fast as possible: then messages hold time up until everybody has them.
+            shared.turn(on=server.pace.factor > 0 and shared.is_used)
+        return clock.matched or (shared is not None and shared.is_on)
 
     resources.task(
         topic,
         period_in_steps(rate_hz, engine.step_ns),
         publish_clock,
         order=ORDER_CLOCK,
-        wanted=lambda: clock.matched,
+        wanted=wanted,
     )
+
+
+def _shared(server: WorldServer, resources: Resources, clock: PublisherPort) -> SharedClock | None:
+    """Return what shows the world's time to other processes, None where all wait for messages.
+
+    In the modes that wait for nobody's wall clock, whatever is published waits for its readers.
+    """
+    if server.mode is not Mode.REAL_TIME or not isinstance(clock, Publisher):
+        return None
+    shared = share_clock(clock)
+    if shared is not None:
+        resources.on_close(shared.close)
+    return shared
 
 
 def _steps_between_clocks(server: WorldServer) -> int:
