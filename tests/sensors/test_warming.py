@@ -7,28 +7,49 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
+from gazelle.sensors import warm_up
 
 CODE = "from gazelle.sensors import warm_up; warm_up(print)"
+# One kernel of two lines in place of the cameras', which take many seconds.
+SMALL_CODE = """
+from gazelle.sensors import warming
+from small import twice
+warming._exercise = lambda: twice(2)
+warming.warm_up(print)
+"""
+SMALL_KERNEL = """
+from gazelle.compiling import njit
+
+@njit(cache=True)
+def twice(x):
+    return 2 * x
+"""
 
 
-def _run(cache: Path) -> list[str]:
+def _run(code: str, folder: Path, **environ: str) -> list[str]:
     run = subprocess.run(
-        [sys.executable, "-c", CODE],
+        [sys.executable, "-c", code],
         check=True,
+        cwd=folder,
         capture_output=True,
         text=True,
-        env={**os.environ, "NUMBA_CACHE_DIR": str(cache)},
+        env={**os.environ, **environ},
     )
     return run.stdout.splitlines()
 
 
-@pytest.mark.slow
-def test_compiling_is_told_the_first_time_only(tmp_path) -> None:
-    started, ended = _run(tmp_path)
+def test_compiling_is_told_the_first_time_only(tmp_path: Path) -> None:
+    (tmp_path / "small.py").write_text(SMALL_KERNEL, encoding="utf-8")
+    started, ended = _run(SMALL_CODE, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
     assert started == "compiling camera kernels: a few seconds, once on this machine"
     assert ended.startswith("camera kernels compiled in ")
-    assert _run(tmp_path) == []
+    assert _run(SMALL_CODE, tmp_path, NUMBA_CACHE_DIR=str(tmp_path)) == []
+
+
+def test_all_kernels_of_cameras_are_kept(tmp_path: Path) -> None:
+    # Other tests may have compiled them already; the second process finds them in any case.
+    warm_up()
+    assert _run(CODE, tmp_path) == []
 
 
 def test_sensors_import_without_heavy_modules() -> None:

@@ -15,8 +15,9 @@ import math
 
 import llvmlite.binding
 import numpy as np
-from numba import njit, types
+from numba import types
 
+from gazelle.compiling import njit
 from gazelle.sensors.embree import library
 
 __all__ = [

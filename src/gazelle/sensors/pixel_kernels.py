@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from gazelle.compiling import njit
 
 __all__ = ["fill_cloud", "mark_edges"]
 

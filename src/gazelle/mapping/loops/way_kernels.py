@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from gazelle.compiling import njit
 
 __all__ = ["shortest_ways"]
 

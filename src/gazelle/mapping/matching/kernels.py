@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from gazelle.compiling import njit
 from gazelle.mapping.matching.step_kernels import emptied, stepped
 
 __all__ = ["best_in_window", "mean_value", "pooled", "refine", "stamp"]

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from gazelle.compiling import njit
 
 __all__ = ["LEAF", "bound_search", "cells_of", "packed", "rounded_up", "sliding"]
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from gazelle.compiling import njit
 
 __all__ = ["count_beams"]
 

@@ -17,7 +17,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from gazelle.compiling import njit
 
 __all__ = ["FIXED", "QUATERNION", "SLIDE", "TURN", "chain_jacobian", "chain_pose", "solve", "tree"]
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from gazelle.compiling import njit
 from gazelle.navigation.costmap.kernels import outline_cost
 
 __all__ = ["WEIGHTS", "roll_out", "score_batch"]

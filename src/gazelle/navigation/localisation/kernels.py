@@ -7,7 +7,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from gazelle.compiling import njit
 
 __all__ = ["beam_likelihoods", "cast_ray", "field_sums", "fitting_shares", "log_sums", "resample"]
 

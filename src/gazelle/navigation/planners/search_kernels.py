@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from gazelle.compiling import njit
 from gazelle.navigation.planners.kernels import FORBIDDEN, HIGH
 
 __all__ = ["astar", "theta_star"]

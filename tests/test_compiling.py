@@ -1,0 +1,116 @@
+"""Kernels that several processes want at once are compiled by one of them."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from tests.patience import eventually, stretched
+
+from gazelle import compiling
+
+KERNEL = """
+from gazelle.compiling import njit
+
+
+@njit(cache=True)
+def twice(x):
+    return 2 * x
+"""
+FIRST = """
+import sys, time
+from pathlib import Path
+from numba.core import event
+from kernel import twice
+
+class Held(event.Listener):
+    def on_start(self, event):
+        Path("compiling").touch()
+        while not Path("go on").exists():
+            time.sleep(0.01)
+
+    def on_end(self, event):
+        pass
+
+with event.install_listener("numba:compile", Held()):
+    assert twice(2) == 4
+"""
+SECOND = """
+from pathlib import Path
+from gazelle import compiling
+from kernel import twice
+
+class Clock:
+    monotonic = compiling.time.monotonic
+    sleep_s = staticmethod(compiling.time.sleep)
+
+    @classmethod
+    def sleep(cls, duration_s):
+        Path("waiting").touch()
+        cls.sleep_s(duration_s)
+
+compiling.time = Clock
+assert twice(2) == 4
+print(sum(twice.stats.cache_misses.values()))
+"""
+
+Start = Callable[[str], "subprocess.Popen[str]"]
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Start:
+    (tmp_path / "kernel.py").write_text(KERNEL, encoding="utf-8")
+
+    def run(code: str) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-c", code], cwd=tmp_path, stdout=subprocess.PIPE, text=True,
+            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
+        )  # fmt: skip
+
+    return run
+
+
+def test_who_comes_second_waits_and_loads(start: Start, tmp_path: Path) -> None:
+    first = start(FIRST)
+    eventually((tmp_path / "compiling").exists)
+    second = start(SECOND)
+    eventually((tmp_path / "waiting").exists)
+    (tmp_path / "go on").touch()
+    assert second.communicate(timeout=stretched())[0].strip() == "0"
+    assert first.wait(stretched()) == 0
+
+
+def test_a_process_that_was_killed_keeps_nobody_waiting(start: Start, tmp_path: Path) -> None:
+    first = start(FIRST)
+    eventually((tmp_path / "compiling").exists)
+    first.kill()
+    first.wait(stretched())
+    second = start(SECOND)
+    assert second.communicate(timeout=stretched())[0].strip() == "1"
+
+
+def test_where_nothing_can_be_written_nobody_waits(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with compiling._turn(tmp_path / "file" / "folder" / "kernel.lock"):
+        pass
+
+
+def test_a_kernel_that_compiles_itself_does_not_wait_for_itself(tmp_path: Path) -> None:
+    with compiling._turn(tmp_path / "a.lock"), compiling._turn(tmp_path / "a.lock"):
+        pass
+    assert not compiling._held
+
+
+def test_nobody_waits_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compiling, "_LONGEST_WAIT_S", 0.05)
+    descriptor = os.open(tmp_path / "a.lock", os.O_RDWR | os.O_CREAT)
+    try:
+        assert compiling._locked(descriptor)
+        with compiling._turn(tmp_path / "a.lock"):
+            pass
+    finally:
+        os.close(descriptor)
