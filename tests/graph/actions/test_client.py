@@ -298,3 +298,18 @@ def test_goals_arrive_in_the_order_in_which_they_were_sent(
         client.send_goal({"order": order})
     served.goal(_MANY - 1)
     assert [goal.request.order for goal in served.goals.items] == list(range(_MANY))
+
+
+@BOTH
+def test_goal_ends_quietly_when_its_node_has_gone(
+    served: Served, client: ActionClient, generation: Any
+) -> None:
+    """Its thread ends it while the graph is left."""
+    served.offer(generation)
+    assert client.wait_for_server(stretched())
+    client.send_goal({"order": 3})
+    goal = served.goal()
+    served.node.shutdown()
+    goal.publish_feedback({"sequence": [0, 1]})
+    goal.succeed()
+    assert goal.status.name == "SUCCEEDED"

@@ -129,6 +129,7 @@ class ActionServer:
         )
         self._waiting: set[threading.Event] = set()
         self._closed = False
+        self._is_silent = False
         self._clock: Any = getattr(node, "clock", None)
         self.now_ns: Callable[[], int] = now_ns or (self._clock.now_ns if self._clock else _zero)
         self._wire = self._offer(inline=run is not None)
@@ -139,6 +140,9 @@ class ActionServer:
             if run is None:
                 self._timer.start(self._clock, self.name)
         self._wire.send_status([])
+        # A stand-in for a node has no end of its own.
+        if on_shutdown := getattr(node, "on_shutdown", None):
+            on_shutdown(self._fall_silent)
 
     @property
     def goals(self) -> tuple[ServerGoal, ...]:
@@ -195,11 +199,16 @@ class ActionServer:
             for goal in self.goals:
                 if goal.is_active:
                     goal.abort(text="the action server was closed")
-            self._closed = True
+            self._closed = self._is_silent = True
         for event in tuple(self._waiting):
             event.set()
         self._timer.close()
         self._wire.close()
+
+    def _fall_silent(self, _reason: str) -> None:
+        # Goals may end in other threads while the node goes, and nobody hears of them any more.
+        with self.lock:
+            self._is_silent = True
 
     # What the wires call, from any thread.
 
@@ -313,19 +322,20 @@ class ActionServer:
         if goal.status is Ros2Status.REJECTED:
             self._goals.pop(goal.goal_id, None)
             return
-        if not self._closed:
-            self._wire.send_result(goal)
+        with self.lock:
+            if not self._is_silent:
+                self._wire.send_result(goal)
         self._send_status()
 
     def goal_feedback(self, goal: ServerGoal, feedback: Any) -> None:
         """Tell others how the goal goes."""
         with self.lock:
-            if not self._closed and self._wire.wants_feedback:
+            if not self._is_silent and self._wire.wants_feedback:
                 self._wire.send_feedback(goal, as_message(feedback, self.types.Feedback))
 
     def wants_feedback(self) -> bool:
         """Tell whether anybody elsewhere listens to feedback."""
-        return not self._closed and self._wire.wants_feedback
+        return not self._is_silent and self._wire.wants_feedback
 
     def request_cancel(self, goal: ServerGoal) -> None:
         """Ask the owner to cancel a goal."""
@@ -368,13 +378,13 @@ class ActionServer:
 
     def _send_status(self) -> None:
         with self.lock:
-            if not self._closed:
+            if not self._is_silent:
                 self._wire.send_status(list(self._goals.values()))
 
     def _periodic_status(self) -> None:
         with self.lock:
             self._forget_old()
-            if not self._closed and self._wire.wants_status:
+            if not self._is_silent and self._wire.wants_status:
                 self._send_status()
 
     def _forget_old(self) -> None:
