@@ -232,3 +232,26 @@ def main():
 end_with(main)
 """
     assert _interrupted(text, "ending") == (-signal.SIGINT, "", "")
+
+
+@_POSIX
+def test_interrupt_that_another_thread_was_given_ends_a_wait_without_a_limit() -> None:
+    """As one that comes just as the main thread begins to wait."""
+    text = """
+import signal
+from gazelle.ending import raise_interrupts
+def interrupt():
+    main = threading.main_thread().ident
+    while sys._current_frames()[main].f_code.co_name != "wait":
+        pass
+    # Nothing tells when it has left Python to sleep; sooner it would have seen the signal.
+    time.sleep(0.1)
+    signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+def main():
+    raise_interrupts()
+    threading.Thread(target=interrupt, daemon=True).start()
+    threading.Event().wait()
+end_with(main)
+"""
+    done = _run(text)
+    assert (done.returncode, done.stderr) == (130, "")

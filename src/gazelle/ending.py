@@ -9,6 +9,7 @@ import signal
 import stat
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import CodeType, FrameType
@@ -33,6 +34,9 @@ __all__ = [
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _IMPORTING = "<frozen importlib._bootstrap>"
 _AGAIN_S = 0.05
+# Nobody sends it to programs, and without a handler it does nothing.
+_ROUSING = getattr(signal, "SIGURG", None)
+_ROUSE_AFTER_S = (0.05, 0.2, 1.0)
 _called_by_libraries: set[CodeType] = set()
 
 Callback = TypeVar("Callback", bound=Callable[..., Any])
@@ -106,6 +110,40 @@ def raise_interrupts() -> None:
     leaves it at that; rospy, rclpy and roslaunch do not, so scripts rely on ``kill -INT``.
     """
     signal.signal(signal.SIGINT, raise_or_end)
+    _rouse_main_thread()
+
+
+def _rouse_main_thread() -> None:
+    """Let no signal be slept through.
+
+    Python's handlers run in the main thread when it next wakes. One that begins to wait just as
+    the signal comes, or whose signal the kernel gave to another thread, would sleep on, for ever
+    where it waits without a limit. So a thread that is woken by the signal's number rouses it.
+    """
+    if _ROUSING is None or threading.current_thread() is not threading.main_thread():
+        return
+    import socket
+
+    near, far = socket.socketpair()
+    far.setblocking(False)
+    if signal.getsignal(_ROUSING) in (signal.SIG_DFL, None):
+        signal.signal(_ROUSING, _do_nothing)
+    signal.set_wakeup_fd(far.fileno(), warn_on_full_buffer=False)
+    threading.Thread(target=_rouse, args=(near, far), name="rouser", daemon=True).start()
+
+
+def _rouse(near: socket.socket, _far: socket.socket) -> None:
+    main = threading.main_thread().ident
+    assert main is not None and _ROUSING is not None
+    while numbers := near.recv(16):
+        if any(number in numbers for number in _SIGNALS):
+            for after_s in _ROUSE_AFTER_S:
+                time.sleep(after_s)
+                signal.pthread_kill(main, _ROUSING)
+
+
+def _do_nothing(_number: int, _frame: FrameType | None) -> None:
+    """Be a handler: a signal that has none wakes nobody."""
 
 
 def called_by_library(function: Callback) -> Callback:
