@@ -87,7 +87,8 @@ def pytest_collection(session: pytest.Session) -> None:
         return
     own, count = int(numbers["workerid"].removeprefix("gw")), numbers["workercount"]
     files = sorted(one for one in folder.rglob("test_*.py") if "workspaces" not in one.parts)
-    for file in files[own::count]:
+    # These say what else is to be rewritten, before anybody imports it.
+    for file in (*sorted(folder.rglob("conftest.py")), *files[own::count]):
         name = ".".join(("tests", *file.relative_to(folder).with_suffix("").parts))
         # Collecting it says what is wrong, or that it is to be skipped.
         with contextlib.suppress(Exception, pytest.skip.Exception):

@@ -6,12 +6,15 @@ from pathlib import Path
 
 import pytest
 
+from gazelle.compat import python2
 from gazelle.compat.python2 import compile_source, is_python2
 
 
 @pytest.fixture(autouse=True)
-def _own_cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def _as_a_new_process(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    # Each file is told of once a process, and all tests here say "node.py".
+    monkeypatch.setattr(python2, "_told", set())
 
 
 def _run(source: str) -> dict[str, object]:

@@ -19,9 +19,9 @@ from gazelle.studio import Server, Studio
 _PORTS = itertools.count(os.getpid() % 1000)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def graph() -> Iterator[Graph]:
-    """A graph that a module's tests share; each has topics of its own."""
+    """A graph of the test."""
     with Graph.open(port=_free_port(), role="hub", environ={}) as opened:
         yield opened
 
@@ -34,7 +34,7 @@ def node(graph: Graph) -> Iterator[Node]:
     made.shutdown()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def server(graph: Graph) -> Iterator[Server]:
     """A server on the graph, on any free port."""
     with Server(Studio(graph), port=0) as made:
