@@ -107,8 +107,9 @@ _SAVES = {
     # The second Ctrl-C comes as soon as the first one has shut the node down.
     "asked twice": "def again(_):\n    os.kill(os.getpid(), signal.SIGINT)\n"
     "rospy.core.add_shutdown_hook(again)\n"
-    "print('ready', flush=True)\n"
-    "try:\n    while True:\n        time.sleep(0.01)\n"
+    # Whoever reads it interrupts at once.
+    "try:\n    print('ready', flush=True)\n"
+    "    while True:\n        time.sleep(0.01)\n"
     "except KeyboardInterrupt:\n    print('interrupted', flush=True)\n    saves()\n",
 }
 
