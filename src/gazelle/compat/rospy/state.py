@@ -267,14 +267,16 @@ class NodeState:
         Python goes on waiting when a signal comes, so a program may wait for ever.
         """
         self.stopping.wait()
-        time.sleep(_PATIENCE_S)
         main = threading.main_thread().ident
         assert main is not None
-        if not _has_code(sys._current_frames().get(main), _JOINING):
+        time.sleep(_PATIENCE_S)
+        while not _has_code(sys._current_frames().get(main), _JOINING):
             # One that was interrupted already may be busy with its own end.
-            if main not in self._aware and not self._asked_twice:
-                signal.pthread_kill(main, signal.SIGINT)
-            return
+            if main in self._aware or self._asked_twice:
+                return
+            signal.pthread_kill(main, signal.SIGINT)
+            # Then it may come to wait for its threads.
+            time.sleep(_PATIENCE_S)
         others = [one for one in threading.enumerate() if one.ident != main and not one.daemon]
         if any(one.ident not in self._aware for one in others):
             sys.stdout.flush()
