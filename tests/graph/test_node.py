@@ -66,6 +66,29 @@ def test_newer_node_of_the_same_name_ends_the_older(
     )
 
 
+def test_older_node_that_is_heard_of_late_ends_too(
+    graph: Graph, other: Graph, inbox: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Word of a node takes a moment: of two that start at once none knows of the other."""
+    older = graph.create_node("n")
+    older.on_shutdown(inbox)
+    with monkeypatch.context() as late:
+        late.setattr(other.discovery, "known", lambda: ())
+        newer = other.create_node("n")
+    assert not older.closed
+    other._namesakes._on_entity(older.entity, True)
+    assert inbox.wait_for(1) == ["new node registered with same name"]
+    assert not newer.closed
+
+
+def test_younger_node_does_not_make_way(graph: Graph, other: Graph) -> None:
+    graph.create_node("n")
+    since_ns = graph._namesakes._claims["/n"].since_ns
+    newer = other.create_node("n")
+    assert not other._shut_node_down("/n", "asked by the older one", since_ns)
+    assert not newer.closed
+
+
 def test_a_callback_that_outlives_its_node_is_no_error(
     graph: Graph, other: Graph, capsys: pytest.CaptureFixture[str]
 ) -> None:

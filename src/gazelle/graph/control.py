@@ -27,7 +27,7 @@ class Control:
         session: zenoh.Session,
         domain: int,
         zid: str,
-        shut_down: Callable[[str, str], bool],
+        shut_down: Callable[[str, str, int | None], bool],
     ) -> None:
         """Start to answer.
 
@@ -35,7 +35,8 @@ class Control:
             session: the process' session.
             domain: the graph's domain.
             zid: the session's name.
-            shut_down: ends a node by name and reason; tells whether there was one.
+            shut_down: ends a node by name and reason, and tells whether there was one; the number
+                is the time at which another one claimed the name, if that is why.
         """
         import zenoh
 
@@ -58,9 +59,8 @@ class Control:
             answer = {"pid": os.getpid(), "host": _host()}
         elif request.get("op") == "shutdown":
             # The node's end can take a while and ends what answers here too.
-            threading.Thread(
-                target=self._shut_down, args=(request["node"], request["reason"]), daemon=True
-            ).start()
+            asked = (request["node"], request["reason"], request.get("since_ns"))
+            threading.Thread(target=self._shut_down, args=asked, daemon=True).start()
             answer = {"pid": os.getpid(), "host": _host()}
         query.reply(self._key, to_json(answer))
         query.drop()
@@ -72,9 +72,27 @@ def ask_process(session: zenoh.Session, domain: int, zid: str) -> tuple[int, str
     return int(answer.get("pid", 0)), str(answer.get("host", ""))
 
 
-def shut_down_node(session: zenoh.Session, domain: int, zid: str, node: str, reason: str) -> bool:
-    """Ask a process to end one of its nodes; return whether it answered."""
-    return bool(_ask(session, domain, zid, {"op": "shutdown", "node": node, "reason": reason}))
+def shut_down_node(
+    session: zenoh.Session,
+    domain: int,
+    zid: str,
+    node: str,
+    reason: str,
+    *,
+    since_ns: int | None = None,
+) -> bool:
+    """Ask a process to end one of its nodes; return whether it answered.
+
+    Args:
+        session: of this process.
+        domain: of the graph.
+        zid: the process.
+        node: the node's full name.
+        reason: what is logged.
+        since_ns: when another node claimed the name: a younger one goes on.
+    """
+    request = {"op": "shutdown", "node": node, "reason": reason, "since_ns": since_ns}
+    return bool(_ask(session, domain, zid, request))
 
 
 def _ask(session: zenoh.Session, domain: int, zid: str, request: dict[str, Any]) -> dict[str, Any]:

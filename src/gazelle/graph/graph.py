@@ -26,6 +26,7 @@ from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
+from gazelle.graph.namesakes import TAKEN_OVER, Namesakes
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
 from gazelle.graph.stamps import StampWatch
@@ -43,7 +44,6 @@ Role = Literal["auto", "hub", "client"]
 _HUB_S = 10.0
 _LAST_CALLS_S = 1.0
 _USE_SIM_TIME = "/use_sim_time"
-_TAKEN_OVER = "new node registered with same name"
 
 
 class Graph:
@@ -94,6 +94,7 @@ class Graph:
         self._environ = environ
         self._keeper = keeper
         self._discovery = Discovery(session, domain)
+        self._namesakes = Namesakes(session, domain, self.zid, self._discovery)
         self._nodes: list[Node] = []
         self._ids = itertools.count()
         self._lock = threading.RLock()
@@ -189,7 +190,8 @@ class Graph:
         namespace = resolve(namespace or "/", "/")
         full = join(namespace, own)
         if not anonymous and not is_ros2:
-            self._end_namesakes(full)
+            self._shut_node_down(full, TAKEN_OVER)
+            self._namesakes.claim(full)
         with self.announcements.together():
             node = Node(self, full, namespace, remappings or {}, rosout=rosout)
         with self._lock:
@@ -308,6 +310,7 @@ class Graph:
             if isinstance(one, Node):
                 if one in self._nodes:
                     self._nodes.remove(one)
+                self._namesakes.release(one.name)
                 return
             owners = [node for node in self._nodes if node.name == one.entity.node]
         for owner in owners:
@@ -349,20 +352,14 @@ class Graph:
             # Not here: the store waits for its listeners, and subscribing takes its time.
             threading.Thread(target=self.clock.refresh, daemon=True).start()
 
-    def _shut_node_down(self, name: str, reason: str) -> bool:
+    def _shut_node_down(self, name: str, reason: str, since_ns: int | None = None) -> bool:
         with self._lock:
             node = next((one for one in self._nodes if one.name == name), None)
-        if node is None:
+        if node is None or (since_ns is not None and not self._namesakes.yields(name, since_ns)):
             return False
         node.log("warn", f"shutdown request: [{name}] Reason: {reason}")
         node.shutdown(reason)
         return True
-
-    def _end_namesakes(self, name: str) -> None:
-        self._shut_node_down(name, _TAKEN_OVER)
-        for one in self.entities():
-            if one.kind is Kind.NODE and one.node == name and one.zid != self.zid:
-                shut_down_node(self.session, self.domain, one.zid, name, _TAKEN_OVER)
 
     def _ends(self, kind: Kind, topic: str) -> tuple[Entity, ...]:
         full = resolve(topic)
