@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202
+# ruff: noqa: ANN001, ANN201
 """The compiled inner loop of finding shortest ways through the graph of poses."""
 
 from __future__ import annotations
@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.compiling import njit
+from gazelle.heap_kernels import sift_down, sift_up
 
 __all__ = ["shortest_ways"]
 
@@ -49,7 +50,7 @@ def shortest_ways(tails, heads, lengths, count, source):
     while waiting > 0:
         way, node = keys[0], nodes[0]
         waiting -= 1
-        _sink(keys, nodes, waiting)
+        sift_down(keys, nodes, waiting)
         if way > ways[node]:
             continue
         for k in range(starts[node], starts[node + 1]):
@@ -58,36 +59,7 @@ def shortest_ways(tails, heads, lengths, count, source):
             longer = way + lengths[e]
             if longer < ways[other]:
                 ways[other] = longer
-                _rise(keys, nodes, waiting, longer, other)
+                keys[waiting], nodes[waiting] = longer, other
+                sift_up(keys, nodes, waiting)
                 waiting += 1
     return ways
-
-
-@njit(cache=True, nogil=True)
-def _rise(keys, nodes, k, key, node):
-    """Put something at the end of a heap, place k, and let it rise."""
-    while k > 0:
-        parent = (k - 1) >> 1
-        if keys[parent] <= key:
-            break
-        keys[k], nodes[k] = keys[parent], nodes[parent]
-        k = parent
-    keys[k], nodes[k] = key, node
-
-
-@njit(cache=True, nogil=True)
-def _sink(keys, nodes, count):
-    """Put the last of a heap at the top and let it sink; `count` is without it."""
-    key, node = keys[count], nodes[count]
-    k = 0
-    while True:
-        child = 2 * k + 1
-        if child >= count:
-            break
-        if child + 1 < count and keys[child + 1] < keys[child]:
-            child += 1
-        if keys[child] >= key:
-            break
-        keys[k], nodes[k] = keys[child], nodes[child]
-        k = child
-    keys[k], nodes[k] = key, node

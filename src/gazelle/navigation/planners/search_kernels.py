@@ -9,47 +9,12 @@ import math
 import numpy as np
 
 from gazelle.compiling import njit
+from gazelle.heap_kernels import sift_down, sift_up
 from gazelle.navigation.planners.kernels import FORBIDDEN, HIGH
 
 __all__ = ["astar", "theta_star"]
 
 _ROOT2 = math.sqrt(2.0)
-
-
-@njit(cache=True, nogil=True)
-def _sift_up(keys, cells, k):
-    key = keys[k]
-    cell = cells[k]
-    while k > 0:
-        parent = (k - 1) >> 1
-        if keys[parent] <= key:
-            break
-        keys[k] = keys[parent]
-        cells[k] = cells[parent]
-        k = parent
-    keys[k] = key
-    cells[k] = cell
-
-
-@njit(cache=True, nogil=True)
-def _sift_down(keys, cells, count):
-    """Put the last element of a heap at the top and let it sink; `count` is without it."""
-    key = keys[count]
-    cell = cells[count]
-    k = 0
-    while True:
-        child = 2 * k + 1
-        if child >= count:
-            break
-        if child + 1 < count and keys[child + 1] < keys[child]:
-            child += 1
-        if keys[child] >= key:
-            break
-        keys[k] = keys[child]
-        cells[k] = cells[child]
-        k = child
-    keys[k] = key
-    cells[k] = cell
 
 
 @njit(cache=True, nogil=True)
@@ -248,7 +213,7 @@ def theta_star(costs, table, start, goal, corners, weight):
         c = cells[0]
         count -= 1
         if count > 0:
-            _sift_down(keys, cells, count)
+            sift_down(keys, cells, count)
         if closed[c]:
             continue
         closed[c] = True
@@ -289,7 +254,7 @@ def theta_star(costs, table, start, goal, corners, weight):
                     cells = _widened(cells, np.empty(room, np.int32))
                 keys[count] = new + weight * math.hypot(u - gx, v - gy)
                 cells[count] = q
-                _sift_up(keys, cells, count)
+                sift_up(keys, cells, count)
                 count += 1
     if g[goal] >= HIGH:
         return np.empty(0, np.int64), HIGH
