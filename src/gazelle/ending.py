@@ -122,24 +122,17 @@ def _rouse_main_thread() -> None:
     """
     if _ROUSING is None or threading.current_thread() is not threading.main_thread():
         return
-    import socket
-
-    near, far = socket.socketpair()
-    far.setblocking(False)
     if signal.getsignal(_ROUSING) in (signal.SIG_DFL, None):
         signal.signal(_ROUSING, _do_nothing)
-    signal.set_wakeup_fd(far.fileno(), warn_on_full_buffer=False)
-    threading.Thread(target=_rouse, args=(near, far), name="rouser", daemon=True).start()
+    _at_each_signal(_rouse)
 
 
-def _rouse(near: socket.socket, _far: socket.socket) -> None:
+def _rouse() -> None:
     main = threading.main_thread().ident
     assert main is not None and _ROUSING is not None
-    while numbers := near.recv(16):
-        if any(number in numbers for number in _SIGNALS):
-            for after_s in _ROUSE_AFTER_S:
-                time.sleep(after_s)
-                signal.pthread_kill(main, _ROUSING)
+    for after_s in _ROUSE_AFTER_S:
+        time.sleep(after_s)
+        signal.pthread_kill(main, _ROUSING)
 
 
 def _do_nothing(_number: int, _frame: FrameType | None) -> None:
@@ -203,15 +196,20 @@ def at_stop_signal(stop: Callable[[], object]) -> None:
     as the signal comes, or whose signal the kernel gave to another thread, sleeps on. So a thread
     is woken by the signal's number and calls it too; it must not mind being called twice.
     """
+    for number in _SIGNALS:
+        signal.signal(number, lambda *_: stop())
+    _at_each_signal(stop)
+
+
+def _at_each_signal(act: Callable[[], object]) -> None:
+    """Let a thread call something whenever a signal to end comes, beside its handler."""
     import socket
 
     near, far = socket.socketpair()
     far.setblocking(False)
-    for number in _SIGNALS:
-        signal.signal(number, lambda *_: stop())
     signal.set_wakeup_fd(far.fileno(), warn_on_full_buffer=False)
     # It must live as long as the process: so the thread holds both ends.
-    threading.Thread(target=_listen, args=(near, far, stop), daemon=True).start()
+    threading.Thread(target=_listen, args=(near, far, act), daemon=True).start()
 
 
 def when_nobody_reads(stream: TextIO, act: Callable[[], object]) -> None:
@@ -247,10 +245,10 @@ def _await_end(descriptor: int, act: Callable[[], object]) -> None:
         act()
 
 
-def _listen(near: socket.socket, _far: socket.socket, stop: Callable[[], object]) -> None:
+def _listen(near: socket.socket, _far: socket.socket, act: Callable[[], object]) -> None:
     while numbers := near.recv(16):
         if any(number in numbers for number in _SIGNALS):
-            stop()
+            act()
 
 
 def _code_of(main: Callable[[], int]) -> int:
