@@ -10,7 +10,7 @@ import pytest
 from tests import patience
 from tests.patience import PATIENCE_S, stretched
 
-from gazelle.graph import Graph
+from gazelle.graph import Graph, TimeJumpError
 
 
 class Inbox:
@@ -30,6 +30,21 @@ class Inbox:
             in_time = self._changed.wait_for(lambda: len(self.items) >= count, stretched(timeout_s))
             assert in_time, self.items
             return list(self.items)
+
+
+def sleep_in_thread(sleep: Callable[[], Any]) -> tuple[threading.Thread, list[Any]]:
+    """Begin a sleep on a clock; return its thread, and what it will have ended with."""
+    outcome: list[Any] = []
+
+    def run() -> None:
+        try:
+            outcome.append(sleep())
+        except TimeJumpError as error:
+            outcome.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    return thread, outcome
 
 
 @pytest.fixture

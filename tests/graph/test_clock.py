@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.graph.conftest import sleep_in_thread
 from tests.patience import stretched
 
 from gazelle.graph import Graph, Node, TimeJumpError
@@ -83,25 +84,11 @@ def test_one_node_of_a_process_carries_the_clock(simulated: Graph, eventually: W
     assert second.clock.now_ns() == 2 * S
 
 
-def _sleep_in_thread(sleep: Callable[[], Any]) -> tuple[threading.Thread, list[Any]]:
-    outcome: list[Any] = []
-
-    def run() -> None:
-        try:
-            outcome.append(sleep())
-        except TimeJumpError as error:
-            outcome.append(error)
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    return thread, outcome
-
-
 def test_sleep_ends_with_simulated_time(simulated: Graph) -> None:
     node = simulated.create_node("a")
     simulator = _Simulator(node)
     simulator.show(1 * S)
-    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep_until(3 * S))
+    thread, outcome = sleep_in_thread(lambda: node.clock.sleep_until(3 * S))
     simulator.show(2 * S)
     assert not outcome
     simulator.show(3 * S)
@@ -111,7 +98,7 @@ def test_sleep_ends_with_simulated_time(simulated: Graph) -> None:
 
 def test_sleep_waits_for_the_first_clock(simulated: Graph, eventually: Wait) -> None:
     node = simulated.create_node("a")
-    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))
+    thread, outcome = sleep_in_thread(lambda: node.clock.sleep(S))
     simulator = _Simulator(node)
     now_ns = 100 * S
 
@@ -139,7 +126,7 @@ def test_jump_back_wakes_sleepers_and_tells_listeners(simulated: Graph) -> None:
         asleep.set()
         return node.clock.sleep_until(20 * S)
 
-    thread, outcome = _sleep_in_thread(sleep)
+    thread, outcome = sleep_in_thread(sleep)
     assert asleep.wait(stretched(30))
     with node.clock._lock:
         simulator_jump = threading.Thread(target=simulator.show, args=(1 * S,))
@@ -160,7 +147,7 @@ def test_change_to_simulated_time_is_a_jump_back_for_sleepers(
     clock = graph.create_node("a").clock
     jumps = clock.jumps
     target_ns = clock.now_ns() + 3600 * S
-    thread, outcome = _sleep_in_thread(lambda: clock.sleep_until(target_ns, since=jumps))
+    thread, outcome = sleep_in_thread(lambda: clock.sleep_until(target_ns, since=jumps))
     graph.parameters.set("/use_sim_time", True)
     thread.join(stretched(30))
     assert clock.use_sim_time
@@ -170,7 +157,7 @@ def test_change_to_simulated_time_is_a_jump_back_for_sleepers(
 
 def test_sleep_begins_anew_when_the_time_becomes_simulated(graph: Graph, eventually: Wait) -> None:
     node = graph.create_node("a")
-    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(3600 * S))
+    thread, outcome = sleep_in_thread(lambda: node.clock.sleep(3600 * S))
     eventually(lambda: bool(node.clock._sleepers))
     graph.parameters.set("/use_sim_time", True)
     eventually(lambda: node.clock.use_sim_time)
@@ -184,7 +171,7 @@ def test_sleep_begins_anew_when_the_time_becomes_simulated(graph: Graph, eventua
 
 def test_closing_wakes_sleepers(simulated: Graph) -> None:
     node = simulated.create_node("a")
-    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep(S))
+    thread, outcome = sleep_in_thread(lambda: node.clock.sleep(S))
     simulated.close()
     thread.join(stretched(30))
     assert outcome == [False]
@@ -222,8 +209,8 @@ def test_only_those_whose_time_has_come_wake(simulated: Graph) -> None:
     node = simulated.create_node("a")
     simulator = _Simulator(node)
     simulator.show(1 * S)
-    early, first = _sleep_in_thread(lambda: node.clock.sleep_until(2 * S))
-    late, second = _sleep_in_thread(lambda: node.clock.sleep_until(9 * S))
+    early, first = sleep_in_thread(lambda: node.clock.sleep_until(2 * S))
+    late, second = sleep_in_thread(lambda: node.clock.sleep_until(9 * S))
     while len(node.clock._sleepers) < 2:
         early.join(0.001)
     simulator.show(3 * S)
@@ -239,7 +226,7 @@ def test_only_those_whose_time_has_come_wake(simulated: Graph) -> None:
 def test_a_sleep_ended_early_leaves_nothing_behind(simulated: Graph) -> None:
     node = simulated.create_node("a")
     stop = threading.Event()
-    thread, outcome = _sleep_in_thread(lambda: node.clock.sleep_until(9 * S, stop))
+    thread, outcome = sleep_in_thread(lambda: node.clock.sleep_until(9 * S, stop))
     while not node.clock._sleepers:
         thread.join(0.001)
     stop.set()

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.graph.conftest import sleep_in_thread
 from tests.patience import stretched
 
 from gazelle.graph import (
     Graph,
     Node,
     Publisher,
-    TimeJumpError,
     clock_page,
     clock_sharing,
     clock_waits,
@@ -103,20 +103,6 @@ def _follows(node: Node, simulator: _Simulator, from_ns: int) -> Callable[[], bo
     return follows
 
 
-def _in_thread(sleep: Callable[[], Any]) -> tuple[threading.Thread, list[Any]]:
-    outcome: list[Any] = []
-
-    def run() -> None:
-        try:
-            outcome.append(sleep())
-        except TimeJumpError as error:
-            outcome.append(error)
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    return thread, outcome
-
-
 def test_a_node_reads_the_page_and_lets_no_messages_come(
     simulator: _Simulator, reader: Node
 ) -> None:
@@ -139,7 +125,7 @@ def test_before_anything_is_shown_time_is_zero(simulator: _Simulator, node: Node
 
 
 def test_sleepers_look_at_the_page(simulator: _Simulator, reader: Node, eventually: Wait) -> None:
-    thread, outcome = _in_thread(lambda: reader.clock.sleep_until(7 * S))
+    thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(7 * S))
     eventually(lambda: bool(reader.clock._sleepers))
     simulator.show(6 * S)
     assert not outcome
@@ -161,7 +147,7 @@ def test_sleepers_hear_of_time_that_goes_on_after_a_pause(
         return still(number)
 
     monkeypatch.setattr(reader.clock._waits, "still", count)
-    thread, outcome = _in_thread(lambda: reader.clock.sleep_until(6 * S))
+    thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(6 * S))
     eventually(lambda: looks[0] > 1)
     monkeypatch.setattr(clock_sharing, "_STILL_S", 0.0)
     simulator.show(6 * S)
@@ -174,7 +160,7 @@ def test_who_sleeps_for_moments_hears_each_step(
 ) -> None:
     monkeypatch.setattr(clock_waits, "_MANY", 1)
     for from_s, length_ns in ((5, 1_000_000), (1000, S)):
-        thread, outcome = _in_thread(lambda ns=length_ns: reader.clock.sleep(ns))
+        thread, outcome = sleep_in_thread(lambda ns=length_ns: reader.clock.sleep(ns))
         eventually(lambda: bool(reader.clock._sleepers))
         is_short = length_ns < S
         eventually(lambda wanted=not is_short: _reads_page(reader) is wanted)
@@ -190,7 +176,7 @@ def test_who_sleeps_for_moments_hears_each_step(
 
 def test_a_stop_ends_a_sleep_on_the_page(reader: Node, eventually: Wait) -> None:
     stop = threading.Event()
-    thread, outcome = _in_thread(lambda: reader.clock.sleep_until(9 * S, stop))
+    thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(9 * S, stop))
     eventually(lambda: bool(reader.clock._sleepers))
     stop.set()
     thread.join(stretched(30))
@@ -203,7 +189,7 @@ def test_a_jump_back_wakes_sleepers_and_tells_listeners(
     told: list[int] = []
     reader.clock.on_jump(told.append)
     jumps = reader.clock.jumps
-    thread, outcome = _in_thread(lambda: reader.clock.sleep_until(20 * S, since=jumps))
+    thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(20 * S, since=jumps))
     eventually(lambda: bool(reader.clock._sleepers))
     simulator.show(10 * S)
     simulator.show(1 * S)
@@ -288,7 +274,7 @@ def test_a_new_simulator_begins_a_new_time(
 def test_a_sleep_goes_on_when_the_page_goes(
     world: Graph, simulator: _Simulator, reader: Node, eventually: Wait
 ) -> None:
-    thread, outcome = _in_thread(lambda: reader.clock.sleep_until(9 * S))
+    thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(9 * S))
     eventually(lambda: bool(reader.clock._sleepers))
     simulator.close()
     second = _Simulator(world.create_node("second"), shares=False)
