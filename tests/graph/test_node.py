@@ -75,7 +75,7 @@ def test_older_node_that_is_heard_of_late_ends_too(
     with monkeypatch.context() as late:
         late.setattr(other.discovery, "known", lambda: ())
         newer = other.create_node("n")
-    assert not older.closed
+    # Where the true word has not come meanwhile.
     other._namesakes._on_entity(older.entity, True)
     assert inbox.wait_for(1) == ["new node registered with same name"]
     assert not newer.closed
