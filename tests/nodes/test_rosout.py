@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
@@ -66,15 +66,26 @@ def test_the_second_stands_by_and_takes_over_when_the_first_ends(
 def test_of_two_that_begin_together_one_stays(
     gatherers: list[Gatherer], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    together = threading.Barrier(len(gatherers))
+
+    def nothing_yet(_graph: Graph) -> tuple[()]:
+        together.wait(stretched())
+        return ()
+
     with monkeypatch.context() as blind:
         # Neither sees the other at its start, the worst that can happen.
-        blind.setattr(Graph, "entities", lambda _graph: ())
+        blind.setattr(Graph, "entities", nothing_yet)
         for one in gatherers:
             one.thread.start()
-        _until(gatherers[0].graph, lambda: len(_names(gatherers)) == 2)
-    lower = min(gatherers, key=lambda one: one.graph.zid)
-    _until(lower.graph, lambda: _names(gatherers) == ["/rosout"])
-    assert _names([lower]) == ["/rosout"]
+        eventually(lambda: any(one.graph.nodes for one in gatherers))
+
+    def stays_one() -> bool:
+        before = _names(gatherers)
+        # Two looks.
+        gatherers[0].thread.join(1.2)
+        return before == _names(gatherers) == ["/rosout"]
+
+    eventually(stays_one)
 
 
 def test_a_killed_one_comes_back(gatherers: list[Gatherer]) -> None:

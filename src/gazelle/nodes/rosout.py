@@ -9,6 +9,7 @@ from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from typing import Any
 
+from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, Level, Node
 from gazelle.graph.names import resolve
 from gazelle.interfaces import ros1_message_type
@@ -34,12 +35,15 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node: Node | None = None
     known = graph.entities()
     while True:
-        others = _namesakes(name, graph, known)
-        if node is not None and not node.closed and any(zid < graph.zid for zid in others):
-            # Two that began together saw nothing of each other then.
-            node.shutdown("another node gathers the log")
-        if not others and (node is None or node.closed):
-            node = _begin(arguments, graph, file)
+        # Of two that began together the graph ends one.
+        if (node is None or node.closed) and not _has_namesake(name, graph, known):
+            node = start_node(arguments, graph)
+            try:
+                _gather(node, file)
+            except GraphError:
+                # Ended by the other one while it began.
+                if not node.closed:
+                    raise
         if stop.wait(_LOOK_S):
             break
         known = graph.discovery.known()
@@ -49,8 +53,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return 0
 
 
-def _begin(arguments: NodeArguments, graph: Graph, file: Handler) -> Node:
-    node = start_node(arguments, graph)
+def _gather(node: Node, file: Handler) -> None:
     log_type = ros1_message_type("rosgraph_msgs/Log")
     out = node.create_publisher("/rosout_agg", log_type, queue_size=100)
 
@@ -60,16 +63,11 @@ def _begin(arguments: NodeArguments, graph: Graph, file: Handler) -> Node:
 
     _write(file, f"{node.clock.now_ns() / 1e9:.9f} Node Startup")
     node.create_subscription("/rosout", log_type, on_log, queue_size=0)
-    return node
 
 
-def _namesakes(name: str, graph: Graph, known: Iterable[Entity]) -> list[str]:
-    """Return the sessions of other processes' nodes of that name."""
-    return [
-        one.zid
-        for one in known
-        if one.kind is Kind.NODE and one.node == name and one.zid != graph.zid
-    ]
+def _has_namesake(name: str, graph: Graph, known: Iterable[Entity]) -> bool:
+    """Tell whether another process has a node of that name."""
+    return any(one.kind is Kind.NODE and one.node == name and one.zid != graph.zid for one in known)
 
 
 def line_of(message: Any) -> str:

@@ -9,12 +9,12 @@ from types import SimpleNamespace
 import pytest
 
 from gazelle.nodes.turtlesim.draw_square import Square
-from gazelle.nodes.turtlesim.turtle import PERIOD_S, WORLD_M, Turtle
+from gazelle.nodes.turtlesim.turtle import WORLD_M, Turtle
 
 
 def _walk(turtle: Turtle, corners: int) -> list[tuple[float, float]]:
     """Return where the turtle is when it begins to turn."""
-    square, places, now_s = Square(), [], 0.0
+    square, places = Square(), []
     for _step in range(60_000):
         pose = SimpleNamespace(
             x=turtle.x_m,
@@ -29,9 +29,8 @@ def _walk(turtle: Turtle, corners: int) -> list[tuple[float, float]]:
         if len(places) == 2 * corners:
             return places[::2]
         if command is not None:
-            turtle.command(command[0], 0.0, command[1], now_s)
-        turtle.move(now_s)
-        now_s += PERIOD_S
+            turtle.command(command[0], 0.0, command[1])
+        turtle.move()
     raise AssertionError(f"only {len(places)} goals reached")
 
 

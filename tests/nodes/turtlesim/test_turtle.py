@@ -20,9 +20,9 @@ from gazelle.nodes.turtlesim.turtle import (
 
 def _drive(turtle: Turtle, seconds: float, linear: float, angular: float) -> list[tuple]:
     places = []
-    for step in range(round(seconds / PERIOD_S)):
-        turtle.command(linear, 0.0, angular, step * PERIOD_S)
-        turtle.move(step * PERIOD_S)
+    for _step in range(round(seconds / PERIOD_S)):
+        turtle.command(linear, 0.0, angular)
+        turtle.move()
         places.append((turtle.x_m, turtle.y_m))
     return places
 
@@ -44,9 +44,9 @@ def test_turtle_goes_round_a_circle_of_radius_v_over_omega() -> None:
 
 def test_command_holds_for_one_second() -> None:
     turtle = Turtle.at(1.0, 1.0, 0.0)
-    turtle.command(1.0, 0.0, 0.0, 0.0)
-    for step in range(200):
-        turtle.move(step * PERIOD_S)
+    turtle.command(1.0, 0.0, 0.0)
+    for _step in range(200):
+        turtle.move()
     assert turtle.x_m == pytest.approx(1.0 + 1.0, abs=2 * PERIOD_S)
     assert turtle.linear_x_m_s == 0.0
 
@@ -63,9 +63,9 @@ def test_command_holds_for_one_second() -> None:
 def test_wall_stops_the_turtle_and_tells_where_it_would_be(theta, place, hit) -> None:
     turtle = Turtle.at(5.0, 5.0, theta)
     beyond = None
-    for step in range(300):
-        turtle.command(5.0, 0.0, 0.0, step * PERIOD_S)
-        _strokes, beyond = turtle.move(step * PERIOD_S)
+    for _step in range(300):
+        turtle.command(5.0, 0.0, 0.0)
+        _strokes, beyond = turtle.move()
     assert (turtle.x_m, turtle.y_m) == pytest.approx(place, abs=1e-5)
     assert beyond is not None
     assert hit(*beyond)
@@ -91,7 +91,7 @@ def test_teleport_beyond_the_wall_ends_at_it_with_the_next_step() -> None:
     turtle = Turtle.at(2.0, 2.0, 0.0)
     turtle.teleport(Teleport(1.0, 20.0, 20.0))
     turtle.jump()
-    _strokes, beyond = turtle.move(0.0)
+    _strokes, beyond = turtle.move()
     assert beyond == (20.0, 0.0)
     assert (turtle.x_m, turtle.y_m) == (WORLD_M, WORLD_M)
 
@@ -101,14 +101,14 @@ def test_pen_that_is_off_draws_nothing() -> None:
     turtle.pen = Pen(is_on=False)
     turtle.teleport(Teleport(0.0, 4.0, 4.0))
     assert turtle.jump() == []
-    turtle.command(1.0, 0.0, 0.0, 0.0)
-    assert turtle.move(0.0)[0] == []
+    turtle.command(1.0, 0.0, 0.0)
+    assert turtle.move()[0] == []
 
 
 def test_sideways_velocity_moves_to_the_left() -> None:
     turtle = Turtle.at(2.0, 2.0, 0.0)
-    turtle.command(0.0, 1.0, 0.0, 0.0)
-    turtle.move(0.0)
+    turtle.command(0.0, 1.0, 0.0)
+    turtle.move()
     assert (turtle.x_m, turtle.y_m) == pytest.approx((2.0, 2.0 + PERIOD_S), abs=1e-6)
 
 
@@ -117,10 +117,10 @@ def test_turning_to_a_heading_goes_the_short_way_and_stops_near_it(heading, spee
     turtle, reached = Turtle.at(5.0, 5.0, 0.0), False
     steps = 0
     while not reached:
-        _remaining, reached = turtle.turn_towards(heading, steps * PERIOD_S)
+        _remaining, reached = turtle.turn_towards(heading)
         if steps == 0:
             assert turtle.angular_rad_s == speed
-        turtle.move(steps * PERIOD_S)
+        turtle.move()
         steps += 1
     assert turtle.theta_rad == pytest.approx(heading, abs=0.02)
     assert steps * PERIOD_S == pytest.approx(2.0, abs=0.05)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -95,11 +94,11 @@ class Member:
         Returns:
             Whether the picture changed, and what tells others, to be called without the lock.
         """
-        turtle, now_s = self.turtle, time.monotonic()
+        turtle = self.turtle
         before = (turtle.x_m, turtle.down_m, turtle.theta_rad)
         canvas.draw(turtle.jump())
-        tell_goal = self._follow_goal(now_s)
-        strokes, hit = turtle.move(now_s)
+        tell_goal = self._follow_goal()
+        strokes, hit = turtle.move()
         color = self._color(**dict(zip("rgb", canvas.color_at(turtle.place_px), strict=True)))
         pose = self._pose(
             x=single(turtle.x_m),
@@ -136,7 +135,7 @@ class Member:
             return
         with self._lock:
             sideways = y if self._is_holonomic() else self.turtle.linear_y_m_s
-            self.turtle.command(x, sideways, angular, time.monotonic())
+            self.turtle.command(x, sideways, angular)
             goal, self._goal = self._goal, None
         if goal is not None:
             self._node.log("warn", _DRIVEN)
@@ -188,7 +187,7 @@ class Member:
     def _result(self) -> dict[str, float]:
         return {"delta": normalized(self._start_rad - self.turtle.theta_rad)}
 
-    def _follow_goal(self, now_s: float) -> Callable[[], None]:
+    def _follow_goal(self) -> Callable[[], None]:
         """Turn towards the goal's heading; return what tells its client, without the lock."""
         goal = self._goal
         if goal is None:
@@ -198,7 +197,7 @@ class Member:
             self.turtle.halt()
             result = self._result()
             return lambda: self._end(goal.cancel, result, "Rotation goal canceled")
-        remaining, is_reached = self.turtle.turn_towards(goal.request.theta, now_s)
+        remaining, is_reached = self.turtle.turn_towards(goal.request.theta)
         result = self._result()
         if not is_reached:
             return lambda: goal.publish_feedback({"remaining": remaining})

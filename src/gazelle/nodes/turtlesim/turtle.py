@@ -106,7 +106,7 @@ class Turtle:
     linear_x_m_s: float = 0.0
     linear_y_m_s: float = 0.0
     angular_rad_s: float = 0.0
-    _commanded_s: float = field(default=-math.inf, init=False)
+    _commanded_for_s: float = field(default=math.inf, init=False)
     _teleports: list[Teleport] = field(default_factory=list, init=False)
 
     @classmethod
@@ -124,24 +124,24 @@ class Turtle:
         """Where it is in the picture."""
         return self.x_m * METER_PX, self.down_m * METER_PX
 
-    def command(self, x_m_s: float, y_m_s: float, angular_rad_s: float, now_s: float) -> None:
-        """Go on with these velocities for a second."""
+    def command(self, x_m_s: float, y_m_s: float, angular_rad_s: float) -> None:
+        """Go on with these velocities for a second, of steps: a slow machine cuts nothing off."""
         self.linear_x_m_s, self.linear_y_m_s = x_m_s, y_m_s
         self.angular_rad_s = angular_rad_s
-        self._commanded_s = now_s
+        self._commanded_for_s = 0.0
 
     def teleport(self, request: Teleport) -> None:
         """Jump at the next step."""
         self._teleports.append(request)
 
-    def turn_towards(self, theta_rad: float, now_s: float) -> tuple[float, bool]:
+    def turn_towards(self, theta_rad: float) -> tuple[float, bool]:
         """Turn towards a heading for one step; return what remains and whether it is reached."""
         remaining = normalized(normalized(theta_rad) - single(self.theta_rad))
         if abs(remaining) < _TURN_TOLERANCE_RAD:
             self.halt()
             return remaining, True
         speed = -_TURN_SPEED_RAD_S if remaining < 0 else _TURN_SPEED_RAD_S
-        self.command(0.0, 0.0, speed, now_s)
+        self.command(0.0, 0.0, speed)
         return remaining, False
 
     def halt(self) -> None:
@@ -165,15 +165,16 @@ class Turtle:
         self._teleports.clear()
         return [stroke for stroke in strokes if stroke.pen.is_on]
 
-    def move(self, now_s: float) -> tuple[list[Stroke], tuple[float, float] | None]:
+    def move(self) -> tuple[list[Stroke], tuple[float, float] | None]:
         """Go on by one period.
 
         Returns:
             What the pen draws, and where the turtle would be beyond a wall (x to the right and
             y downwards, metres), None when it is not.
         """
-        if now_s - self._commanded_s > _TIMEOUT_S:
+        if self._commanded_for_s > _TIMEOUT_S:
             self.halt()
+        self._commanded_for_s += PERIOD_S
         before = self.place_px
         self.theta_rad = normalized(self.theta_rad + self.angular_rad_s * PERIOD_S)
         cos, sin = math.cos(self.theta_rad), math.sin(self.theta_rad)
