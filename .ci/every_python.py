@@ -5,8 +5,8 @@
 
 PYTHON is a version (3.12) or a program; without one, all that the classifiers of pyproject.toml
 promise are looked for: on PATH, among pyenv's versions and among uv's. Each gets the newest
-packages; the lowest one also gets the lowest ones that pyproject.toml allows, as its lower bounds
-say. The last lines are a table; the exit code is 1 where a run failed.
+packages and has its types checked; the lowest one also gets the lowest packages that pyproject.toml
+allows, as its lower bounds say. The last lines are a table; the exit code is 1 where a run failed.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Outcome(NamedTuple):
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the tests and print the table."""
+    """Check types, run the tests and print the table."""
     options, pytest_arguments = _options(sys.argv[1:] if arguments is None else arguments)
     project = tomllib.loads((_ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     wanted = promised(project)
@@ -162,7 +162,13 @@ def _outcome(
         )
         if installed.returncode:
             return Outcome(run, False, "pip cannot install it", time.monotonic() - begin)
-        command = [str(venv / "bin" / "python"), "-m", "pytest", "-n", "auto"]
+        python = [str(venv / "bin" / "python"), "-m"]
+        # Packages' types are other ones on every Python; old ones of the lowest need not fit.
+        if not run.lowest:
+            code, last = _followed([*python, "mypy", "-n", "2"], venv)
+            if code:
+                return Outcome(run, False, last, time.monotonic() - begin)
+        command = [*python, "pytest", "-n", "auto"]
         command += ["-o", f"cache_dir={folder}/pytest", *(["-m", "quick"] if quick else [])]
         code, last = _followed([*command, *pytest_arguments], venv)
     return Outcome(run, code == 0, last, time.monotonic() - begin)

@@ -26,6 +26,7 @@ __all__ = ["LiveCostmap"]
 
 _WAITING = 20
 _NANO = 1_000_000_000
+_LAST_UPDATE_S = 2.0
 
 
 class LiveCostmap:
@@ -142,7 +143,10 @@ class LiveCostmap:
     def close(self) -> None:
         """Stop updating and listening."""
         self._stop.set()
-        self._thread = None
+        thread, self._thread = self._thread, None
+        if thread is not None and thread is not threading.current_thread():
+            # An update at work publishes at its end.
+            thread.join(_LAST_UPDATE_S)
         for one in self._subscriptions:
             one.unregister()
         self._subscriptions.clear()
