@@ -72,7 +72,15 @@ class EngineError(GazelleError):
 
 
 class SimulationDivergedError(EngineError):
-    """The state became non-finite; the message names the link and its source line."""
+    """The state became non-finite; the message names the link and its source line.
+
+    Attributes:
+        link: ``model::link`` that went wrong first.
+    """
+
+    def __init__(self, message: str, *, link: str) -> None:
+        self.link = link
+        super().__init__(message)
 
 
 class InterfaceError(GazelleError):

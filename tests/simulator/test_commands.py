@@ -9,15 +9,19 @@ from gazelle.errors import GazelleError
 from gazelle.simulator.commands import CommandQueue
 
 
+def _never(error: Exception) -> None:
+    raise AssertionError("a command failed") from error
+
+
 def test_commands_act_at_once_while_nobody_runs_the_loop() -> None:
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     queue.post(lambda: done.append(1))
     assert queue.call(lambda: 7) == 7
     assert done == [1]
 
 
 def test_commands_of_other_threads_wait_for_the_loop() -> None:
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     queue.own()
     thread = threading.Thread(target=lambda: done.append(queue.call(lambda: "result")))
     thread.start()
@@ -30,7 +34,7 @@ def test_commands_of_other_threads_wait_for_the_loop() -> None:
 
 
 def test_an_error_reaches_the_caller() -> None:
-    queue = CommandQueue()
+    queue = CommandQueue(_never)
     queue.own()
     caught: list[BaseException] = []
 
@@ -50,7 +54,7 @@ def test_an_error_reaches_the_caller() -> None:
 
 
 def test_a_call_that_nobody_takes_says_so() -> None:
-    queue = CommandQueue()
+    queue = CommandQueue(_never)
     errors: list[str] = []
     queue.own()
 
@@ -68,7 +72,7 @@ def test_a_call_that_nobody_takes_says_so() -> None:
 
 
 def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     queue.own()
     thread = threading.Thread(target=lambda: queue.post(lambda: done.append(1)))
     thread.start()
@@ -79,7 +83,7 @@ def test_what_is_queued_when_the_loop_ends_is_applied() -> None:
 
 def test_posting_does_not_wait_for_the_command_of_another_thread() -> None:
     """Threads of the transport post: what that command asks of the graph comes through them."""
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     acting, posted = threading.Event(), threading.Event()
 
     def command() -> None:
@@ -98,7 +102,7 @@ def test_posting_does_not_wait_for_the_command_of_another_thread() -> None:
 
 @pytest.mark.parametrize("through", ["post", "call"])
 def test_the_loops_own_thread_acts_at_once(through: str) -> None:
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     queue.own()
     getattr(queue, through)(lambda: done.append(1))
     assert done == [1]
@@ -107,7 +111,7 @@ def test_the_loops_own_thread_acts_at_once(through: str) -> None:
 
 def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None:
     """A spawner calls while a robot is being spawned, before the world's loop has begun."""
-    queue, done = CommandQueue(), []
+    queue, done = CommandQueue(_never), []
     acting, go_on, end = threading.Event(), threading.Event(), threading.Event()
 
     def spawn() -> None:
@@ -138,3 +142,18 @@ def test_a_command_that_waits_while_a_loop_begins_is_taken_by_the_loop() -> None
     for thread in threads:
         thread.join(stretched(30.0))
     assert answered == ["taken"]
+
+
+def test_what_a_posted_command_raises_is_told_and_the_next_one_acts() -> None:
+    told: list[Exception] = []
+    queue, done = CommandQueue(told.append), []
+    queue.own()
+    poster = threading.Thread(
+        target=lambda: (queue.post(lambda: 1 / 0), queue.post(lambda: done.append(1)))
+    )
+    poster.start()
+    poster.join(stretched())
+    queue.apply()
+    queue.disown()
+    assert [type(error) for error in told] == [ZeroDivisionError]
+    assert done == [1]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
+from gazelle.engine.finite import require_finite, require_finite_pose
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.library import mujoco
@@ -277,7 +278,12 @@ class EngineCore:
     def add_wrench(
         self, link: str, force_n: Array, torque_nm: Array, duration_ns: int | None
     ) -> TimedWrench:
-        """Let a wrench about a link's centre of mass act for a time; None for ever."""
+        """Let a wrench about a link's centre of mass act for a time; None for ever.
+
+        Raises:
+            EngineError: a number is not finite.
+        """
+        require_finite((*force_n, *torque_nm), f"the wrench on link '{link}'")
         until = None
         if duration_ns is not None:
             steps = max(1, -(-duration_ns // self._step_ns))
@@ -309,8 +315,10 @@ class EngineCore:
 
         Raises:
             NotFoundError: there is no such model.
+            EngineError: a number is not finite.
         """
         model, _ = self._canonical(name)
+        require_finite_pose(T_world_model, f"model '{name}'")
         now = self.model_pose(name)
         roots = [self.body_id(scoped(name, link.name)) for link in model.links]
         if not move_root(self.model, self._data, roots, T_world_model @ now.inverse()):
@@ -322,7 +330,12 @@ class EngineCore:
         self.state_changed()
 
     def move_tree(self, body: int, now: Pose, wanted: Pose) -> None:
-        """Move the robot that a body belongs to so that the body has a pose."""
+        """Move the robot that a body belongs to so that the body has a pose.
+
+        Raises:
+            EngineError: a number is not finite.
+        """
+        require_finite_pose(wanted, f"link '{self.model.body(body).name}'")
         if not move_root(self.model, self._data, [body], wanted @ now.inverse()):
             name = self.model.body(body).name.partition("::")[0]
             self.set_model_pose(name, wanted @ now.inverse() @ self.model_pose(name))
@@ -332,14 +345,29 @@ class EngineCore:
         """Move the robot that a body belongs to so that the body's origin has a velocity.
 
         Raises:
-            EngineError: it is fixed to the world.
+            EngineError: it is fixed to the world, or a number is not finite.
         """
+        require_finite(
+            (*linear_m_s, *angular_rad_s), f"the velocity of link '{self.model.body(body).name}'"
+        )
         handle = self.link(self.model.body(body).name)
         now = handle.velocity_world()
         origin = np.asarray(handle.T_world_link().position_m)
         change = (linear_m_s - now.linear_m_s, angular_rad_s - now.angular_rad_s)
         if not set_root_velocity(self.model, self.fresh_data(), body, origin, change):
             raise EngineError(f"link '{handle.name}' is fixed to the world and cannot be pushed")
+        self.state_changed()
+
+    def bring_to_rest(self, name: str) -> None:
+        """Take all speed from a model and its joints.
+
+        Raises:
+            NotFoundError: there is no such model.
+        """
+        for link in self._model_named(name).links:
+            body = self.body_id(scoped(name, link.name))
+            first = int(self.model.body_dofadr[body])
+            self._data.qvel[first : first + int(self.model.body_dofnum[body])] = 0.0
         self.state_changed()
 
     # --- inside --------------------------------------------------------------------------

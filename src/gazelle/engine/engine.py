@@ -14,6 +14,7 @@ from gazelle.description.model import JointType, Model, World
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
+from gazelle.engine.finite import require_finite, require_finite_pose
 from gazelle.engine.library import drained_warnings, mujoco
 from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.locks import LockBank
@@ -66,7 +67,8 @@ class Engine(EngineCore):
         """Make steps, in C without a pause as long as no wrench ends on the way.
 
         Raises:
-            SimulationDivergedError: the state is no longer finite; names link and place.
+            SimulationDivergedError: the state is no longer finite; names link and place. The
+                engine is back where it was, as the time tells.
         """
         self.ensure_compiled()
         model, data = self._compiled.model, self._data
@@ -94,7 +96,12 @@ class Engine(EngineCore):
         self.time_ns += count * self._step_ns
         self.state_changed()
         if not (qvel.dot(qvel) < _ABSURD_SPEED**2 and math.isfinite(qpos.dot(qpos))):
-            self._raise_diverged(find_culprit(model, data, before, self.iteration - first), first)
+            culprit = find_culprit(model, data, before, self.iteration - first)
+            qpos[:], qvel[:], warm_start[:] = before
+            self.iteration = first
+            self.time_ns -= count * self._step_ns
+            self.state_changed()
+            self._raise_diverged(culprit, first)
         report_library_warnings(self._world, self.diagnostics, model)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
@@ -135,6 +142,7 @@ class Engine(EngineCore):
                 f" first (ROS/Gazebo says: SpawnModel: Failure - model name {name} already exist.)"
             )
         pose = model.T_world_model if T_world_model is None else T_world_model
+        require_finite_pose(pose, f"model '{name}'")
         added = replace(model, name=name, T_world_model=pose)
         self._rebuild(replace(self._world, models=(*self._world.models, added)))
         return name
@@ -250,7 +258,12 @@ class Engine(EngineCore):
     # --- settings ------------------------------------------------------------------------
 
     def set_gravity(self, gravity_m_s2: tuple[float, float, float]) -> None:
-        """Change the acceleration of free fall; wakes everything."""
+        """Change the acceleration of free fall; wakes everything.
+
+        Raises:
+            EngineError: a number is not finite.
+        """
+        require_finite(gravity_m_s2, "gravity")
         self._world = replace(self._world, gravity_m_s2=gravity_m_s2)
         self.model.opt.gravity = gravity_m_s2
         self._wake_all()
@@ -299,5 +312,6 @@ class Engine(EngineCore):
         raise SimulationDivergedError(
             f"the simulation diverged in step {first + culprit.step}: link '{culprit.link}'{place}"
             f" {culprit.what}. Usual reasons: an inertia far too small for the forces on it,"
-            " effort or gains far too large, collisions that start inside each other"
+            " effort or gains far too large, collisions that start inside each other",
+            link=culprit.link,
         )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
+from gazelle.engine.finite import finite
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.records import Wrench
 from gazelle.errors import EngineError
@@ -138,7 +139,7 @@ class JointHandle:
         group = self._own_group()
         period_s, one = self._engine.step_ns * 1e-9, np.ones(1)
         if group.is_light(stiffness * one, damping * one, period_s)[0]:
-            rest = _finite(effort, self.name) + damping * self.velocity
+            rest = self._finite(effort) + damping * self.velocity
             slope = period_s * stiffness + damping
             bounds = (-math.inf * one, math.inf * one)
             group.set_feedback([0], rest * one, slope * one, *bounds)
@@ -158,7 +159,7 @@ class JointHandle:
         """
         self._driven()
         limit = self.motor_limit(max_effort)
-        command = MotorCommand("velocity", _finite(velocity, self.name), limit)
+        command = MotorCommand("velocity", self._finite(velocity), limit)
         self._engine.release_lock(self._element)
         self._engine.command_motor(self._element, command)
 
@@ -172,13 +173,13 @@ class JointHandle:
         """Drive to a position and hold it there, stiffly, with at most an effort."""
         self._driven()
         limit = self.motor_limit(max_effort)
-        command = MotorCommand("position", _finite(position, self.name), limit, abs(max_velocity))
+        command = MotorCommand("position", self._finite(position), limit, abs(max_velocity))
         self._engine.release_lock(self._element)
         self._engine.command_motor(self._element, command)
 
     def lock_position(self, position: float, *, steps: int = 1) -> None:
         """Hold a position whatever acts on the joint; see `JointGroup.lock_position`."""
-        self._own_group().lock_position(np.array([_finite(position, self.name)]), steps=steps)
+        self._own_group().lock_position(np.array([self._finite(position)]), steps=steps)
 
     def release(self) -> None:
         """Stop motor, lock and effort: the joint moves freely."""
@@ -191,10 +192,10 @@ class JointHandle:
         """Put the joint to a position and velocity at once; a lock holds it there from now on."""
         dof = self._driven()
         if position is not None:
-            self._engine.data.qpos[self._qpos] = _finite(position, self.name)
+            self._engine.data.qpos[self._qpos] = self._finite(position)
             self._engine.locks.move(self._element, position)
         if velocity is not None:
-            self._engine.data.qvel[dof] = _finite(velocity, self.name)
+            self._engine.data.qvel[dof] = self._finite(velocity)
         self._engine.state_changed()
 
     def reaction_wrench(self) -> Wrench:
@@ -231,7 +232,10 @@ class JointHandle:
 
     def _clamped(self, effort: float) -> float:
         limit = self.effort_limit
-        return float(np.clip(_finite(effort, self.name), -limit, limit))
+        return float(np.clip(self._finite(effort), -limit, limit))
+
+    def _finite(self, value: float) -> float:
+        return finite(value, f"joint '{self.name}'")
 
     def _driven(self) -> int:
         dof = self._index()
@@ -246,9 +250,3 @@ class JointHandle:
             self._element, self._qpos, self._dof = element, qpos, dof
             self._revision = self._engine.revision
         return self._dof
-
-
-def _finite(value: float, name: str) -> float:
-    if not math.isfinite(value):
-        raise EngineError(f"joint '{name}' was given {value}: a finite number is needed")
-    return float(value)

@@ -91,6 +91,11 @@ class Node:
         """True after `shutdown`."""
         return self._closed
 
+    def publisher_names(self, topic: str) -> tuple[str, ...]:
+        """Return the names of the other nodes that publish a topic."""
+        found = {one.node for one in self.graph.publishers_info(topic)}
+        return tuple(sorted(found - {self.name}))
+
     def announced_together(self) -> AbstractContextManager[None]:
         """Announce what is made in a ``with`` block at its end, see `Announcements.together`."""
         return self.graph.announcements.together()

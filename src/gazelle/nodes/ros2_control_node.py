@@ -38,9 +38,10 @@ from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private_number, start_node
 from gazelle.nodes.tree import DESCRIPTION, read_description
-from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.commands import CommandQueue, telling
 from gazelle.simulator.control_ports import make_ports, offer_manager
 from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.inputs import Inputs
 from gazelle.simulator.plugins.context import Resources
 from gazelle.workspace import Workspace
 
@@ -110,13 +111,20 @@ class _Host:
     node: Node
     diagnostics: Diagnostics
     workspace: Workspace
-    commands: CommandQueue = field(default_factory=CommandQueue)
+    commands: CommandQueue
+    inputs: Inputs = field(default_factory=Inputs)
     controls: ControlRegistry = field(default_factory=ControlRegistry)
     lockstep: bool = False
 
+    @property
+    def time_ns(self) -> int:
+        """The node's time."""
+        return int(self.engine.time_ns)
+
 
 def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading.Event) -> int:
-    host: Any = _Host(_Clock(node), node, Diagnostics(), Workspace.discover())
+    commands = CommandQueue(telling(node.log))
+    host: Any = _Host(_Clock(node), node, Diagnostics(), Workspace.discover(), commands)
     name = node.name.rpartition("/")[2]
     rate_hz = private_number(node, arguments, "update_rate", _RATE_HZ)
     given = {key.replace("/", "."): value for key, value in arguments.params.items()}

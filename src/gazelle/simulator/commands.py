@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import threading
+import traceback
 from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError
 
-__all__ = ["CommandQueue"]
+__all__ = ["CommandQueue", "telling"]
 
 _Result = TypeVar("_Result")
 _LOOK_S = 0.005
@@ -34,6 +35,17 @@ class _Call:
         self.done.set()
 
 
+def telling(log: Callable[[Any, str], None]) -> Callable[[Exception], None]:
+    """Return what tells a log of an error, with the traceback of one that nobody foresaw."""
+
+    def tell(error: Exception) -> None:
+        known = isinstance(error, GazelleError)
+        text = str(error) if known else "".join(traceback.format_exception(error)).rstrip()
+        log("ERROR", text)
+
+    return tell
+
+
 class CommandQueue:
     """Hands work from transport threads to the one thread that owns the world.
 
@@ -43,7 +55,13 @@ class CommandQueue:
     nobody while they wait for its end.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, failed: Callable[[Exception], None]) -> None:
+        """Start empty.
+
+        Args:
+            failed: told what a command raised for whose result nobody waits.
+        """
+        self._failed = failed
         self._queue: deque[Callable[[], Any]] = deque()
         self._arrived = threading.Event()
         self._owner: int | None = None
@@ -53,7 +71,7 @@ class CommandQueue:
     def post(self, command: Callable[[], Any]) -> None:
         """Have a command applied between steps; does not wait, not even for other commands."""
         if threading.get_ident() in (self._owner, self._acting):
-            command()
+            self._run(command)
         else:
             self._enqueue(command)
 
@@ -85,7 +103,7 @@ class CommandQueue:
             return
         self._arrived.clear()
         while self._queue:
-            self._queue.popleft()()
+            self._run(self._queue.popleft())
 
     def wait(self, timeout_s: float | None) -> bool:
         """Sleep until a command arrives or the time is over; True when one arrived."""
@@ -111,6 +129,12 @@ class CommandQueue:
         self._owner = None
         self._lock.release()
         self._apply_left()
+
+    def _run(self, command: Callable[[], Any]) -> None:
+        try:
+            command()
+        except Exception as error:  # noqa: BLE001 - one command does not end the world
+            self._failed(error)
 
     def _enqueue(self, command: Callable[[], Any]) -> None:
         self._queue.append(command)

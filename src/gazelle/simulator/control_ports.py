@@ -102,10 +102,13 @@ class ControllerPorts:
     def subscription(
         self, topic: str, type_name: str | Sequence[str], callback: Callable[[Any], None]
     ) -> None:
-        """Listen; of several types all are taken, and the first one is announced."""
+        """Listen; of several types all are taken, and the first one is announced.
+
+        Controllers know themselves what NaN means to them: mostly no command for one joint.
+        """
         name = self._full(topic)
         if isinstance(type_name, str):
-            self._resources.subscription(name, type_name, callback)
+            self._resources.subscription(name, type_name, callback, takes_any_number=True)
             return
         types = [_full_type(one) for one in type_name]
         refused: set[str] = set()
@@ -118,7 +121,7 @@ class ControllerPorts:
                 refused.add(found)
                 self.log("warn", f"{name}: messages of type {found} are not taken, {types} are")
 
-        self._resources.subscription(name, None, take, announced=types[0])
+        self._resources.subscription(name, None, take, announced=types[0], takes_any_number=True)
 
     def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:
         """Answer a service; a ROS 1 manager's have ROS 1's layout."""

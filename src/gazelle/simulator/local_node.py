@@ -161,11 +161,21 @@ class LocalNode:
         return LocalSubscription(self, name, callback)
 
     def create_service(
-        self, name: str, service_type: Any, handler: Callable[[Any], Any]
+        self,
+        name: str,
+        service_type: Any,
+        handler: Callable[..., Any],
+        *,
+        with_caller: bool = False,
     ) -> LocalService:
-        """Offer a service."""
-        self._services[_absolute(name)] = handler
+        """Offer a service; `with_caller` gives the handler nobody's name, as nobody has one."""
+        wanted = (lambda request: handler(request, "")) if with_caller else handler
+        self._services[_absolute(name)] = wanted
         return LocalService(self, _absolute(name))
+
+    def publisher_names(self, topic: str) -> tuple[str, ...]:
+        """Return nothing: whoever publishes here has no node's name."""
+        return ()
 
     def announced_together(self) -> AbstractContextManager[None]:
         """Do nothing: nobody else sees what is made here."""

@@ -96,9 +96,18 @@ class NodePort(Protocol):
         ...
 
     def create_service(
-        self, name: str, service_type: Any, handler: Callable[[Any], Any]
+        self,
+        name: str,
+        service_type: Any,
+        handler: Callable[..., Any],
+        *,
+        with_caller: bool = ...,
     ) -> ServicePort:
         """Offer a service."""
+        ...
+
+    def publisher_names(self, topic: str) -> tuple[str, ...]:
+        """Return the nodes that publish a topic."""
         ...
 
     def announced_together(self) -> AbstractContextManager[None]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -19,6 +19,7 @@ from gazelle.graph.world import SHOWN_SPACE, world_space
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.registry import known_names, plain_name
+from gazelle.simulator.recovery import DIVERGENCE, OnDivergence
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
 from gazelle.simulator.viewing import offer_views
@@ -27,9 +28,12 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.description.model import World
+    from gazelle.diagnostics import SourceSpan
     from gazelle.graph import Graph
 
 __all__ = ["check_server_plugins", "ros2_plugins_of", "ros_version_of", "serve"]
+
+_Given = Callable[[str], tuple[Any, "SourceSpan | None"]]
 
 _RATE = "publish_rate"
 # What gazebo_ros declares; the clock comes more often here as long as nobody sets it.
@@ -84,12 +88,14 @@ def serve(
         version = ros_version_of(options, arguments.started_by)
         if world_space(version, is_gz=options.is_gz) == SHOWN_SPACE:
             offer_loggers(node)
-        rate_hz = None if version == 1 else _clock_rate(arguments, node, diagnostics)
+        given = _given(arguments, node, diagnostics)
+        rate_hz = None if version == 1 else _clock_rate(given, node, diagnostics)
+        declared = None
         if version == 2 and not options.is_gz:
-            _offer_parameters(node, rate_hz)
+            declared = _offer_parameters(node, rate_hz, given(DIVERGENCE)[0])
         workspace = Workspace.discover()
         world = _world(options, node, workspace, diagnostics, falls_back=falls_back)
-        ros = (version, rate_hz)
+        ros = (version, rate_hz, _divergence(node, declared))
         return _serve_world(options, world, workspace, node, diagnostics, stop, ros)
     except GazelleError as error:
         _show(node, diagnostics)
@@ -106,10 +112,14 @@ def _serve_world(
     node: Any,
     diagnostics: Diagnostics,
     stop: threading.Event,
-    ros: tuple[int, float | None],
+    ros: tuple[int, float | None, Callable[[], OnDivergence]],
 ) -> int:
-    """Run the world; `ros` is the version of ROS and the clock's rate, None where nobody chose."""
-    ros_version, clock_rate_hz = ros
+    """Run the world.
+
+    `ros` is the version of ROS, the clock's rate, None where nobody chose, and who is asked what
+    becomes of a world that diverges.
+    """
+    ros_version, clock_rate_hz, on_divergence = ros
     server = WorldServer(
         world,
         node=node,
@@ -121,6 +131,7 @@ def _serve_world(
         warm_cameras=True,
         ros_version=ros_version,
     )
+    server.on_divergence = on_divergence
     check_server_plugins(options, diagnostics)
     _show(node, diagnostics, verbose=options.verbose)
     offer_gazebo_ros(
@@ -149,21 +160,57 @@ def _serve_world(
     return 0
 
 
-def _offer_parameters(node: Any, clock_rate_hz: float | None) -> None:
-    """Offer what ROS 2's node ``gazebo`` declares; both are read when it starts."""
+def _divergence(node: Any, declared: NodeParameters | None) -> Callable[[], OnDivergence]:
+    """Return what tells the parameter `DIVERGENCE` as it is then: the node's own in ROS 2."""
+
+    def now() -> OnDivergence:
+        if declared is not None:
+            value = declared.values[DIVERGENCE]
+        else:
+            value = node.parameters.get(f"~{DIVERGENCE}", OnDivergence.PAUSE.value)
+        problem = _divergence_problem(value)
+        if problem:
+            node.log("warn", f"{problem}; it is paused")
+        return OnDivergence.PAUSE if problem else OnDivergence(value)
+
+    return now
+
+
+def _divergence_problem(value: Any) -> str:
+    words = [one.value for one in OnDivergence]
+    return "" if value in words else f"parameter '{DIVERGENCE}' is {value!r}, none of {words}"
+
+
+def _offer_parameters(
+    node: Any, clock_rate_hz: float | None, divergence: str | None
+) -> NodeParameters:
+    """Offer what ROS 2's node ``gazebo`` declares, both read when it starts, and one of ours."""
     rate_hz = _DECLARED_RATE_HZ if clock_rate_hz is None else clock_rate_hz
     fixed = Descriptor(read_only=True)
-    NodeParameters(
+    return NodeParameters(
         node,
         node.name,
-        {_RATE: rate_hz, "use_sim_time": True},
+        {_RATE: rate_hz, "use_sim_time": True, DIVERGENCE: divergence or "pause"},
+        lambda changes: _divergence_problem(changes[DIVERGENCE]) if DIVERGENCE in changes else "",
         descriptors={_RATE: fixed, "use_sim_time": fixed},
         now_ns=node.clock.now_ns,
     )
 
 
-def _clock_rate(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> float | None:
-    """Return ``publish_rate`` of ROS 2's node ``gazebo``, None where it is not given.
+def _clock_rate(given: _Given, node: Any, diagnostics: Diagnostics) -> float | None:
+    """Return ``publish_rate`` of ROS 2's node ``gazebo``, None where it is not given."""
+    value, place = given(_RATE)
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        text = f"parameter '{_RATE}' of {node.name} is {value!r}, not a number; it is dropped"
+        diagnostics.report("simulator.unknown-argument", text, place)
+        return None
+    return max(0.0, float(value))
+
+
+def _given(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> _Given:
+    """Return what tells a parameter of ROS 2's node ``gazebo``: its value, and its place.
 
     The files are read again under the node's own name: launch files start ``gzserver``.
     """
@@ -171,14 +218,8 @@ def _clock_rate(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> f
 
     name = node.name.rpartition("/")[2]
     source = FileSource(arguments.parameter_files, node.namespace, diagnostics, manager=name)
-    value = arguments.params.get(_RATE, source.manager_tree().get(_RATE))
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        text = f"parameter '{_RATE}' of {node.name} is {value!r}, not a number; it is dropped"
-        diagnostics.report("simulator.unknown-argument", text, source.place(name, _RATE))
-        return None
-    return max(0.0, float(value))
+    values = {**source.manager_tree(), **arguments.params}
+    return lambda parameter: (values.get(parameter), source.place(name, parameter))
 
 
 def _world(

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 from gazelle.description.model import ContactSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
-from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.commands import CommandQueue, telling
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.frames import FrameWorker
+from gazelle.simulator.inputs import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.pace import Mode, Pace
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
@@ -20,6 +22,7 @@ from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.plugins.transport import publish_contact_sensor
 from gazelle.simulator.ports import NodePort
+from gazelle.simulator.recovery import OnDivergence, recover
 from gazelle.simulator.scheduler import Scheduler
 from gazelle.simulator.sensor_checks import check_sensor
 from gazelle.simulator.sensor_set import SensorSet, sensor_places
@@ -45,6 +48,8 @@ class WorldServer:
         node: where topics and services live; a `LocalNode` without a graph.
         scheduler: what is due when.
         commands: the way in for other threads.
+        inputs: what came last from outside.
+        on_divergence: asked what becomes of a running world when a model diverges.
         controls: controller managers and actions, by name.
         sensors: computes readings.
         frames: renders beside the loop, unless in lock-step.
@@ -100,8 +105,10 @@ class WorldServer:
         self.ros_version = ros_version
         self.mode = mode
         self.paused = paused
+        self.on_divergence: Callable[[], OnDivergence] = lambda: OnDivergence.PAUSE
         self.scheduler = Scheduler(self.engine.step_ns)
-        self.commands = CommandQueue()
+        self.commands = CommandQueue(telling(self.node.log))
+        self.inputs = Inputs()
         self.controls = ControlRegistry() if controls is None else controls
         self.sensors = SensorSet(self.engine, seed)
         self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
@@ -138,18 +145,29 @@ class WorldServer:
             self.commands.disown()
 
     def step_in_command(self, count: int) -> None:
-        """Take steps from inside a command, which has the world already; paused or not."""
-        self._advance(count)
+        """Take steps from inside a command, which has the world already; paused or not.
+
+        Raises:
+            SimulationDivergedError: the state became non-finite; the world goes on as in `run`.
+        """
+        try:
+            self._advance(count)
+        except SimulationDivergedError as error:
+            recover(self, error)
+            raise
         self.pace.restart(self.engine.time_ns)
 
     def run(self, iterations: int = 0) -> None:
         """Run until `stop`: at the wanted real-time factor, or as fast as possible.
 
+        In real time a state that becomes non-finite does not end it; see `recover`.
+
         Args:
             iterations: stop by itself after so many steps; 0 for never.
 
         Raises:
-            SimulationDivergedError: the state became non-finite.
+            SimulationDivergedError: the state became non-finite, and time runs as fast as
+                possible: nobody is there to look.
         """
         self.commands.own()
         self.pace.restart(self.engine.time_ns)
@@ -275,7 +293,19 @@ class WorldServer:
         count = self.pace.slice_steps(self.engine.step_ns) if factor > 0 else _FAST_SLICE
         if last is not None:
             count = min(count, last - self.engine.iteration)
-        self._advance(count, pausing=True)
+        try:
+            self._advance(count, pausing=True)
+        except SimulationDivergedError as error:
+            if self.mode is not Mode.REAL_TIME:
+                raise
+            recover(self, error)
+            self.pace.restart(self.engine.time_ns)
+
+    def senders(self, arrival: Arrival) -> tuple[str, ...]:
+        """Return the nodes that called a service or publish a topic, as far as they are known."""
+        if arrival.caller:
+            return (arrival.caller,)
+        return self.node.publisher_names(arrival.name)
 
     def _warm_up(self) -> None:
         from gazelle.sensors import warm_up

@@ -70,10 +70,10 @@ class DryNode(LocalNode):
         return super().create_subscription(name, message_type, callback, **options)
 
     def create_service(
-        self, name: str, service_type: Any, handler: Callable[[Any], Any]
+        self, name: str, service_type: Any, handler: Callable[..., Any], **options: Any
     ) -> LocalService:
         """Offer a service under its remapped name."""
-        return super().create_service(self.resolve_name(name), service_type, handler)
+        return super().create_service(self.resolve_name(name), service_type, handler, **options)
 
     def log(self, level: Any, text: str) -> None:
         """Remember what is said."""

@@ -45,9 +45,10 @@ class DynamicParameter:
         return self._typed(_HIGHEST[self.type] if self.highest is None else self.highest)
 
     def accepts(self, value: object) -> bool:
-        """Tell whether a value is of this type; whole numbers are doubles too."""
+        """Tell whether a value is of this type; whole numbers are doubles too, NaN is none."""
         if self.type == "double":
-            return isinstance(value, int | float) and not isinstance(value, bool)
+            is_number = isinstance(value, int | float) and not isinstance(value, bool)
+            return is_number and value == value  # noqa: PLR0124 - only NaN is not
         if self.type == "int":
             return isinstance(value, int) and not isinstance(value, bool)
         return isinstance(value, bool if self.type == "bool" else str)

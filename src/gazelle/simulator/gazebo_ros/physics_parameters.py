@@ -26,6 +26,7 @@ class PhysicsParameters:
     def __init__(self, server: WorldServer, resources: Resources, space: str) -> None:
         self._server = server
         rows = _rows(server)
+        self._rows = {row.name: row for row in rows}
         self._own: dict[str, Any] = {row.name: row.default for row in rows}
         self._dynamic = (
             DynamicParameters(resources, server, space, rows, changed=self._apply)
@@ -37,6 +38,16 @@ class PhysicsParameters:
     def values(self) -> dict[str, Any]:
         """Present values by name."""
         return self._own if self._dynamic is None else self._dynamic.values
+
+    def problem_of(self, values: dict[str, Any]) -> str:
+        """Return why these values cannot be set, or nothing; words of ODE are only kept."""
+        for name in _ACTING:
+            row, value = self._rows[name], float(values[name])
+            low, high = float(row.minimum), float(row.maximum)
+            if not low <= value <= high or (name == "time_step" and value == 0.0):
+                least = f"more than {low:g}" if name == "time_step" else f"at least {low:g}"
+                return f"'{name}' is {value:g}, it has to be {least} and at most {high:g}"
+        return ""
 
     def set(self, values: dict[str, Any]) -> tuple[str, ...]:
         """Change some values, as ``set_physics_properties`` does.

@@ -44,9 +44,6 @@ class WorldServices:
             ),
         ]
 
-    def _reset_world(self, request: Any, response: Any) -> None:
-        self._server.reset(time=False)
-
     def _control_world(self, request: Any, response: Any) -> None:
         """Pause or not, and take steps; what ``gz world`` asks of Gazebo's world_control."""
         control = request.world_control
@@ -94,6 +91,11 @@ class WorldServices:
         }
         for field in message_class("gazebo_msgs/ODEPhysics").FIELDS:
             values[field.name] = getattr(request.ode_config, field.name)
+        problem = self._physics.problem_of(values)
+        if problem:
+            response.success = False
+            response.status_message = f"SetPhysicsProperties: {problem}; nothing is changed"
+            return
         idle = self._physics.set(values)
         response.success = True
         response.status_message = "physics engine updated"

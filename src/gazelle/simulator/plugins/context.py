@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
+from gazelle.simulator.inputs import Inputs, problem_of, refusal
 from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -48,6 +49,7 @@ class Host(Protocol):
     node: NodePort
     scheduler: Scheduler
     commands: CommandQueue
+    inputs: Inputs
     controls: ControlRegistry
     diagnostics: Diagnostics
     sensors: SensorSet
@@ -58,6 +60,11 @@ class Host(Protocol):
     @property
     def lockstep(self) -> bool:
         """True when every camera frame is finished before time goes on."""
+        ...
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time."""
         ...
 
     @property
@@ -123,32 +130,64 @@ class Resources:
         callback: Callable[[Any], None],
         *,
         announced: str = "",
+        takes_any_number: bool = False,
     ) -> None:
         """Listen; `callback` runs between two steps, in the thread that owns the world.
 
-        `type_name` None takes messages of any type; `announced` is the one that others see then.
+        Args:
+            topic: where.
+            type_name: None takes messages of any type.
+            callback: takes a message; one whose numbers cannot be is told once and left out.
+            announced: the type that others see where any is taken.
+            takes_any_number: `callback` knows itself what NaN and the like mean to it.
         """
+        host, told = self._host, set[str]()
 
         def queue(message: Any) -> None:
-            self._host.commands.post(lambda: callback(message))
+            problem = "" if takes_any_number else problem_of(message)
+            if not problem:
+                host.inputs.note(topic, host.time_ns)
+                host.commands.post(lambda: callback(message))
+            elif problem not in told:
+                told.add(problem)
+                host.node.log("WARN", f"[{topic}] {problem}; the message is left out")
 
         wanted = None if type_name is None else message_class(type_name)
         made = self._host.node.create_subscription(
             topic, wanted, queue, inline=True, announced=announced
         )
         self._closers.append(made.unregister)
+        self._closers.append(lambda: host.inputs.forget(topic))
 
-    def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:
-        """Answer a service; `handler(request, response)` fills the response between two steps."""
-        service = service_class(type_name)
+    def service(
+        self,
+        name: str,
+        type_name: str,
+        handler: Callable[[Any, Any], None],
+        *,
+        takes_any_number: bool = False,
+    ) -> None:
+        """Answer a service; `handler(request, response)` fills the response between two steps.
 
-        def answer(request: Any) -> Any:
+        A request whose numbers cannot be has no effect; the answer says so.
+        """
+        host, service = self._host, service_class(type_name)
+
+        def answer(request: Any, caller: str) -> Any:
             response = service.Response()
-            self._host.commands.call(lambda: handler(request, response))
+            problem = "" if takes_any_number else problem_of(request)
+            if problem:
+                by = f" (called by {caller})" if caller else ""
+                text = f"{name}: {problem}; nothing is changed{by}"
+                host.node.log("WARN", text)
+                return refusal(response, text)
+            host.inputs.note(name, host.time_ns, caller)
+            host.commands.call(lambda: handler(request, response))
             return response
 
-        made = self._host.node.create_service(name, service, answer)
+        made = host.node.create_service(name, service, answer, with_caller=True)
         self._closers.append(made.unregister)
+        self._closers.append(lambda: host.inputs.forget(name))
 
     def task(
         self,

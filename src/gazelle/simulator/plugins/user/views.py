@@ -163,7 +163,9 @@ class PluginNode:
         def take(message: Any) -> None:
             self._guard(lambda: callback(message))
 
-        self._resources.subscription(self._topic(topic), _type_name(message_type), take)
+        name = self._topic(topic)
+        wanted = _type_name(message_type)
+        self._resources.subscription(name, wanted, take, takes_any_number=True)
 
     def service(self, name: str, service_type: str, handler: Callable[[Any, Any], None]) -> None:
         """Answer a service; `handler(request, response)` fills the response."""
@@ -171,7 +173,7 @@ class PluginNode:
         def answer(request: Any, response: Any) -> None:
             self._guard(lambda: handler(request, response))
 
-        self._resources.service(self._topic(name), service_type, answer)
+        self._resources.service(self._topic(name), service_type, answer, takes_any_number=True)
 
     def get_param(self, name: str, default: Any = None) -> Any:
         """Return a parameter of the ROS 1 store."""

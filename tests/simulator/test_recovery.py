@@ -1,0 +1,109 @@
+"""A world that diverges goes back to its last finite state and says who did what."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+from tests.patience import eventually, stretched
+
+from gazelle.errors import SimulationDivergedError
+from gazelle.simulator import Mode, Simulation
+from gazelle.simulator.messages import service_class
+from gazelle.simulator.recovery import OnDivergence
+from gazelle.simulator.world_server import WorldServer
+
+# A rim of a milligram, without a limit: what is far too light for its efforts.
+FEATHER = """<robot name="feather"><link name="world"/>
+  <joint name="spin" type="continuous"><parent link="world"/><child link="rim"/>
+    <axis xyz="0 0 1"/></joint>
+  <link name="rim"><inertial><mass value="1e-6"/>
+    <inertia ixx="1e-9" ixy="0" ixz="0" iyy="1e-9" iyz="0" izz="1e-9"/></inertial></link></robot>"""
+STONE = FEATHER.replace("feather", "stone").replace("1e-6", "1").replace("1e-9", "0.1")
+
+
+@pytest.fixture
+def sim(load: Callable[..., Simulation]) -> Iterator[Simulation]:
+    """A world with something light and something heavy, in real time."""
+    sim = load(world="empty", services=True)
+    sim.spawn(FEATHER, name="feather")
+    sim.spawn(STONE, name="stone")
+    yield sim
+
+
+def _push(sim: Simulation, effort: float = 1e6) -> None:
+    request = service_class("gazebo_msgs/ApplyJointEffort").Request(
+        joint_name="feather::spin", effort=effort
+    )
+    request.duration.sec = -1
+    assert sim.server.node.call("/gazebo/apply_joint_effort", request).success
+
+
+def _run_in_real_time(server: WorldServer) -> threading.Thread:
+    server.mode = Mode.REAL_TIME
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    return thread
+
+
+def test_diverging_leaves_the_engine_at_its_last_finite_state(sim: Simulation) -> None:
+    engine = sim.server.engine
+    _push(sim)
+    with pytest.raises(SimulationDivergedError, match="link 'feather::rim'") as caught:
+        for _ in range(10_000):
+            before, at_ns = engine.state_hash(), engine.time_ns
+            sim.step()
+    assert caught.value.link == "feather::rim"
+    assert (engine.state_hash(), engine.time_ns) == (before, at_ns)
+
+
+def test_world_in_real_time_pauses_says_who_did_it_and_goes_on(
+    sim: Simulation, caplog: pytest.LogCaptureFixture
+) -> None:
+    server = sim.server
+    thread = _run_in_real_time(server)
+    try:
+        _push(sim)
+        eventually(lambda: server.paused)
+        (record,) = caplog.records
+        assert record.levelname == "ERROR"
+        assert "the simulation diverged in step" in record.message
+        assert "link 'feather::rim'" in record.message
+        assert "efforts at work: 1e+06 at 'spin'" in record.message
+        assert "last commands: /gazebo/apply_joint_effort" in record.message
+        assert "paused; 'feather' is at rest and free of efforts and wrenches" in record.message
+        joint = server.engine.joint("feather::spin")
+        assert (joint.velocity, joint.effort) == (0.0, 0.0)
+        at_ns = server.time_ns
+        server.unpause()
+        eventually(lambda: server.time_ns > at_ns + 20_000_000)
+        assert not server.paused
+    finally:
+        server.stop()
+        thread.join(stretched())
+
+
+def test_world_goes_on_without_the_model_where_that_is_wanted(
+    sim: Simulation, caplog: pytest.LogCaptureFixture
+) -> None:
+    server = sim.server
+    server.on_divergence = lambda: OnDivergence.REMOVE
+    thread = _run_in_real_time(server)
+    try:
+        _push(sim)
+        eventually(lambda: server.engine.world.model("feather") is None)
+        at_ns = server.time_ns
+        eventually(lambda: server.time_ns > at_ns + 20_000_000)
+        assert server.engine.world.model("stone") is not None
+        assert "'feather' is taken out of the world, which goes on" in caplog.text
+    finally:
+        server.stop()
+        thread.join(stretched())
+
+
+def test_run_as_fast_as_possible_ends(sim: Simulation) -> None:
+    sim.server.mode = Mode.FAST
+    _push(sim)
+    with pytest.raises(SimulationDivergedError):
+        sim.server.run(iterations=100_000)
