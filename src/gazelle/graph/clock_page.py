@@ -10,6 +10,8 @@ import struct
 from functools import cache
 from pathlib import Path
 
+from gazelle.leftovers import own_prefix, sweep
+
 __all__ = ["ClockPage", "PageView", "Reading", "machine_name"]
 
 _SIZE = 4096
@@ -50,8 +52,8 @@ class ClockPage:
         self.path = ""
         self._shown: Reading = (0, 0, 0)
         for folder in _folders():
-            _sweep(folder)
-            path = folder / f"{_NAME}{os.getpid()}-{os.urandom(8).hex()}"
+            sweep(folder, _NAME)
+            path = folder / f"{own_prefix(_NAME)}{os.urandom(8).hex()}"
             with contextlib.suppress(OSError):
                 self._words = _made(path, self.secret)
                 self.path = str(path)
@@ -147,28 +149,6 @@ def _folders() -> list[Path]:
     own = os.environ.get("XDG_RUNTIME_DIR", "")
     wanted = (*((own,) if own else ()), _SHARED_MEMORY, tempfile.gettempdir())
     return [Path(one) for one in wanted if Path(one).is_dir()]
-
-
-def _sweep(folder: Path) -> None:
-    """Remove what processes of this user left that were killed."""
-    with contextlib.suppress(OSError):
-        for left in folder.glob(f"{_NAME}*"):
-            if not _lives(left.name.split("-")[2]):
-                with contextlib.suppress(OSError):
-                    left.unlink()
-
-
-def _lives(pid: str) -> bool:
-    if os.name != "posix":
-        # A file that is in use cannot be removed there.
-        return False
-    try:
-        os.kill(int(pid), 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, ValueError, OverflowError):
-        pass
-    return True
 
 
 @cache

@@ -7,9 +7,11 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.errors import GraphError
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import control_key
-from gazelle.graph.parameter_tree import from_json, to_json
+from gazelle.graph.parameter_tree import to_json
+from gazelle.graph.requests import answer_in, read_query, reply_to
 
 if TYPE_CHECKING:
     import zenoh
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["Control", "ask_process", "shut_down_node"]
 
 _ASK_S = 2.0
+_KINDS: dict[str, Any] = {"op": str, "node": str, "reason": str, "since_ns": (int, type(None))}
 
 
 class Control:
@@ -53,17 +56,21 @@ class Control:
         self._mailbox.close()
 
     def _answer(self, query: Any) -> None:
-        request = from_json(query.payload.to_bytes())
-        answer: dict[str, Any] = {"error": f"unknown request '{request.get('op')}'"}
-        if request.get("op") == "info":
-            answer = {"pid": os.getpid(), "host": _host()}
-        elif request.get("op") == "shutdown":
+        try:
+            answer = self._do(read_query(query, _KINDS))
+        except GraphError as error:
+            answer = {"error": str(error)}
+        reply_to(query, self._key, answer)
+
+    def _do(self, request: dict[str, Any]) -> dict[str, Any]:
+        op = request.get("op")
+        if op not in ("info", "shutdown"):
+            return {"error": f"unknown request '{op}'"}
+        if op == "shutdown":
             # The node's end can take a while and ends what answers here too.
-            asked = (request["node"], request["reason"], request.get("since_ns"))
+            asked = (request.get("node", ""), request.get("reason", ""), request.get("since_ns"))
             threading.Thread(target=self._shut_down, args=asked, daemon=True).start()
-            answer = {"pid": os.getpid(), "host": _host()}
-        query.reply(self._key, to_json(answer))
-        query.drop()
+        return {"pid": os.getpid(), "host": _host()}
 
 
 def ask_process(session: zenoh.Session, domain: int, zid: str) -> tuple[int, str]:
@@ -98,8 +105,8 @@ def shut_down_node(
 def _ask(session: zenoh.Session, domain: int, zid: str, request: dict[str, Any]) -> dict[str, Any]:
     key = control_key(domain, zid)
     for reply in session.get(key, payload=to_json(request), timeout=_ASK_S):
-        if reply.ok is not None:
-            answer: dict[str, Any] = from_json(reply.ok.payload.to_bytes())
+        answer = answer_in(reply)
+        if answer is not None:
             return answer
     return {}
 

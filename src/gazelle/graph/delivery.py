@@ -3,16 +3,34 @@
 from __future__ import annotations
 
 import threading
+import time
+import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from queue import Empty, SimpleQueue
-from typing import Any
+from typing import Any, NamedTuple
 
 from gazelle.ending import called_by_library
+from gazelle.errors import GazelleError
+from gazelle.graph.console import Level, LogRecord, print_record
 
-__all__ = ["Mailbox"]
+__all__ = ["Bound", "Mailbox"]
 
 _STOP: Any = object()
+
+
+class Bound(NamedTuple):
+    """How much may wait in a mailbox without a limit of items.
+
+    Attributes:
+        bytes: most bytes.
+        weigh: tells how many an item has.
+        reached: called the first time when the oldest are dropped for it.
+    """
+
+    bytes: int
+    weigh: Callable[[Any], int]
+    reached: Callable[[], None]
 
 
 class Mailbox:
@@ -23,14 +41,25 @@ class Mailbox:
     first item.
     """
 
-    def __init__(self, handle: Callable[[Any], None], *, size: int, name: str) -> None:
+    def __init__(
+        self,
+        handle: Callable[[Any], None],
+        *,
+        size: int,
+        name: str,
+        bound: Bound | None = None,
+    ) -> None:
         """Start empty.
 
         Args:
-            handle: called with each item; must not raise.
+            handle: called with each item; what it raises is told, once a kind, and the next
+                item is handled.
             size: most items that wait, 0 for no limit.
             name: the thread's name.
+            bound: of what waits where `size` is no limit; None for none.
         """
+        self._bound = None if size else bound
+        self._waiting_bytes = 0
         self._handle = handle
         self._size = size
         self._name = name
@@ -38,6 +67,7 @@ class Mailbox:
         self._thread: threading.Thread | None = None
         self._lock = threading.Lock()
         self._closed = False
+        self._told: set[type[Exception]] = set()
         self.dropped = 0
 
     @called_by_library
@@ -48,10 +78,9 @@ class Mailbox:
         if self._thread is None:
             self._start()
         if self._size and self._items.qsize() >= self._size:
-            # The thread may take the last item in between: then nothing needs to go.
-            with suppress(Empty):
-                self._items.get_nowait()
-                self.dropped += 1
+            self._drop()
+        elif self._bound is not None:
+            self._make_room(self._bound, item)
         self._items.put(item)
 
     def close(self, timeout_s: float = 0.0) -> None:
@@ -63,6 +92,25 @@ class Mailbox:
         if thread is not None and timeout_s and thread is not threading.current_thread():
             thread.join(timeout_s)
 
+    def _drop(self) -> Any:
+        # The thread may take the last item in between: then nothing needs to go.
+        with suppress(Empty):
+            item = self._items.get_nowait()
+            self.dropped += 1
+            return item
+        return None
+
+    def _make_room(self, bound: Bound, item: Any) -> None:
+        with self._lock:
+            self._waiting_bytes += bound.weigh(item)
+            is_first = False
+            while self._waiting_bytes > bound.bytes and self._items.qsize():
+                is_first = is_first or not self.dropped
+                if (oldest := self._drop()) is not None:
+                    self._waiting_bytes -= bound.weigh(oldest)
+        if is_first:
+            bound.reached()
+
     def _start(self) -> None:
         with self._lock:
             if self._thread is None and not self._closed:
@@ -71,4 +119,20 @@ class Mailbox:
 
     def _run(self) -> None:
         while (item := self._items.get()) is not _STOP and not self._closed:
-            self._handle(item)
+            if self._bound is not None:
+                with self._lock:
+                    self._waiting_bytes -= self._bound.weigh(item)
+            try:
+                self._handle(item)
+            except Exception as error:  # noqa: BLE001 - the next item may be a good one
+                self._tell(error)
+
+    def _tell(self, error: Exception) -> None:
+        """Say what one item led to; the same kind of thing once."""
+        if type(error) in self._told:
+            return
+        self._told.add(type(error))
+        known = isinstance(error, GazelleError)
+        text = str(error) if known else traceback.format_exc().rstrip()
+        text = f"{self._name}: something that came is left out: {text}"
+        print_record(LogRecord(Level.ERROR, text, node="", wall_ns=time.time_ns()))

@@ -46,6 +46,7 @@ _KEEP_ALL = "2"
 _MANUAL = "3"
 _S_TO_NS = 1_000_000_000
 _INFINITE_NS = 2**63 - 1
+_MOST_DIGITS = 20
 
 
 class Kind(enum.StrEnum):
@@ -98,11 +99,11 @@ class Qos(NamedTuple):
         parts = [*text.split(":"), "", "", "", "", ""]
         history, _, depth = parts[2].partition(",")
         liveliness, _, lease = parts[5].partition(",")
-        kept = int(depth) if depth.isdigit() else _DEFAULT_DEPTH
+        kept = _number(depth)
         return cls(
             parts[0] != "2",
             parts[1] == "1",
-            0 if history == _KEEP_ALL else kept,
+            0 if history == _KEEP_ALL else _DEFAULT_DEPTH if kept is None else kept,
             _duration_ns(parts[3]),
             _duration_ns(parts[4]),
             liveliness == _MANUAL,
@@ -119,10 +120,14 @@ def _duration_key(duration_ns: int) -> str:
 
 def _duration_ns(text: str) -> int:
     seconds, _, nanoseconds = text.partition(",")
-    if not (seconds.isdigit() or nanoseconds.isdigit()):
-        return 0
-    found = int(seconds or 0) * _S_TO_NS + int(nanoseconds or 0)
+    found = (_number(seconds) or 0) * _S_TO_NS + (_number(nanoseconds) or 0)
     return 0 if found >= _INFINITE_NS else found
+
+
+def _number(text: str) -> int | None:
+    """Read a whole number of at most 64 bits; what else Python calls digits is none."""
+    is_one = text.isascii() and text.isdigit() and len(text) <= _MOST_DIGITS
+    return int(text) if is_one else None
 
 
 DEFAULT_QOS = Qos()
@@ -156,14 +161,15 @@ class Entity:
 
     @classmethod
     def from_token(cls, key: str) -> Entity | None:
-        """Read a token; None when it is not one."""
+        """Read a token; None when it is not one, whatever it is: anybody can announce anything."""
         parts = key.split("/")
         if len(parts) not in (9, 13) or parts[0] != _SPACE or parts[5] not in set(Kind):
             return None
-        if not (parts[3].isdigit() and parts[4].isdigit()):
+        node_id, entity_id = _number(parts[3]), _number(parts[4])
+        if node_id is None or entity_id is None or not key.isprintable():
             return None
         namespace = parts[7].replace("%", "/").rstrip("/")
-        start = (parts[2], int(parts[3]), int(parts[4]), Kind(parts[5]))
+        start = (parts[2], node_id, entity_id, Kind(parts[5]))
         node = f"{namespace}/{parts[8].replace('%', '/')}"
         if len(parts) == 9:
             return cls(*start, node)

@@ -15,6 +15,7 @@ from gazelle.graph.names import join, namespace_of, resolve
 __all__ = ["ParameterTree", "from_json", "to_json"]
 
 _MARK = "$"
+_DEEPEST = 100
 
 
 class ParameterTree:
@@ -57,9 +58,9 @@ class ParameterTree:
         Raises:
             GraphError: the value has a type parameters cannot have, or ``/`` is not a dictionary.
         """
-        tidy = _tidy(value, name)
+        parts = _parts(name)
+        tidy = _tidy(value, name, len(parts))
         with self._lock:
-            parts = _parts(name)
             if not parts:
                 if not isinstance(tidy, dict):
                     raise GraphError("cannot set root of parameter tree to non-dictionary")
@@ -146,10 +147,12 @@ def _encode(value: Any) -> Any:
     return value
 
 
-def _decode(value: Any) -> Any:
-    """Undo `_encode`."""
+def _decode(value: Any, depth: int = 0) -> Any:
+    """Undo `_encode`; what is deeper than anybody can use is refused before it is too deep."""
+    if depth > _DEEPEST:
+        raise ValueError(f"it is more than {_DEEPEST} levels deep")
     if isinstance(value, list):
-        return [_decode(item) for item in value]
+        return [_decode(item, depth + 1) for item in value]
     if not isinstance(value, dict):
         return value
     if len(value) == 1:
@@ -161,24 +164,28 @@ def _decode(value: Any) -> Any:
         if key == "$date":
             return dt.date.fromisoformat(inside)
         if key == "$dict":
-            return {name: _decode(item) for name, item in inside.items()}
-    return {key: _decode(item) for key, item in value.items()}
+            value = dict(inside)
+    return {key: _decode(item, depth + 1) for key, item in value.items()}
 
 
-def _tidy(value: Any, name: str) -> Any:
+def _tidy(value: Any, name: str, depth: int = 0) -> Any:
     """Return a private copy in the types parameters can have, numpy scalars and tuples included."""
+    if depth > _DEEPEST:
+        raise GraphError(f"parameter '{name[:60]}…' is more than {_DEEPEST} levels deep")
     if isinstance(value, bool | int | float | str | bytes | dt.date):
         return value
     if isinstance(value, Mapping):
-        return {str(key): _tidy(item, join(name, str(key))) for key, item in value.items()}
+        return {
+            str(key): _tidy(item, join(name, str(key)), depth + 1) for key, item in value.items()
+        }
     if isinstance(value, list | tuple):
-        return [_tidy(item, name) for item in value]
+        return [_tidy(item, name, depth + 1) for item in value]
     if isinstance(value, bytearray | memoryview):
         return bytes(value)
     if value is None:
         return ""
     if hasattr(value, "tolist"):
-        return _tidy(value.tolist(), name)
+        return _tidy(value.tolist(), name, depth)
     raise GraphError(
         f"parameter '{name}' cannot be a {type(value).__name__}\n"
         "  fix: use int, float, bool, str, bytes, dates, or lists and dictionaries of them"
@@ -211,5 +218,12 @@ def to_json(value: Any) -> bytes:
 
 
 def from_json(data: bytes) -> Any:
-    """Read what `to_json` wrote."""
-    return _decode(json.loads(data))
+    """Read what `to_json` wrote.
+
+    Raises:
+        GraphError: it is something else; whoever is on the graph may send anything.
+    """
+    try:
+        return _decode(json.loads(data))
+    except (ValueError, TypeError, RecursionError) as error:
+        raise GraphError(f"this cannot be read: {error}") from None

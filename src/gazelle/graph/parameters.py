@@ -17,7 +17,8 @@ from gazelle.errors import GraphError
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import parameter_key
 from gazelle.graph.names import resolve
-from gazelle.graph.parameter_tree import ParameterTree, from_json, to_json
+from gazelle.graph.parameter_tree import ParameterTree, to_json
+from gazelle.graph.requests import answer_in, read_query, read_sample, reply_to
 
 if TYPE_CHECKING:
     import zenoh
@@ -29,6 +30,12 @@ _NO_OWNER_S = 3.0
 _SLOW_OWNER_S = 30.0
 _RETRY_S = 0.02
 _ASK_S = 5.0
+_KINDS = {"op": str, "name": str, "start": str, "revision": int}
+_UPDATES = {
+    "root": {"value", "revision"},
+    "set": {"name", "value", "revision"},
+    "delete": {"name", "revision"},
+}
 
 Listener = Callable[[str], None]
 
@@ -135,8 +142,8 @@ class ParameterShare:
         deadline = time.monotonic() + _NO_OWNER_S
         while True:
             for reply in self._session.get(self._key, payload=payload, timeout=_ASK_S):
-                if reply.ok is not None:
-                    answer: dict[str, Any] = from_json(reply.ok.payload.to_bytes())
+                answer = answer_in(reply)
+                if answer is not None:
                     self._apply_own(request, answer)
                     return answer
             if self._owner:
@@ -152,9 +159,11 @@ class ParameterShare:
             time.sleep(_RETRY_S)
 
     def _answer(self, query: Any) -> None:
-        answer = self._handle(from_json(query.payload.to_bytes()))
-        query.reply(self._key, to_json(answer))
-        query.drop()
+        try:
+            answer = self._handle(read_query(query, _KINDS))
+        except GraphError as error:
+            answer = {"error": str(error)}
+        reply_to(query, self._key, answer)
 
     def _handle(self, request: dict[str, Any]) -> dict[str, Any]:
         try:
@@ -166,7 +175,7 @@ class ParameterShare:
             return {"error": str(error)}
 
     def _do(self, request: dict[str, Any]) -> dict[str, Any]:
-        tree, op, name = self._tree, request["op"], request.get("name", "/")
+        tree, op, name = self._tree, request.get("op"), request.get("name", "/")
         if op == "get":
             return {"value": tree.get(name)}
         if op == "has":
@@ -174,11 +183,11 @@ class ParameterShare:
         if op == "names":
             return {"value": tree.names()}
         if op == "search":
-            return {"value": tree.search(name, request["start"]) or ""}
+            return {"value": tree.search(name, request.get("start", "/")) or ""}
         if op == "root":
             return {"value": tree.get("/"), "revision": tree.revision}
         if op == "set":
-            revision = tree.set(name, request["value"])
+            revision = tree.set(name, request.get("value", ""))
         elif op == "delete":
             revision = tree.delete(name)
         else:
@@ -205,7 +214,8 @@ class ParameterShare:
         )
 
     def _on_update(self, sample: Any) -> None:
-        update = from_json(sample.payload.to_bytes())
+        update = read_sample(sample, _KINDS)
+        _check_update(update)
         with self._lock:
             if self._owner:
                 return
@@ -232,6 +242,13 @@ class ParameterShare:
     def _changed(self, name: str) -> None:
         for listener in tuple(self._listeners):
             listener(name)
+
+
+def _check_update(update: dict[str, Any]) -> None:
+    op = update.get("op")
+    is_whole = op in _UPDATES and _UPDATES[op] <= update.keys()
+    if not is_whole or (op == "root" and not isinstance(update["value"], dict)):
+        raise GraphError(f"an update of the parameters ('{op}') is left out: it is not whole")
 
 
 class ParameterStore:

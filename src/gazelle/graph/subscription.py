@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError
 from gazelle.graph import wire
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.delivery import Bound, Mailbox
 from gazelle.graph.errors import coded
 from gazelle.graph.keys import Attachment, Entity, token, topic_selector, type_in_key
 
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
 
 __all__ = ["MessageInfo", "RawMessage", "Subscription"]
+
+_MOST_WAITING_BYTES = 64 << 20
+# What an item holds besides its message.
+_ITEM_BYTES = 500
 
 
 class RawMessage(NamedTuple):
@@ -87,7 +91,9 @@ class Subscription:
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
         self._closed = is_mute
-        self._mailbox = Mailbox(self._handle, size=queue_size, name=f"sub {self.topic}")
+        bound = Bound(_MOST_WAITING_BYTES, _weight, self._tell_full)
+        name = f"sub {self.topic}"
+        self._mailbox = Mailbox(self._handle, size=queue_size, name=name, bound=bound)
         self._take = self._handle if inline else self._mailbox.put
         self._local = graph.local.topic(self.topic)
         self._declare = _declare if takes_latched else _declare_plain
@@ -221,10 +227,27 @@ class Subscription:
         self._refuse(type_name, coded("graph.type-mismatch", text))
         return False
 
+    def _tell_full(self) -> None:
+        self._on_warning(
+            f"the callback of {self.topic} is slower than its messages: "
+            f"{_MOST_WAITING_BYTES >> 20} MiB of them wait, and the oldest are dropped from now on"
+            "\n  fix: give the subscriber a queue_size, or do less in the callback"
+        )
+
     def _refuse(self, type_name: str, text: str) -> None:
         if type_name not in self._refused:
             self._refused.add(type_name)
             self._on_error(text)
+
+
+def _weight(item: tuple[Any, Attachment | None, Any]) -> int:
+    """Return about how many bytes of memory an item of the mailbox holds."""
+    message, _attachment, sample = item
+    if sample is not None:
+        return _ITEM_BYTES + len(sample.payload)
+    data = getattr(message, "data", b"")
+    size = getattr(data, "nbytes", None)
+    return _ITEM_BYTES + (size or len(data) if hasattr(data, "__len__") else 0)
 
 
 def _attachment_of(sample: Any) -> Attachment:
