@@ -86,7 +86,7 @@ def measure_load(seconds: float) -> None:
     with running(talker, port), studio(port) as url, browser() as chromium:
         # Small, because a graphics card would paint this.
         page = chromium.new_page(viewport={"width": 640, "height": 400})
-        page.goto(f"{url}?panels=rviz")
+        page.goto(f"{url}&panels=rviz")
         until(page, "Boolean(window.gazelle?.scene)")
         for display, properties in DISPLAYS.items():
             page.evaluate(f"gazelle.addDisplay('{display}', {json.dumps(properties)}, 'rviz')")
@@ -137,7 +137,7 @@ def measure_opening(workspaces: Path) -> None:
             session.send("Network.enable")
             sizes = _sizes(session)
             page.add_init_script(FIRST_VIEW)
-            page.goto(f"{url}?panels={panels}" if panels else url)
+            page.goto(f"{url}&panels={panels}" if panels else url)
             until(page, "window.firstView_ms > 0")
             first_ms = page.evaluate("window.firstView_ms")
             page.wait_for_timeout(1500)
@@ -207,7 +207,8 @@ def measure_slowing(workspaces: Path, seconds: float, repeats: int, *options: st
 @contextlib.contextmanager
 def _client(url: str) -> Iterator[None]:
     """A page as the server sees it, which takes everything at once."""
-    with connect(url.replace("http", "ws") + "ws", compression=None, max_size=None) as page:
+    address = url.replace("http", "ws").replace("/?", "/ws?")
+    with connect(address, compression=None, max_size=None) as page:
         page.recv()
         for number, (stream, params) in enumerate(STREAMS, 1):
             opening = {"op": "open", "ch": number, "stream": stream, "params": params}

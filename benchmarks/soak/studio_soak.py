@@ -26,6 +26,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import psutil
 
@@ -57,7 +58,7 @@ def main() -> None:
         home = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         url = stack.enter_context(_launched(options.workspace, home))
         page, browser_pid = stack.enter_context(_page(url, home))
-        probe = _Probe(page, browser_pid, int(url.rstrip("/").rpartition(":")[2]))
+        probe = _Probe(page, browser_pid, urlsplit(url).port or 0)
         tabs = page.locator(".dv-tab").all()
         begin = time.monotonic()
         while (passed := time.monotonic() - begin) < options.minutes * 60:
@@ -139,7 +140,7 @@ def _page(url: str, home: Path) -> Iterator[tuple[Any, int]]:
         )  # fmt: skip
         page = context.new_page()
         page.set_default_timeout(_STARTING_S * 1000)
-        page.goto(f"{url}?panels={_PANELS}")
+        page.goto(f"{url}&panels={_PANELS}")
         page.wait_for_function("window.gazelle?.scenes().length > 1")
         for display, topic in _DISPLAYS.items():
             page.evaluate(f"gazelle.addDisplay('{display}', {{Topic: '{topic}'}}, 'rviz')")

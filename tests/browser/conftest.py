@@ -121,7 +121,7 @@ def look(browser: Any, request: pytest.FixtureRequest, tmp_path: Path) -> Iterat
         found = Look(context, folder, name if not opened else f"{name}-{len(opened) + 1}")
         opened.append((context, found))
         found.page.add_init_script(f"localStorage['gazelle.theme'] ??= '{theme}'")
-        found.page.goto(f"{url}?panels={','.join(panels)}" if panels else url)
+        found.page.goto(f"{url}&panels={','.join(panels)}" if panels else url)
         found.page.locator(".light[data-state=open]").wait_for()
         return found
 
@@ -197,7 +197,7 @@ def bench(free_port: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> It
         pytest.skip("the page is not built (npm run build in studio/)")
     with (
         Graph.open(port=free_port, role="hub", environ={}) as graph,
-        Server(Studio(graph), port=0) as server,
+        Server(Studio(graph, tmp_path), port=0) as server,
     ):
         made = Bench(graph, graph.create_node("robot"), server.url)
         yield made

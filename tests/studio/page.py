@@ -14,6 +14,8 @@ from tests.patience import PATIENCE_S, stretched
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from gazelle.studio.security import token_of_user
+
 _HEADER = struct.Struct("<HHId")
 
 
@@ -80,7 +82,7 @@ class Page:
     def __init__(self, port: int, **headers: str) -> None:
         self._stack = contextlib.ExitStack()
         opening = connect(
-            f"ws://127.0.0.1:{port}/ws",
+            f"ws://127.0.0.1:{port}/ws?token={token_of_user()}",
             compression=None,
             max_size=None,
             additional_headers=headers,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 from collections.abc import Callable
 from typing import Any
@@ -13,12 +14,16 @@ from gazelle.graph import Graph
 Run = Callable[..., Any]
 
 
+def _port(line: str) -> int:
+    return int(re.findall(r":(\d+)/", line)[0])
+
+
 def test_the_command_prints_its_url_and_ends_on_request(gazelle: Run) -> None:
     """It opens a graph of its own where there is none; launches that come later join it."""
     for number in (signal.SIGTERM, signal.SIGINT):
         running = gazelle("studio", "--port", "0", "--no-browser")
-        line = running.wait_for_line(r"Studio: http://127\.0\.0\.1:\d+/$")
-        page = Page(int(line.rpartition(":")[2].strip("/")))
+        line = running.wait_for_line(r"Studio: http://127\.0\.0\.1:\d+/\?token=\w+$")
+        page = Page(_port(line))
         names = [one["name"] for one in page.call("graph.get")["nodes"]]
         assert names == [page.hello["node"]]
         assert page.hello["graph"]["port"] == running.port
@@ -30,7 +35,7 @@ def test_the_command_prints_its_url_and_ends_on_request(gazelle: Run) -> None:
 def test_killing_its_node_ends_it(gazelle: Run) -> None:
     running = gazelle("studio", "--port", "0", "--no-browser")
     line = running.wait_for_line("Studio: http")
-    page = Page(int(line.rpartition(":")[2].strip("/")))
+    page = Page(_port(line))
     with Graph.open(port=running.port, role="client", environ={}) as graph:
         assert graph.kill_node(page.hello["node"])
         assert running.wait() == 0
@@ -39,7 +44,7 @@ def test_killing_its_node_ends_it(gazelle: Run) -> None:
 
 def test_a_port_that_is_taken_is_an_error(gazelle: Run) -> None:
     first = gazelle("studio", "--port", "0", "--no-browser")
-    port = first.wait_for_line("Studio: http").rpartition(":")[2].strip("/")
+    port = str(_port(first.wait_for_line("Studio: http")))
     second = gazelle("studio", "--port", port, "--no-browser")
     assert second.wait() == 1
     assert f"studio: cannot listen on 127.0.0.1, port {port}" in second.text

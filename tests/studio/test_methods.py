@@ -346,7 +346,8 @@ def test_saved_files_are_fetched_once(page: Page, server: Server) -> None:
 
 def _get(server: Server, path: str) -> tuple[int, Any, bytes]:
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
-    connection.request("GET", path)
+    cookie = f"gazelle_studio_{server.port}={server.token}"
+    connection.request("GET", path, headers={"Cookie": cookie})
     answer = connection.getresponse()
     body = answer.read()
     connection.close()

@@ -144,7 +144,7 @@ def test_a_page_that_does_not_read_loses_its_batch_stream(
     connected: Callable[..., Page], talk: Talk, server: Server
 ) -> None:
     """What waits for it is bounded; everybody else goes on."""
-    url = f"ws://127.0.0.1:{server.port}/ws"
+    url = f"ws://127.0.0.1:{server.port}/ws?token={server.token}"
     with connect(url, compression=None, max_queue=1, max_size=None) as deaf:
         _flood(deaf, connected().open("rosout"), talk)
 

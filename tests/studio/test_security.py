@@ -11,6 +11,7 @@ import pytest
 from tests.patience import stretched
 from tests.studio.page import Page
 from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
@@ -28,10 +29,14 @@ class Answer(NamedTuple):
     body: bytes
 
 
-def get(server: Server, path: str, method: str = "GET", **headers: str) -> Answer:
-    """Send one request with these headers and no others."""
+def get(
+    server: Server, path: str, method: str = "GET", *, token: bool = True, **headers: str
+) -> Answer:
+    """Send one request with these headers and no others but the page's token."""
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
     connection.putrequest(method, path, skip_host="Host" in headers, skip_accept_encoding=True)
+    if "Cookie" not in headers and "token=" not in path and token:
+        headers["Cookie"] = f"gazelle_studio_{server.port}={server.token}"
     for name, value in headers.items():
         connection.putheader(name.replace("_", "-"), value)
     connection.endheaders()
@@ -144,23 +149,40 @@ def test_rubbish_on_the_port_does_no_harm(server: Server) -> None:
     assert get(server, "/").status == 200
 
 
-def test_an_address_for_others_needs_the_token(graph: Graph) -> None:
-    with Server(Studio(graph), host="0.0.0.0", port=0) as server:
-        assert server.url == f"http://0.0.0.0:{server.port}/?token={server.token}"
-        assert get(server, "/").status == 403
+@pytest.mark.parametrize("host", ["127.0.0.1", "0.0.0.0"])
+def test_every_address_needs_the_token(graph: Graph, host: str) -> None:
+    """Another user of the machine reaches 127.0.0.1, too."""
+    with Server(Studio(graph), host=host, port=0) as server:
+        assert server.url == f"http://{host}:{server.port}/?token={server.token}"
+        assert get(server, "/", token=False).status == 403
+        assert get(server, "/ws", token=False).status == 403
+        assert get(server, "/?token=", token=False).status == 403
         assert get(server, "/?token=wrong").status == 403
         first = get(server, f"/?token={server.token}")
         assert first.status == 200
         cookie = first.headers["Set-Cookie"]
-        assert cookie == (f"gazelle_studio={server.token}; HttpOnly; SameSite=Strict; Path=/")
+        assert cookie == (
+            f"gazelle_studio_{server.port}={server.token}; HttpOnly; SameSite=Strict; Path=/"
+        )
         assert get(server, "/", Cookie=cookie.split(";")[0]).status == 200
-        assert get(server, "/", Cookie="gazelle_studio=no").status == 403
+        assert get(server, "/", Cookie=f"gazelle_studio_{server.port}=no").status == 403
         assert get(server, "/", Cookie="=;;=,[]").status == 403
         with pytest.raises(InvalidStatus):
-            Page(server.port)
+            connect(f"ws://127.0.0.1:{server.port}/ws")
         page = Page(server.port, Cookie=cookie.split(";")[0])
         assert page.hello["op"] == "hello"
         page.close()
+
+
+def test_token_on_this_machine_is_the_same_each_time_and_another_one_for_others(
+    graph: Graph,
+) -> None:
+    tokens = []
+    for host in ("127.0.0.1", "127.0.0.1", "0.0.0.0", "0.0.0.0"):
+        with Server(Studio(graph), host=host, port=0) as server:
+            tokens.append(server.token)
+    assert tokens[0] == tokens[1]
+    assert len({*tokens}) == 3
 
 
 def test_addresses_are_taken_for_own_only_where_all_were_bound() -> None:

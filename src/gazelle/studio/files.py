@@ -15,7 +15,7 @@ from urllib.parse import unquote, urlsplit
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from gazelle.studio.security import CONTENT_SECURITY_POLICY, COOKIE, Guard
+from gazelle.studio.security import CONTENT_SECURITY_POLICY, Guard
 
 if TYPE_CHECKING:
     from gazelle.studio.session import Studio
@@ -77,7 +77,7 @@ def answer_to(
     if answer.file_name:
         headers["Content-Disposition"] = f'attachment; filename="{_quoted(answer.file_name)}"'
     if guard.has_token(request.path):
-        headers["Set-Cookie"] = f"{COOKIE}={guard.token}; HttpOnly; SameSite=Strict; Path=/"
+        headers["Set-Cookie"] = f"{guard.cookie}={guard.token}; HttpOnly; SameSite=Strict; Path=/"
     return _sent(answer, request, headers)
 
 

@@ -1,4 +1,7 @@
-"""Who may talk to the server: its own page, on this machine, unless the user said otherwise."""
+"""Who may talk to the server: pages that its user opened, on this machine unless told otherwise.
+
+Everybody on a machine reaches 127.0.0.1, so the address carries a token there, too.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +15,16 @@ from urllib.parse import parse_qs, urlsplit
 
 from websockets.datastructures import Headers
 
-__all__ = ["CONTENT_SECURITY_POLICY", "COOKIE", "Guard", "guard_for"]
+from gazelle.graph.secret import secret_of_user
+
+__all__ = ["CONTENT_SECURITY_POLICY", "Guard", "guard_for", "token_of_user"]
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
     "connect-src 'self'; object-src 'none'; frame-ancestors 'none'"
 )
-COOKIE = "gazelle_studio"
+_COOKIE = "gazelle_studio"
+_TOKEN_CHARACTERS = 32
 _LOCAL_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
 _ANY_ADDRESS = frozenset({"0.0.0.0", "::"})  # noqa: S104 - recognised here, not bound
 
@@ -29,12 +35,17 @@ class Guard(NamedTuple):
     Attributes:
         bound: the address it listens on.
         port: and its port.
-        token: what a page must know when others than this machine can reach it, else empty.
+        token: what a page must know.
     """
 
     bound: str
     port: int
     token: str
+
+    @property
+    def cookie(self) -> str:
+        """Name of the cookie with the token; browsers send all of a host's to each of its ports."""
+        return f"{_COOKIE}_{self.port}"
 
     def refusal(self, path: str, headers: Headers) -> str:
         """Return why a request gets 403, empty when it may pass.
@@ -48,21 +59,21 @@ class Guard(NamedTuple):
         origins = headers.get_all("Origin")
         if any(urlsplit(origin).netloc.lower() != host[0].lower() for origin in origins):
             return "pages of other origins may not talk to this server"
-        if self.token and not self._knows_token(path, headers):
-            return "open the URL that was printed; it carries a token"
+        if not self._knows_token(path, headers):
+            return "open the address that was printed; it carries a token"
         return ""
 
     def has_token(self, path: str) -> bool:
         """Return whether the URL itself carries the token, which becomes a cookie then."""
         given = parse_qs(urlsplit(path).query).get("token", [""])[0]
-        return bool(self.token) and hmac.compare_digest(given.encode(), self.token.encode())
+        return hmac.compare_digest(given.encode(), self.token.encode())
 
     def _knows_token(self, path: str, headers: Headers) -> bool:
         if self.has_token(path):
             return True
         for text in headers.get_all("Cookie"):
             try:
-                morsel = SimpleCookie(text).get(COOKIE)
+                morsel = SimpleCookie(text).get(self.cookie)
             except CookieError:
                 continue
             if morsel and hmac.compare_digest(morsel.value.encode(), self.token.encode()):
@@ -83,9 +94,19 @@ class Guard(NamedTuple):
 
 
 def guard_for(host: str, port: int) -> Guard:
-    """Return the rules for an address; any but this machine's own gets a token."""
+    """Return the rules for an address; where others reach it the token is a new one each time."""
     local = host.lower() in _LOCAL_NAMES
-    return Guard(host, port, "" if local else secrets.token_urlsafe(24))
+    return Guard(host, port, token_of_user() if local else secrets.token_urlsafe(24))
+
+
+def token_of_user() -> str:
+    """Return what lets a user's pages in on this machine: the same each time, for bookmarks.
+
+    Raises:
+        GraphError: the user's secret cannot be read.
+    """
+    key = secret_of_user().password.encode()
+    return hmac.new(key, b"studio", "sha256").hexdigest()[:_TOKEN_CHARACTERS]
 
 
 def _is_address(name: str) -> bool:

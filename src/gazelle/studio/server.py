@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import secrets
 import threading
 from http import HTTPStatus
 from typing import Self
@@ -46,7 +47,7 @@ class Server:
 
         Args:
             studio: it is closed together with the server.
-            host: address; any but this machine's own is reached with a token only.
+            host: address.
             port: TCP port, 0 for any free one; None takes the first free one from 8090 on.
 
         Raises:
@@ -59,7 +60,7 @@ class Server:
         self._started = threading.Event()
         self._stop = asyncio.Event()
         self._error: OSError | None = None
-        self._guard = Guard(host, 0, "")
+        self._guard = Guard(host, 0, secrets.token_urlsafe())
         keep_freed_memory()
         self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
         self._thread.start()
@@ -80,7 +81,7 @@ class Server:
 
     @property
     def token(self) -> str:
-        """What the URL must carry, empty on this machine's own address."""
+        """What the URL must carry."""
         return self._guard.token
 
     def close(self) -> None:
@@ -152,8 +153,7 @@ class Server:
 
     def _url(self) -> str:
         host = f"[{self._host}]" if ":" in self._host else self._host
-        end = f"?token={self.token}" if self.token else ""
-        return f"http://{host}:{self.port}/{end}"
+        return f"http://{host}:{self.port}/?token={self.token}"
 
 
 def _default_ports() -> range:

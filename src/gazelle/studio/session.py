@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gazelle._version import __version__
@@ -27,14 +28,21 @@ class Studio:
     Attributes:
         graph: the graph.
         node: the node that subscribes, publishes and calls for all pages.
+        folder: pages write files below it, and nowhere else.
         taps: the topics listened to.
         workers: threads that make frames.
         pages: the open connections.
     """
 
-    def __init__(self, graph: Graph) -> None:
-        """Join as a node of a name of its own; the graph stays open when Studio is closed."""
+    def __init__(self, graph: Graph, folder: Path | None = None) -> None:
+        """Join as a node of a name of its own; the graph stays open when Studio is closed.
+
+        Args:
+            graph: what to look at.
+            folder: where pages may write files, the current one when None.
+        """
         self.graph = graph
+        self.folder = (folder or Path.cwd()).absolute()
         self.node = graph.create_node("_studio", anonymous=True, rosout=False, is_ros2=True)
         # A simulator says the time at every step, and without a page nobody wants to know.
         graph.clock.leave(self.node)

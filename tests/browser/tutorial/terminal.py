@@ -33,7 +33,7 @@ class Session:
 
     def shows(self, command: Any, panel: str) -> None:
         """Wait until a command has said where its panel is."""
-        said = command.wait_for_line(rf"{panel}: http://127\.0\.0\.1:\d+/$")
+        said = command.wait_for_line(rf"{panel}: http://127\.0\.0\.1:\d+/\?token=\w+$")
         url = said.split(f"{panel}: ")[1].strip()
         assert self.url in ("", url)
         self.url = url

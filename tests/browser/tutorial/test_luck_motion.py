@@ -37,7 +37,7 @@ class Arm:
     def __init__(self, launched: Any, look: Any) -> None:
         self._launched = launched
         launched.wait_for_line("You can start planning now!", _STARTING_S)
-        line = launched.wait_for_line(r"gazebo: http://127\.0\.0\.1:\d+/$", _STARTING_S)
+        line = launched.wait_for_line(r"gazebo: http://127\.0\.0\.1:\d+/\?token=\w+$", _STARTING_S)
         seen = look(line.split("gazebo: ")[1].strip(), size=(1440, 900))
         seen.page.set_default_timeout(stretched(_PATIENCE_S) * 1000)
         self.ui = MotionPanel(seen, self)

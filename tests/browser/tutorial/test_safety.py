@@ -11,7 +11,7 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from tests.browser.tutorial.terminal import Session, open_panel
@@ -45,7 +45,7 @@ def test_page_of_another_site_gets_neither_socket_nor_files(
 ) -> None:
     page = browser.new_page()
     page.goto(elsewhere)
-    socket = bench.url.replace("http", "ws") + "ws"
+    socket = bench.url.replace("http", "ws").replace("/?", "/ws?")
     opened = page.evaluate(
         """url => new Promise(done => {
           const socket = new WebSocket(url);
@@ -82,7 +82,9 @@ def test_strangers_and_paths_outside_are_refused(
     asking = http.client.HTTPConnection(
         address.hostname or "", address.port or 0, timeout=stretched()
     )
-    asking.request("GET", path, headers=headers)
+    token = parse_qs(address.query)["token"][0]
+    known = {"Cookie": f"gazelle_studio_{address.port}={token}"}
+    asking.request("GET", path, headers={**known, **headers})
     assert asking.getresponse().status == status
     asking.close()
 
@@ -101,13 +103,15 @@ def test_page_works_without_a_network_and_asks_nobody_else(bench: Any, browser: 
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     bench.keep_publishing("/count", "std_msgs/msg/Float64", lambda t: {"data": t})
-    page.goto(f"{bench.url}?panels=rviz,rqt_plot,rqt_graph")
+    page.goto(f"{bench.url}&panels=rviz,rqt_plot,rqt_graph")
     page.locator("[data-panel=rviz] canvas").first.wait_for(timeout=stretched() * 1000)
     page.get_by_label("Topic field").fill("/count/data")
     page.keyboard.press("Enter")
     value = page.locator("[data-panel=rqt_plot]").get_by_role("listitem").locator("output")
     bench.eventually(lambda: re.fullmatch(r"[\d.]+", value.inner_text()))
-    foreign = [url for url in asked if not url.startswith((bench.url, "blob:", "data:"))]
+    foreign = [
+        url for url in asked if not url.startswith((bench.url.partition("?")[0], "blob:", "data:"))
+    ]
     assert foreign == []
     assert len(asked) > 5
     alone.close()

@@ -23,6 +23,7 @@ def test_bridge_says_where_it_listens(needs_sdk: None, gazelle: Run) -> None:
     run = gazelle("bridge", "foxglove", "--port", "0")
     port = int(run.wait_for_line(r"^the bridge listens at ws://127\.0\.0\.1:\d+$").split(":")[-1])
     run.wait_for_line("in Foxglove: Open connection, Foxglove WebSocket, this address")
+    run.wait_for_line("every user of this machine can look")
     socket.create_connection(("127.0.0.1", port), timeout=stretched()).close()
     assert run.stop() == 0
     assert "gazelle bridge foxglove:" not in run.text

@@ -27,6 +27,7 @@ def test_bridge_says_where_it_is_and_leaves_in_peace(gazelle: Run, next_port: Po
     run = gazelle("bridge", "ros1", ROS_MASTER_URI=uri)
     run.wait_for_line(rf"^the bridge is the master at {uri}/$")
     run.wait_for_line(rf"export ROS_MASTER_URI={uri}$")
+    run.wait_for_line("every user of this machine can reach it: ROS 1 asks nobody for a password")
     assert xmlrpc.client.ServerProxy(uri).getUri("/me") == [1, "", f"{uri}/"]
     assert run.stop() == 0
     with pytest.raises(OSError):

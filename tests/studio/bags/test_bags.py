@@ -28,8 +28,8 @@ def graph(free_port: int) -> Iterator[Graph]:
 
 
 @pytest.fixture
-def studio(graph: Graph) -> Iterator[Studio]:
-    studio = Studio(graph)
+def studio(graph: Graph, tmp_path: Path) -> Iterator[Studio]:
+    studio = Studio(graph, tmp_path)
     yield studio
     studio.close()
 
@@ -107,6 +107,25 @@ def test_pause_stands_still_and_seek_shows_what_was_last(
     assert after is not None and after["time_s"] == pytest.approx(middle_s)
     assert after["playing"] is False
     assert len(shown) == 1 and 35 <= int(shown[0]) <= 65
+
+
+@pytest.mark.parametrize("kind", ["bag", "mcap", "db3"])
+@pytest.mark.parametrize("path", ["/etc/said", "../said", "x/../../said", "link/said", "~/said"])
+def test_nothing_is_recorded_beside_the_folder(
+    studio: Studio, tmp_path: Path, path: str, kind: str
+) -> None:
+    (tmp_path / "link").symlink_to("/")
+    with pytest.raises(StudioError, match=r"is not below .*, where this page may write") as caught:
+        studio.shared(Recording).begin(None, path, kind)
+    assert "--folder" in caught.value.hint
+
+
+def test_bag_that_is_there_is_not_overwritten(studio: Studio, tmp_path: Path) -> None:
+    (tmp_path / "said.bag").write_bytes(b"precious")
+    for name in ("said", "said.bag"):
+        with pytest.raises(StudioError, match=r"said\.bag is there already"):
+            studio.shared(Recording).begin(None, name, "bag")
+    assert (tmp_path / "said.bag").read_bytes() == b"precious"
 
 
 @pytest.mark.parametrize("kind", ["mcap", "db3"])

@@ -431,7 +431,8 @@ def test_a_module_outside_the_panels_folder_is_not_served(
 def _get(server: Server, path: str) -> tuple[int, str, bytes]:
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=stretched())
     try:
-        connection.request("GET", path)
+        cookie = f"gazelle_studio_{server.port}={server.token}"
+        connection.request("GET", path, headers={"Cookie": cookie})
         answer = connection.getresponse()
         return answer.status, answer.headers["Content-Type"], answer.read()
     finally:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from gazelle.graph import Graph
+from gazelle.studio.security import token_of_user
 from gazelle.studio.views.presence import Request, page_port, present
 
 _WAIT_S = 20.0
@@ -65,7 +66,7 @@ def test_second_command_is_shown_on_the_page_of_the_first(
 ) -> None:
     first = command("rqt_graph")
     url = first.hears().removeprefix("rqt_graph: ")
-    assert url == f"http://127.0.0.1:{page_port(first.graph)}/"
+    assert url == f"http://127.0.0.1:{page_port(first.graph)}/?token={token_of_user()}"
     second = command("rqt_plot")
     assert second.hears() == f"rqt_plot: {url}"
 
@@ -81,7 +82,7 @@ def test_page_is_served_on_at_its_address_when_its_server_ends(
     watcher = second.graph
     assert watcher.wait_for_service("/_gazelle/studio", _WAIT_S)
     third = command("rviz")
-    assert third.hears() == f"rviz: http://127.0.0.1:{page_port(watcher)}/"
+    assert third.hears() == f"rviz: http://127.0.0.1:{page_port(watcher)}/?token={token_of_user()}"
 
 
 def test_graphs_side_by_side_have_pages_side_by_side(free_port: int) -> None:

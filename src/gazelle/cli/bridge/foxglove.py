@@ -95,7 +95,9 @@ def _say(options: argparse.Namespace, port: int) -> None:
         more = f" and use {allowed}" if allowed else ""
         _warn(f"everybody who reaches {options.host} can see all topics{more}; nobody is asked "
               "for a password")  # fmt: skip
-    elif allowed:
+        return
+    print("  every user of this machine can look", flush=True)
+    if allowed:
         _warn(
             f"web pages open in a browser on this machine can use {allowed} too: the server "
             "takes connections from any page"

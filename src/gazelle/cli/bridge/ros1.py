@@ -67,7 +67,9 @@ def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
             "nobody for a password; unset ROS_HOSTNAME and ROS_IP for this machine only",
             file=sys.stderr,
         )
-    elif not place.is_here:
+        return
+    print("  every user of this machine can reach it: ROS 1 asks nobody for a password", flush=True)
+    if not place.is_here:
         print(
             f"gazelle bridge ros1: nodes on {place.host} cannot reach this machine as "
             f"{address.host}; export ROS_IP with its address in their network",

@@ -60,3 +60,6 @@ def _say(about: About, domain: int, *, is_network: bool) -> None:
             "machine only",
             file=sys.stderr,
         )
+    else:
+        text = "every user of this machine can reach it: ROS 2 asks nobody for a password"
+        print(f"  {text}", flush=True)

@@ -6,6 +6,7 @@ import argparse
 import sys
 import threading
 import webbrowser
+from pathlib import Path
 
 from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
@@ -24,7 +25,7 @@ def main(argv: list[str]) -> int:
     stop = threading.Event()
     at_stop_signal(stop.set)
     with Graph.open() as graph:
-        studio = Studio(graph)
+        studio = Studio(graph, options.folder)
         studio.node.on_shutdown(lambda _reason: stop.set())
         _show_panels(studio, options.panel)
         with Server(studio, host=options.host, port=options.port) as server:
@@ -54,7 +55,13 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--host",
         default="127.0.0.1",
-        help="address to listen on; for others than this machine the URL carries a token",
+        help="address to listen on; whoever has the printed URL gets in, it carries a token",
+    )
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        metavar="DIR",
+        help="pages write files below it and nowhere else; default: the current folder",
     )
     parser.add_argument(
         "--no-browser", dest="browser", action="store_false", help="only print the URL"

@@ -48,13 +48,14 @@ class Recording:
             where it goes.
 
         Raises:
-            StudioError: something is being recorded already.
+            StudioError: something is being recorded already, the file is there already, or it is
+                not below the Studio's folder.
             BagError: the file cannot be written.
         """
         with self._lock:
             if self._recorder is not None:
                 raise StudioError(f"{self._path} is being recorded; stop that first")
-            self._sink, self._path = _sink(path, kind)
+            self._sink, self._path = _sink(self._studio.folder, path, kind)
             self._node = self._studio.graph.create_node("record", anonymous=True, rosout=False)
             self._studio.graph.clock.follow(self._node)
             selection = Selection(tuple(topics or ()), topics is None, hidden=False)
@@ -98,14 +99,26 @@ class Recording:
         }
 
 
-def _sink(path: str, kind: str) -> tuple[Ros1Files | Rosbag2Writer, str]:
+def _sink(root: Path, path: str, kind: str) -> tuple[Ros1Files | Rosbag2Writer, str]:
     if kind not in FORMATS:
         raise StudioError(f"there is no format '{kind}'", known=FORMATS)
-    if kind == "bag":
-        stem = str(Path(path).expanduser().absolute()).removesuffix(".bag") if path else ""
-        named = stem or str(Path(default_stem()).absolute())
-        return Ros1Files(lambda: named), f"{named}.bag"
-    folder = Path(path or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S")).expanduser().absolute()
-    if folder.exists():
-        raise StudioError(f"{folder} is there already", hint="record to another name")
-    return Rosbag2Writer(folder, Storage("mcap" if kind == "mcap" else "sqlite3")), str(folder)
+    is_bag = kind == "bag"
+    made_up = default_stem() if is_bag else time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S")
+    name = str(_below(root, path or made_up))
+    stem = name.removesuffix(".bag") if is_bag else name
+    target = Path(f"{stem}.bag" if is_bag else name)
+    if target.exists():
+        raise StudioError(f"{target} is there already", hint="record to another name")
+    if is_bag:
+        return Ros1Files(lambda: stem), str(target)
+    return Rosbag2Writer(target, Storage("mcap" if kind == "mcap" else "sqlite3")), str(target)
+
+
+def _below(root: Path, path: str) -> Path:
+    wanted = root / Path(path).expanduser()
+    if not wanted.resolve().is_relative_to(root.resolve()):
+        raise StudioError(
+            f"{wanted} is not below {root}, where this page may write",
+            hint="record to another name, or start the page with --folder",
+        )
+    return wanted
