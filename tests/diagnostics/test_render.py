@@ -57,3 +57,28 @@ def test_brackets_in_messages_are_no_markup():
     stream = io.StringIO()
     render([Diagnostic("xml.malformed", Severity.ERROR, "[bold]a[/bold]")], stream=stream)
     assert "[bold]a[/bold]" in stream.getvalue()
+
+
+def test_of_an_endless_line_the_place_is_shown() -> None:
+    line = "x" * 200_000 + "<lnik/>" + "y" * 200_000
+    sources = {"<text>": line}
+    text = render_text(finding(SourceSpan("<text>", 1, 200_001, 7)), sources)
+    _head, shown, caret = text.splitlines()
+    assert len(shown) < 200
+    assert shown.startswith("      1 | …xx") and shown.endswith("yy…")
+    column = caret.index("^")
+    assert shown[column : column + 7] == "<lnik/>"
+    assert caret.endswith(" ^^^^^^^")
+    first = render_text(finding(SourceSpan("<text>", 1, 1, 1)), sources).splitlines()
+    assert first[1].startswith("      1 | xxx") and first[2].endswith("|" + " " + "^")
+
+
+def test_of_an_endless_message_the_ends_are_shown() -> None:
+    text = render_text(Diagnostic("xml.unknown-tag", Severity.ERROR, "a" * 400_000, None, "", ""))
+    assert len(text) < 2_200
+    assert "(400000 characters)" in text
+
+
+def test_a_file_does_not_steer_the_terminal() -> None:
+    sources = {"<text>": "a\x1b[2Jb"}
+    assert "a·[2Jb" in render_text(finding(SourceSpan("<text>", 1, 1, 1)), sources)

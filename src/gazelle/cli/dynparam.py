@@ -78,8 +78,6 @@ def _get(line: CommandLine, words: list[str]) -> int:
 
 
 def _set(line: CommandLine, words: list[str]) -> int:
-    import yaml
-
     usage = "set [options] node parameter value\n   or: %prog set [options] node values"
     values, words = _split(words)
     parser = _parser(usage)
@@ -89,7 +87,7 @@ def _set(line: CommandLine, words: list[str]) -> int:
     if len(values) < 2:
         parser.error(_NO_VALUES)
     name = values[0]
-    changes: Any = {values[1]: values[2]} if len(values) == 3 else yaml.safe_load(values[1])
+    changes: Any = {values[1]: values[2]} if len(values) == 3 else _value_of(values[1])
     if not isinstance(changes, dict):
         parser.error(_NO_VALUES)
     with _node(line) as (graph, node):
@@ -253,6 +251,17 @@ def _tagged(tree: dict[str, Any]) -> _Tagged:
     return _Tagged({k: _tagged(v) if isinstance(v, dict) else v for k, v in tree.items()})
 
 
+def _value_of(text: str) -> Any:
+    import yaml
+
+    from gazelle.limits.yaml_text import load_yaml
+
+    try:
+        return load_yaml(text)
+    except yaml.YAMLError as error:
+        raise ToolError(f"this is no YAML: {error}") from None
+
+
 def _from_yaml(path: str) -> dict[str, Any]:
     """Return what a file of ``dynparam dump`` or a plain YAML file says; it runs no code.
 
@@ -261,7 +270,9 @@ def _from_yaml(path: str) -> dict[str, Any]:
     """
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    from gazelle.limits.yaml_text import LimitedLoader
+
+    class Loader(LimitedLoader):
         pass
 
     def construct(loader: yaml.SafeLoader, node: yaml.MappingNode) -> Any:

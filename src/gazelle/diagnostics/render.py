@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 __all__ = ["render", "render_text"]
 
 _COLOURS = {Severity.INFO: "cyan", Severity.WARNING: "yellow", Severity.ERROR: "red"}
+_WIDEST = 160
+_BEFORE = 80
+_LONGEST = 2000
+_MORE = "…"
 
 
 def render(
@@ -59,7 +63,7 @@ def _rich_text(item: Diagnostic, sources: Mapping[str, str]) -> Text:
     if item.span:
         text.append(f"{item.span}: ", style="bold")
     text.append(str(item.severity), style=f"bold {colour}")
-    text.append(f": {item.message} ")
+    text.append(f": {_short(item.message)} ")
     text.append(f"[{item.code}]", style="dim")
     if item.span:
         _append_source(text, item.span, sources, colour)
@@ -67,7 +71,7 @@ def _rich_text(item: Diagnostic, sources: Mapping[str, str]) -> Text:
             text.append(f"\n  from {place}", style="dim")
     if item.fix:
         text.append("\n  fix: ", style="green")
-        text.append(item.fix)
+        text.append(_short(item.fix))
     if item.phrase:
         text.append(f"\n  ROS/Gazebo says: {item.phrase}", style="dim")
     return text
@@ -77,12 +81,31 @@ def _append_source(text: Text, span: SourceSpan, sources: Mapping[str, str], col
     line = _source_line(span, sources)
     if line is None:
         return
-    shown = line.replace("\t", " ")
+    shown, column = _window(line.replace("\t", " "), span.column)
     text.append(f"\n  {span.line:>5} | {shown}")
-    if span.column:
-        width = max(1, min(span.length or 1, len(shown) - span.column + 1))
-        text.append(f"\n  {'':>5} | {'':>{span.column - 1}}")
+    if column:
+        width = max(1, min(span.length or 1, len(shown) - column + 1))
+        text.append(f"\n  {'':>5} | {'':>{column - 1}}")
         text.append("^" * width, style=f"bold {colour}")
+
+
+def _window(line: str, column: int) -> tuple[str, int]:
+    """Return what of a line is shown, and the column in that: files of one line can be long."""
+    start = max(0, column - _BEFORE) if len(line) > _WIDEST else 0
+    shown = line[start : start + _WIDEST]
+    # What a file holds must not steer the terminal.
+    shown = "".join(one if one.isprintable() else "·" for one in shown)
+    left = _MORE if start else ""
+    right = _MORE if start + _WIDEST < len(line) else ""
+    return f"{left}{shown}{right}", column - start + len(left) if column else 0
+
+
+def _short(text: str) -> str:
+    """Return a text without its middle where it quotes something endless."""
+    if len(text) <= _LONGEST:
+        return text
+    half = _LONGEST // 2
+    return f"{text[:half]} {_MORE} ({len(text)} characters) {_MORE} {text[-half:]}"
 
 
 def _source_line(span: SourceSpan, sources: Mapping[str, str]) -> str | None:

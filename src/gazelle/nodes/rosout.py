@@ -9,7 +9,6 @@ from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from typing import Any
 
-from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, Level, Node
 from gazelle.graph.names import resolve
 from gazelle.interfaces import ros1_message_type
@@ -20,6 +19,7 @@ __all__ = ["line_of", "run"]
 
 _FILE_BYTES = 100_000_000
 _FILES = 10
+_MOST_CHARACTERS = 1 << 20
 _LOOK_S = 0.5
 
 
@@ -38,12 +38,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         # Of two that began together the graph ends one.
         if (node is None or node.closed) and not _has_namesake(name, graph, known):
             node = start_node(arguments, graph)
-            try:
-                _gather(node, file)
-            except GraphError:
-                # Ended by the other one while it began.
-                if not node.closed:
-                    raise
+            _gather(node, file)
         if stop.wait(_LOOK_S):
             break
         known = graph.discovery.known()
@@ -71,13 +66,19 @@ def _has_namesake(name: str, graph: Graph, known: Iterable[Entity]) -> bool:
 
 
 def line_of(message: Any) -> str:
-    """Return a ``rosgraph_msgs/Log`` as a line of ``rosout.log``, the layout of ROS 1."""
+    """Return a ``rosgraph_msgs/Log`` as a line of ``rosout.log``, the layout of ROS 1.
+
+    One message cannot fill a disk: what is longer than a million characters is cut off.
+    """
     stamp = message.header.stamp
     place = f"[{message.file}:{message.line}({message.function})]"
     topics = f"[topics: {', '.join(message.topics)}]"
     level = Level(message.level).name if message.level in set(Level) else str(message.level)
     head = f"{stamp.secs}.{stamp.nsecs:09d} {level} {message.name}"
-    return f"{head} {place} {topics} {message.msg}"
+    text = message.msg
+    if len(text) > _MOST_CHARACTERS:
+        text = f"{text[:_MOST_CHARACTERS]}… ({len(text)} characters in all)"
+    return f"{head} {place} {topics} {text}"
 
 
 def _file(own_log: str) -> Handler:

@@ -136,16 +136,27 @@ def test_words_and_numbers_of_each_generation(check: Check) -> None:
     assert check(node.format("names: [a, 1]"), 2).by_code("parameters.mixed-list")
 
 
-def test_files_of_moveit_maps_and_loops_are_left_alone(check: Check) -> None:
+def test_files_of_moveit_and_maps_are_left_alone(check: Check) -> None:
     for text in (
         "arm:\n  kinematics_solver: kdl/KDL\n  timeout: 1e-3\n",
         "image: map.pgm\nresolution: 0.05\norigin: [0, 0.0, 0]\n",
-        "a: &a\n  b: *a\n",
         "- a\n- b\n",
         "a: $(arg x)\n",
         "",
     ):
         assert list(check(text, 2)) == [], text
+
+
+def test_aliases_that_never_end_or_stand_for_too_much_are_told(check: Check) -> None:
+    (loop,) = check("a: &a\n  b: *a\n")
+    assert "an alias stands inside the very list or mapping that it names" in loop.message
+    bomb = "a0: &a0 [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"
+    for level in range(1, 9):
+        bomb += f"a{level}: &a{level} [{', '.join([f'*a{level - 1}'] * 9)}]\n"
+    (found,) = check(bomb)
+    assert "values, aliases followed are above the limit of" in found.message
+    (deep,) = check("[" * 9000)
+    assert "nested deeper than 64" in deep.message
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from gazelle.bag import zstandard
 from gazelle.bag.mcap.fields import HEAD, Cursor, Op, records_in
 from gazelle.bag.records import BagError, Connection, Encoding
+from gazelle.bag.unpacking import unpacked
 
 __all__ = ["Chunk", "Schema", "compress", "decompress", "message_head", "messages_in"]
 __all__ += ["read_channel", "read_schema"]
@@ -76,18 +77,7 @@ def decompress(data: bytes, compression: str, size: int) -> bytes:
         return data
     if compression not in ("lz4", "zstd"):
         raise BagError(f"a chunk is compressed with '{compression}' (lz4 and zstd are known)")
-    try:
-        if compression == "lz4":
-            import lz4.frame
-
-            found: bytes = lz4.frame.decompress(data)
-        else:
-            found = zstandard.decompress(data)
-    except Exception as error:  # noqa: BLE001 - either library has errors of its own
-        raise BagError(f"a chunk of {compression} is damaged: {error}") from None
-    if len(found) != size:
-        raise BagError(f"a chunk of {compression} holds {len(found)} bytes, not {size}")
-    return found
+    return unpacked(data, compression, size)
 
 
 def read_schema(content: bytes) -> tuple[int, Schema]:

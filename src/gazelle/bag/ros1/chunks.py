@@ -11,6 +11,7 @@ from typing import Any
 
 from gazelle.bag.records import BagError, Connection, Encoding
 from gazelle.bag.ros1.fields import Op, read_fields, unpack_stamp
+from gazelle.bag.unpacking import unpacked
 
 __all__ = ["CHUNK_BYTES", "Chunk", "Compression", "Entry", "compress", "connection_of"]
 __all__ += ["connections_in", "decompress", "entries_in", "message_at"]
@@ -79,13 +80,7 @@ def decompress(data: bytes, compression: str, size: int) -> bytes:
         return data
     if compression not in set(Compression):
         raise BagError(f"unknown compression type: {compression} (none, bz2 and lz4 are known)")
-    try:
-        found = bz2.decompress(data) if compression == "bz2" else _lz4().decompress(data)
-    except (OSError, ValueError, RuntimeError, EOFError) as error:
-        raise BagError(f"a chunk of {compression} is damaged: {error}") from None
-    if len(found) != size:
-        raise BagError(f"a chunk of {compression} holds {len(found)} bytes, not {size}")
-    return found
+    return unpacked(data, compression, size)
 
 
 def message_at(data: bytes, offset: int) -> bytes:

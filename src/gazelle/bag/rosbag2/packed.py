@@ -15,7 +15,7 @@ from gazelle.bag.records import (
     Summary,
     Wanted,
 )
-from gazelle.bag.zstandard import decompress, unpack_file
+from gazelle.bag.unpacking import unpack_file, unpacked
 
 __all__ = ["SUFFIX", "PackedFile", "PackedMessages"]
 
@@ -106,7 +106,7 @@ class PackedMessages:
         """
         for one in self._bag.messages(wanted, start_ns, end_ns):
             try:
-                yield one._replace(data=decompress(one.data))
+                yield one._replace(data=unpacked(one.data, "zstd"))
             except BagError as error:
                 where = f"{one.connection.topic} at {one.stamp_ns} ns"
                 raise BagError(f"{self.path}: message of {where}: {error}") from None

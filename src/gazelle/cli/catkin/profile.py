@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from gazelle.limits import read_limited
+from gazelle.limits.yaml_text import load_yaml
 from gazelle.workspace.building.catkin_space import CatkinSpaces
 from gazelle.workspace.building.packages import BuildError
 
@@ -65,7 +66,7 @@ def load_profile(folder: Path, *, may_make: bool = False) -> Profile:
         )
     file = root / _MARKER / _CONFIG
     try:
-        values = yaml.safe_load(read_limited(file, _MOST_BYTES)) if file.is_file() else {}
+        values = load_yaml(read_limited(file, _MOST_BYTES)) if file.is_file() else {}
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise BuildError(f"cannot read '{file}': {error}; remove it to start anew") from error
     return Profile(root, values if isinstance(values, dict) else {})

@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from gazelle.cli.ros2.verbs import add_verbs
+from gazelle.cli.text.ros2_filling import yaml_values
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
@@ -117,9 +118,10 @@ def _find(options: argparse.Namespace, graph: Graph) -> int:
 def _send_goal(options: argparse.Namespace, graph: Graph) -> int:
     kind = action_type(options.action_type)
     goal = kind.Goal()
-    values = yaml.safe_load(sys.stdin if options.stdin else options.goal)
+    text = sys.stdin.read() if options.stdin else options.goal
+    values = yaml_values(text) if text.strip() else {}
     try:
-        fill(goal, values or {})
+        fill(goal, values)
     except GazelleError as error:
         raise ToolError(f"Failed to populate message fields: {error}") from error
     node = graph.create_node("ros2cli_send_goal", anonymous=True, rosout=False)

@@ -157,12 +157,18 @@ def _wait_for_listener(job: _Job) -> None:
 def _file_documents(name: str) -> list[Any]:
     import yaml
 
+    from gazelle.limits import read_text_limited
+    from gazelle.limits.yaml_text import LimitedLoader
+
     path = Path(name)
     if not path.is_file():
         raise ToolError(f"file does not exist: {name}")
     try:
-        found = list(yaml.safe_load_all(path.read_text(encoding="utf-8")))
-    except yaml.YAMLError as error:
+        text = read_text_limited(path)
+        found = list(yaml.load_all(text, Loader=LimitedLoader))
+    except OSError as error:
+        raise ToolError(f"cannot read {name}: {error.strerror}") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise ToolError(f"invalid YAML in file: {error}") from None
     return [one for one in found if one is not None]
 

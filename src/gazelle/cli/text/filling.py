@@ -24,8 +24,10 @@ def yaml_words(words: list[str]) -> list[Any]:
     """
     import yaml
 
+    from gazelle.limits.yaml_text import load_yaml
+
     try:
-        return [yaml.safe_load(word) if word else "" for word in words]
+        return [load_yaml(word) if word else "" for word in words]
     except yaml.YAMLError as error:
         raise ToolError(
             f"Argument error: {error}\n  write YAML in quotes, with a blank behind each colon: "

@@ -10,6 +10,7 @@ from gazelle.cli.tool import ToolError
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import FieldType, Message, fill, message_type, time_keys
 from gazelle.interfaces.definition import FORMATS, Array, Generation
+from gazelle.limits.yaml_text import load_yaml
 
 __all__ = ["filled", "yaml_values"]
 
@@ -23,7 +24,7 @@ def yaml_values(text: str) -> dict[str, Any]:
         ToolError: it is not YAML, or no dictionary.
     """
     try:
-        found = yaml.safe_load(text)
+        found = load_yaml(text)
     except yaml.YAMLError as error:
         raise ToolError(
             f"the values are not YAML: {error}\n  write them in quotes, with a blank behind each "

@@ -167,8 +167,10 @@ def _yaml(text: str) -> Any:
     # Most nodes are given no values.
     import yaml
 
+    from gazelle.limits.yaml_text import load_yaml
+
     try:
-        return yaml.safe_load(text)
+        return load_yaml(text)
     except yaml.YAMLError:
         return text
 

@@ -100,8 +100,10 @@ def get_parameter_value(string_value: str) -> Any:
     """Return ``ParameterValue`` of a text as the command line takes it: YAML, or the text."""
     import yaml
 
+    from gazelle.limits.yaml_text import load_yaml
+
     try:
-        return value_message(yaml.safe_load(string_value))
+        return value_message(load_yaml(string_value))
     except (yaml.YAMLError, GraphError):
         return value_message(string_value)
 

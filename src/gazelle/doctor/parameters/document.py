@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.yaml_text import LimitedLoader
 
 __all__ = ["Document", "plain", "read_document", "scalars"]
 
@@ -63,7 +64,7 @@ def read_document(path: Path, diagnostics: Diagnostics) -> Document | None:
         if path.stat().st_size > _LONGEST:
             return None
         text = path.read_text(encoding="utf-8")
-        documents = list(yaml.compose_all(text, Loader=yaml.SafeLoader))
+        documents = list(yaml.compose_all(text, Loader=LimitedLoader))
     except OSError as error:
         message = f"parameter file '{path}' cannot be read: {error.strerror}"
         diagnostics.report("control.parameter-file", message)
@@ -88,7 +89,7 @@ def plain(node: yaml.Node) -> Any:
     if isinstance(node, yaml.SequenceNode):
         return [plain(item) for item in node.value]
     try:
-        return yaml.SafeLoader("").construct_object(node)
+        return LimitedLoader("").construct_object(node)
     except yaml.YAMLError:
         return node.value
 

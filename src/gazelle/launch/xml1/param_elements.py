@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,8 @@ from gazelle.launch.environment import node_environment
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.values import flatten, load_yaml, param_value
-from gazelle.limits import TEXT_BYTES, read_limited, read_text_limited
+from gazelle.limits import TEXT_BYTES, LimitError, read_limited, read_text_limited
+from gazelle.limits.commands import run_limited
 from gazelle.limits.names import exists, is_file, is_folder
 
 __all__ = ["param", "rosparam"]
@@ -129,18 +129,21 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
     reading.config.text_files += [word for word in words[1:] if is_file(word)]
     environment = {**node_environment(reading.environ, reading.workspace), **scope.env}
     try:
-        done = subprocess.run(words, capture_output=True, env=environment, check=False)
+        done = run_limited(words, env=environment)
     except OSError as error:
         message = f"Cannot load command parameter [{name}]: '{command}': {error.strerror}"
         raise TagError("launch.param-command-failed", message) from error
+    except LimitError as error:
+        message = f"Cannot load command parameter [{name}]: {error}"
+        raise TagError("launch.param-command-failed", message) from error
     if done.returncode:
-        detail = done.stderr.decode(errors="replace").strip()
+        detail = done.stderr.strip()
         message = (
             f"Cannot load command parameter [{name}]: command [{words}] "
             f"returned with code [{done.returncode}]"
         )
         raise TagError("launch.param-command-failed", f"{message}\n{detail}" if detail else message)
-    return done.stdout.decode("utf-8", errors="replace")
+    return done.stdout
 
 
 def _run_xacro(words: list[str], name: str, reading: Reading) -> str:

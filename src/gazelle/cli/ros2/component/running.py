@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-import yaml
-
 from gazelle.cli.ros2.calls import call_service, nodes_offering
 from gazelle.cli.ros2.component.types import add_component_arguments, instead_of
 from gazelle.cli.ros2.membership import cli_node, graph_of_ros2
 from gazelle.cli.ros2.verbs import add_strategy_arguments, fail
+from gazelle.cli.text.filling import yaml_words
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Graph, Node
 from gazelle.graph.parameter_values import value_message
@@ -146,4 +145,4 @@ def _call(node: Node, container: str, name: str, **fields: Any) -> Any:
 def _parameters(words: list[str]) -> list[Any]:
     kind = message_type("rcl_interfaces/msg/Parameter")
     pairs = (word.partition(":=") for word in words)
-    return [kind(name=name, value=value_message(yaml.safe_load(text))) for name, _, text in pairs]
+    return [kind(name=name, value=value_message(yaml_words([text])[0])) for name, _, text in pairs]

@@ -149,8 +149,10 @@ def _told(reason: str, good: str, bad: str) -> int:
 def _from_yaml(text: str) -> Any:
     import yaml
 
+    from gazelle.limits.yaml_text import load_yaml
+
     try:
-        value = yaml.safe_load(text)
+        value = load_yaml(text)
     except yaml.YAMLError as error:
         raise ToolError(f"the value is not YAML: {error}") from None
     if isinstance(value, str):

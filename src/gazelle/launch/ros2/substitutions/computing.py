@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import shlex
 import shutil
-import subprocess
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +17,8 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from gazelle.limits import LimitError
+from gazelle.limits.commands import CommandResult, run_limited
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
@@ -65,20 +66,19 @@ class Command(Substitution):
             raise SubstitutionFailure(
                 "expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'"
             )
-        stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
         try:
-            result = subprocess.run(
-                shlex.split(line), stdout=subprocess.PIPE, stderr=stderr, text=True, check=False
-            )
+            result = run_limited(shlex.split(line), joined=on_stderr == "capture")
         except (OSError, ValueError, IndexError) as error:
             what = "file not found" if isinstance(error, FileNotFoundError) else "cannot run"
             failure = SubstitutionFailure(f"{what}: {error}. Command: {line}")
             raise failure.explained(fix=_missing_blank(line)) from error
+        except LimitError as error:
+            raise SubstitutionFailure(f"{error}. Command: {line}") from error
         _check(result, line, on_stderr)
         return result.stdout
 
 
-def _check(result: subprocess.CompletedProcess[str], line: str, on_stderr: str) -> None:
+def _check(result: CommandResult, line: str, on_stderr: str) -> None:
     if result.returncode != 0:
         message = f"executed command failed. Command: {line}"
         if result.stderr:
@@ -93,11 +93,9 @@ def _check(result: subprocess.CompletedProcess[str], line: str, on_stderr: str) 
     launch_logging.get_logger().warning(message)
 
 
-def _failed(
-    message: str, what: str, result: subprocess.CompletedProcess[str]
-) -> SubstitutionFailure:
+def _failed(message: str, what: str, result: CommandResult) -> SubstitutionFailure:
     """Return the error about a command: what it wrote stands in the log line above."""
-    line = shlex.join(result.args)
+    line = shlex.join(result.words)
     first = (result.stderr or result.stdout).strip().partition("\n")[0]
     return SubstitutionFailure(message).explained(
         short=f"{what}: {line}" + (f": {first}" if first else ""),
