@@ -27,6 +27,7 @@ from tests.patience import PATIENCE_S, eventually, stretched
 
 SHARED = Path(__file__).parents[2] / "shared"
 _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
+_OWN_FOLDERS += ("XDG_STATE_HOME",)
 # What programs that tests need find by the true home.
 _FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
 # Windows that launch files name serve no page, except in the tests of the page.

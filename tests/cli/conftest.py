@@ -11,10 +11,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from tests.patience import eventually
 
 from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
 from gazelle.cli.tf import monitor
 from gazelle.graph import Entity, Graph, Kind, Node
+from gazelle.graph.keys import token
+from gazelle.graph.relink import hub_knows
 
 _PACE_S = 0.005
 _COMMAND_NODES = ("/rostopic_", "/tf_echo_", "/tf_monitor_", "/_ros2cli/")
@@ -74,8 +77,10 @@ def graph(port: int) -> Iterator[Graph]:
 
 @pytest.fixture
 def robot(graph: Graph) -> Node:
-    """A node on the graph, without /rosout."""
-    return graph.create_node("robot", rosout=False)
+    """A node on the graph, without /rosout, that those who join find there."""
+    node = graph.create_node("robot", rosout=False)
+    eventually(lambda: hub_knows(graph.port, token(graph.domain, node.entity)))
+    return node
 
 
 @pytest.fixture

@@ -46,6 +46,8 @@ def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: boo
             remappings=arguments.remappings,
             is_ros2=ros2,
         )
+        # Its own threads may be at work when it is shut down.
+        node.outlives = True
         if ros2:
             node.console = print_ros2
             if node.parameters.has(node.name):

@@ -28,6 +28,8 @@ class FakeRobot:
         self.goals: dict[str, list[Any]] = {}
         self.servers: list[ActionServer] = []
         self._node = node
+        # Who is at work on a goal when a test ends may still publish.
+        node.outlives = True
         self._out = node.create_publisher("/joint_states", "sensor_msgs/msg/JointState")
 
     def publish(self) -> None:

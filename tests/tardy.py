@@ -1,0 +1,43 @@
+"""A plug-in of pytest that makes messages of this process late: ``pytest -p tests.tardy``.
+
+What comes by a topic waits up to a twentieth of a second, each subscription by itself, as on a
+machine with much to do. No node may count on the order of two topics, so a test that fails with it
+does. The seed is in the header; ``GAZELLE_TARDY=SEED`` makes the same delays again.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import time
+from typing import Any
+
+import pytest
+
+_LATEST_S = 0.05
+_SHARE = 0.3
+
+
+def _seed() -> int:
+    return int(os.environ.setdefault("GAZELLE_TARDY", str(random.randrange(1_000_000))))
+
+
+def pytest_report_header(config: pytest.Config) -> str:
+    """Say how to do the same again."""
+    return f"late messages: GAZELLE_TARDY={_seed()}"
+
+
+@pytest.fixture(autouse=True)
+def late_messages(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let some messages be late in this test."""
+    from gazelle.graph.subscription import Subscription
+
+    draw = random.Random(f"{_seed()} {request.node.nodeid}")
+    take = Subscription._handle
+
+    def late(self: Subscription, item: Any) -> None:
+        if self._take == self._mailbox.put and draw.random() < _SHARE:
+            time.sleep(draw.uniform(0.0, _LATEST_S))
+        take(self, item)
+
+    monkeypatch.setattr(Subscription, "_handle", late)
