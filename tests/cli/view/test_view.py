@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from gazelle.cli.main import main
+from gazelle.sensors import warm_up
 from gazelle.workspace.scaffold import create_package
 
 ARM = """<robot name="arm">
@@ -63,6 +64,8 @@ def test_joint_turns_what_is_seen_and_background_is_ours() -> None:
 
 
 def test_a_package_shows_its_robot_and_a_named_file(capsys) -> None:
+    # Of kernels that have to be compiled the first picture tells.
+    warm_up(lambda text: None)
     create_package("robot", "my_bot", Path())
     assert main(["view", "my_bot", "--size", "80x60"]) == 0
     assert main(["view", "my_bot", "my_bot.world", "--size", "80x60", "-o", "w.png"]) == 0

@@ -182,14 +182,15 @@ class _PlannerServer:
 
     def _wait_for_costmap(self) -> None:
         assert self._costmap is not None
-        deadline_ns = self._node.clock.now_ns() + int(_READY_S * 1e9)
+        live, clock = self._costmap.live, self._node.clock
+        deadline_ns = clock.now_ns() + int(_READY_S * 1e9)
         pause = threading.Event()
-        while not self._costmap.live.is_ready and self._node.clock.now_ns() < deadline_ns:
+        while not live.is_ready and (live.is_updating or clock.now_ns() < deadline_ns):
             pause.wait(0.05)
             if not self._working.is_set():
                 break
-        if not self._costmap.live.is_ready:
-            why = "; ".join(self._costmap.live.stale())
+        if not live.is_ready:
+            why = "; ".join(live.stale())
             raise _RefusedError("TIMEOUT", f"the global costmap is not there yet: {why}")
 
     def _in_map(self, pose: Any) -> PlanePose:

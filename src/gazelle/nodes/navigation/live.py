@@ -36,6 +36,7 @@ class LiveCostmap:
         assembly: layers and parameters.
         frames: tf.
         lock: held while costs change; hold it to read them for longer than a moment.
+        is_updating: costs are being computed; the first time kernels may have to be compiled.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class LiveCostmap:
         self.frames = frames
         self.lock = threading.RLock()
         self.rests = False
+        self.is_updating = False
         self._node = node
         self._topics_in = topics_in.rstrip("/")
         self._within = bool(topics_in)
@@ -161,14 +163,18 @@ class LiveCostmap:
         if T_map_global is None:
             return False
         now_ns = self._node.clock.now_ns()
-        with self.lock:
-            self._take_waiting(now_ns)
-            before = self.grid
-            window = self.assembly.costmap.update(pose, now_ns, T_map_global)
-            if window is not None:
-                whole = self.grid.whole if self.grid is not before else window
-                self._changed = whole if self._changed is None else self._changed.union(whole)
-        self._updated_ns = now_ns
+        self.is_updating = True
+        try:
+            with self.lock:
+                self._take_waiting(now_ns)
+                before = self.grid
+                window = self.assembly.costmap.update(pose, now_ns, T_map_global)
+                if window is not None:
+                    whole = self.grid.whole if self.grid is not before else window
+                    self._changed = whole if self._changed is None else self._changed.union(whole)
+            self._updated_ns = now_ns
+        finally:
+            self.is_updating = False
         self._publish(pose, now_ns)
         return True
 

@@ -148,8 +148,8 @@ class Resources:
             if not problem:
                 host.inputs.note(topic, host.time_ns)
                 host.commands.post(lambda: callback(message))
-            elif problem not in told:
-                told.add(problem)
+            elif (field := problem.partition(" is ")[0]) not in told:
+                told.add(field)
                 host.node.log("WARN", f"[{topic}] {problem}; the message is left out")
 
         wanted = None if type_name is None else message_class(type_name)
