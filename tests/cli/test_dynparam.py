@@ -106,6 +106,10 @@ def test_wrong_values_are_told_and_the_code_is_the_original_s(
     found = dyn("set", "camera", "p", "much")
     assert found.out.startswith("error updating parameters: can't set parameter 'p' of <class 'flo")
     assert server.values["p"] == 1.0
+    found = dyn("set", "camera", "{size: [")
+    assert found.code == 1
+    assert "Argument error: while parsing a flow" in found.err
+    assert "write YAML in quotes" in found.err
 
 
 def test_dump_is_the_original_s_file_and_load_reads_it_and_plain_ones(

@@ -38,18 +38,13 @@ _CALL_S = 5.0
 
 
 class Hostile:
-    """Does one hostile thing after the other, the same for the same number.
-
-    Attributes:
-        answers: what services said, by name; for tests to look at.
-    """
+    """Does one hostile thing after the other, the same for the same number."""
 
     def __init__(self, graph: Graph, node: Node) -> None:
         """Look at what there is to be attacked."""
         self._graph = graph
         self._node = node
         self._entities = [one for one in graph.entities() if one.zid != graph.zid]
-        self.answers: list[tuple[str, Any]] = []
         self._tokens: list[Any] = []
 
     def do(self, number: int) -> str:
@@ -113,7 +108,7 @@ class Hostile:
         client = self._node.create_client(one.name, kind)
         try:
             request = _filled(kind.Request(), chance)
-            self.answers.append((one.name, client.call(request, timeout_s=_CALL_S)))
+            client.call(request, timeout_s=_CALL_S)
         finally:
             client.unregister()
             self._node.drop(client)

@@ -67,7 +67,7 @@ def unpack_file(source: Path, target: Path) -> None:
     """
     library = zstandard.library()
     try:
-        left = max(scaled(_MOST_BYTES), _MOST_TIMES * source.stat().st_size)
+        left = scaled(max(_MOST_BYTES, _MOST_TIMES * source.stat().st_size))
         with library.open(source, "rb") as packed, target.open("wb") as file:
             while piece := packed.read(_PIECE):
                 left -= len(piece)

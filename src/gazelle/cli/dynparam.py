@@ -10,6 +10,7 @@ from optparse import OptionParser
 from pathlib import Path
 from typing import Any
 
+from gazelle.cli.text.filling import yaml_words
 from gazelle.cli.tool import Tool, ToolError, hint, joined, run_tool
 from gazelle.graph import (
     Graph,
@@ -87,7 +88,7 @@ def _set(line: CommandLine, words: list[str]) -> int:
     if len(values) < 2:
         parser.error(_NO_VALUES)
     name = values[0]
-    changes: Any = {values[1]: values[2]} if len(values) == 3 else _value_of(values[1])
+    changes: Any = {values[1]: values[2]} if len(values) == 3 else yaml_words([values[1]])[0]
     if not isinstance(changes, dict):
         parser.error(_NO_VALUES)
     with _node(line) as (graph, node):
@@ -249,17 +250,6 @@ def _as_yaml(found: dict[str, Any]) -> str:
 
 def _tagged(tree: dict[str, Any]) -> _Tagged:
     return _Tagged({k: _tagged(v) if isinstance(v, dict) else v for k, v in tree.items()})
-
-
-def _value_of(text: str) -> Any:
-    import yaml
-
-    from gazelle.limits.yaml_text import load_yaml
-
-    try:
-        return load_yaml(text)
-    except yaml.YAMLError as error:
-        raise ToolError(f"this is no YAML: {error}") from None
 
 
 def _from_yaml(path: str) -> dict[str, Any]:

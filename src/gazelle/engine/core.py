@@ -335,9 +335,10 @@ class EngineCore:
         Raises:
             EngineError: a number is not finite.
         """
-        require_finite_pose(wanted, f"link '{self.model.body(body).name}'")
+        name = self.model.body(body).name
+        require_finite_pose(wanted, f"link '{name}'")
         if not move_root(self.model, self._data, [body], wanted @ now.inverse()):
-            name = self.model.body(body).name.partition("::")[0]
+            name = name.partition("::")[0]
             self.set_model_pose(name, wanted @ now.inverse() @ self.model_pose(name))
         self.state_changed()
 
@@ -347,10 +348,8 @@ class EngineCore:
         Raises:
             EngineError: it is fixed to the world, or a number is not finite.
         """
-        require_finite(
-            (*linear_m_s, *angular_rad_s), f"the velocity of link '{self.model.body(body).name}'"
-        )
         handle = self.link(self.model.body(body).name)
+        require_finite((*linear_m_s, *angular_rad_s), f"the velocity of link '{handle.name}'")
         now = handle.velocity_world()
         origin = np.asarray(handle.T_world_link().position_m)
         change = (linear_m_s - now.linear_m_s, angular_rad_s - now.angular_rad_s)
@@ -364,10 +363,11 @@ class EngineCore:
         Raises:
             NotFoundError: there is no such model.
         """
-        for link in self._model_named(name).links:
-            body = self.body_id(scoped(name, link.name))
-            first = int(self.model.body_dofadr[body])
-            self._data.qvel[first : first + int(self.model.body_dofnum[body])] = 0.0
+        self._model_named(name)
+        # By MuJoCo's bodies: rotors and the like are none of the links.
+        for dof, body in enumerate(self.model.dof_bodyid):
+            if self.model.body(int(body)).name.startswith(f"{name}::"):
+                self._data.qvel[dof] = 0.0
         self.state_changed()
 
     # --- inside --------------------------------------------------------------------------

@@ -8,7 +8,7 @@ import yaml
 
 from gazelle.limits.scale import HOW_TO_RAISE, LimitError, scaled
 
-__all__ = ["LimitedLoader", "YamlLimitError", "load_yaml"]
+__all__ = ["LimitedLoader", "YamlLimitError", "load_yaml", "load_yaml_documents"]
 
 _MOST_CHARACTERS = 8 << 20
 _MOST_NODES = 1_000_000
@@ -78,6 +78,15 @@ def load_yaml(text: str | bytes) -> Any:
         yaml.YAMLError: it is not YAML, or above a limit.
     """
     return yaml.load(text, Loader=LimitedLoader)  # noqa: S506 - a safe loader
+
+
+def load_yaml_documents(text: str) -> list[Any]:
+    """Return the values of all documents of a YAML text, as ``yaml.safe_load_all`` does.
+
+    Raises:
+        yaml.YAMLError: it is not YAML, or above a limit.
+    """
+    return list(yaml.load_all(text, Loader=LimitedLoader))
 
 
 def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:

@@ -158,14 +158,13 @@ def _file_documents(name: str) -> list[Any]:
     import yaml
 
     from gazelle.limits import read_text_limited
-    from gazelle.limits.yaml_text import LimitedLoader
+    from gazelle.limits.yaml_text import load_yaml_documents
 
     path = Path(name)
     if not path.is_file():
         raise ToolError(f"file does not exist: {name}")
     try:
-        text = read_text_limited(path)
-        found = list(yaml.load_all(text, Loader=LimitedLoader))
+        found = load_yaml_documents(read_text_limited(path))
     except OSError as error:
         raise ToolError(f"cannot read {name}: {error.strerror}") from None
     except (yaml.YAMLError, UnicodeDecodeError) as error:
