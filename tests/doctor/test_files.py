@@ -75,3 +75,12 @@ def test_plugin_without_a_file_is_passed_over(written: Write, examined: Examine)
     folder = written(**{"m.sdf": text.replace("ground_plane", "m")})
     found = [item.code for item in examined(folder, "m.sdf").findings]
     assert [code for code in found if "plugin" in code] == []
+
+
+def test_every_one_of_several_files_is_examined(written: Write, examined: Examine) -> None:
+    folder = written(
+        **{"one.yaml": "a: &a [*a]\n", "two.yaml": "a: b: c\n", "three.yaml": "a: 1\n"}
+    )
+    found = examined(folder, "three.yaml", "one.yaml", "two.yaml").findings
+    places = sorted(item.span.file.rpartition("/")[2] for item in found if item.span)
+    assert places == ["one.yaml", "two.yaml"]

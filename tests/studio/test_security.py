@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import http.client
 import socket
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
@@ -183,6 +184,18 @@ def test_token_on_this_machine_is_the_same_each_time_and_another_one_for_others(
             tokens.append(server.token)
     assert tokens[0] == tokens[1]
     assert len({*tokens}) == 3
+
+
+def test_secret_that_cannot_be_read_is_told_and_nothing_is_served(
+    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "secret").write_text("nonsense")
+    (tmp_path / "secret").chmod(0o600)
+    monkeypatch.setenv("GAZELLE_SECRET_FILE", str(tmp_path / "secret"))
+    studio = Studio(graph)
+    with pytest.raises(GazelleError, match=r"is no secret, one line of name:password\n  fix: "):
+        Server(studio, port=0)
+    studio.close()
 
 
 def test_addresses_are_taken_for_own_only_where_all_were_bound() -> None:

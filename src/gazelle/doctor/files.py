@@ -35,7 +35,7 @@ def kind_word(kind: Kind) -> str:
 
 
 def examine_file(files: Sequence[Path], kind: Kind, examination: Examination) -> None:
-    """Examine a file, or several launch files that are started together.
+    """Examine files one by one, or several launch files of ROS 1 as started together.
 
     Args:
         files: existing files, all of one kind.
@@ -47,16 +47,22 @@ def examine_file(files: Sequence[Path], kind: Kind, examination: Examination) ->
         examination.say(str(file))
     if kind is Kind.LAUNCH:
         examine_launch(files, examination)
-    elif kind is Kind.LAUNCH_ROS2:
-        _examine_ros2(files[0], examination)
+        return
+    for file in files:
+        _examine_one(file, kind, examination)
+
+
+def _examine_one(file: Path, kind: Kind, examination: Examination) -> None:
+    if kind is Kind.LAUNCH_ROS2:
+        _examine_ros2(file, examination)
     elif kind is Kind.PARAMETERS:
-        check_parameter_file(files[0], diagnostics=examination.diagnostics)
+        check_parameter_file(file, diagnostics=examination.diagnostics)
     elif kind is Kind.SEMANTICS:
-        _examine_semantics(files[0], examination)
+        _examine_semantics(file, examination)
     elif kind is Kind.WORLD:
-        _examine_world(files[0], examination)
+        _examine_world(file, examination)
     elif kind in {Kind.ROBOT, Kind.MODEL}:
-        _examine_robot(files[0], examination)
+        _examine_robot(file, examination)
 
 
 def _examine_ros2(file: Path, examination: Examination) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import secrets
 import threading
 from http import HTTPStatus
 from typing import Self
@@ -19,7 +18,7 @@ from gazelle.studio.catalogue import ROUTES
 from gazelle.studio.connection import Connection
 from gazelle.studio.files import answer_to, response
 from gazelle.studio.memory import keep_freed_memory
-from gazelle.studio.security import Guard, guard_for
+from gazelle.studio.security import guard_for
 from gazelle.studio.session import Studio
 from gazelle.studio.workers import in_thread
 
@@ -51,7 +50,8 @@ class Server:
             port: TCP port, 0 for any free one; None takes the first free one from 8090 on.
 
         Raises:
-            GazelleError: the address or port cannot be listened on.
+            GazelleError: the address or port cannot be listened on, or the user's secret cannot
+                be read.
         """
         self.studio = studio
         self._host = host
@@ -60,7 +60,8 @@ class Server:
         self._started = threading.Event()
         self._stop = asyncio.Event()
         self._error: OSError | None = None
-        self._guard = Guard(host, 0, secrets.token_urlsafe())
+        # Its port comes later; a secret that cannot be read is told here.
+        self._guard = guard_for(host, 0)
         keep_freed_memory()
         self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
         self._thread.start()
@@ -133,7 +134,7 @@ class Server:
                 continue
             self._error = None
             bound = next(iter(server.sockets)).getsockname()[1]
-            self._guard = guard_for(self._host, bound)
+            self._guard = self._guard._replace(port=bound)
             return server
         return None
 
