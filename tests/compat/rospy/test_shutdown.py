@@ -104,6 +104,10 @@ _HEAD = (
 )
 _SAVES = {
     "knows": "print('ready', flush=True)\nrospy.spin()\nsaves()\n",
+    # Longer than a program may go on that does not ask; meanwhile this one cannot.
+    "shut down slowly": "rospy.core.add_shutdown_hook(lambda _: time.sleep(3.5))\n"
+    "print('ready', flush=True)\n"
+    "while not rospy.is_shutdown():\n    time.sleep(0.01)\nsaves()\n",
     # The second Ctrl-C comes as soon as the first one has shut the node down.
     "asked twice": "def again(_):\n    os.kill(os.getpid(), signal.SIGINT)\n"
     "rospy.core.add_shutdown_hook(again)\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import pytest
@@ -69,13 +70,20 @@ def test_node_drives_on_the_topic_of_its_parameter_and_stops_at_the_end(bench) -
     # Nothing seen yet counts as blocked.
     assert bench.eventually(lambda: twists)[-1].angular.z == -1.5
     odometry = message_type("nav_msgs/msg/Odometry")
-    turned = odometry()
-    turned.pose.pose.orientation.z, turned.pose.pose.orientation.w = math.sin(0.5), math.cos(0.5)
     scan_out = bench.node.create_publisher("/scan", "sensor_msgs/msg/LaserScan")
     odom_out = bench.node.create_publisher("/odom", odometry)
     bench.eventually(lambda: scan_out.matched and odom_out.matched)
-    scan_out.publish(_scan([3.0] * 360))
-    odom_out.publish(turned)
-    bench.eventually(lambda: twists[-1].linear.x == 0.3)
+    headings_rad = itertools.count()
+
+    def drives() -> bool:
+        # It turns until it has turned enough, and on if it had not seen the scan by then.
+        scan_out.publish(_scan([3.0] * 360))
+        turned, half_rad = odometry(), next(headings_rad) / 2
+        turned.pose.pose.orientation.z = math.sin(half_rad)
+        turned.pose.pose.orientation.w = math.cos(half_rad)
+        odom_out.publish(turned)
+        return bool(twists[-1].linear.x == 0.3)
+
+    bench.eventually(drives)
     assert bench.stop() == [0]
     bench.eventually(lambda: (twists[-1].linear.x, twists[-1].angular.z) == (0.0, 0.0))

@@ -98,7 +98,7 @@ def test_ros2_wheels_come_from_a_parameter_file(bench, tmp_path, capfd) -> None:
     bench.eventually(lambda: out.matched)
     out.publish(_twist(0.1, 0.0))
     bench.eventually(lambda: joints and joints[-1].velocity[0] == pytest.approx(0.1 / 0.05))
-    assert odometry[-1].header.frame_id == "world"
+    assert bench.eventually(lambda: odometry)[-1].header.frame_id == "world"
     assert set(odometry[-1].pose.covariance) == {0.0}
     found = bench.call("/turtlebot3_fake_node/list_parameters", "rcl_interfaces/ListParameters")
     assert "wheels.radius" in found.result.names

@@ -26,6 +26,8 @@ _LAST_CHANCE_S = 2.0
 # So long a program may go on after Ctrl-C without asking whether the node is shut down. A loop that
 # never asks, or a wait that nothing ends, must not outlive its launch.
 _PATIENCE_S = 3.0
+# So long the main thread waits for the node's shutdown when a signal comes.
+_SHUTDOWN_S = 5.0
 # Where Python waits for threads when a program is done.
 _JOINING: CodeType = threading._shutdown.__code__  # type: ignore[attr-defined]
 _PLAIN_HANDLERS = (
@@ -252,7 +254,7 @@ class NodeState:
         # Hooks publish and wait; that must not happen inside the handler of a held lock.
         thread = threading.Thread(target=self.shut_down, args=(f"signal-{number}",), daemon=True)
         thread.start()
-        thread.join(timeout=5.0)
+        thread.join(_SHUTDOWN_S)
         if number == signal.SIGTERM:
             # A loop that never asks is_shutdown() must not outlive its launch.
             last = threading.Timer(_LAST_CHANCE_S, os._exit, (128 + number,))
@@ -267,6 +269,8 @@ class NodeState:
         Python goes on waiting when a signal comes, so a program may wait for ever.
         """
         self.stopping.wait()
+        # Until then it waits in the signal's handler and cannot ask.
+        self._finished.wait(_SHUTDOWN_S)
         main = threading.main_thread().ident
         assert main is not None
         time.sleep(_PATIENCE_S)
