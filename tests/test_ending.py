@@ -87,8 +87,9 @@ def _run(text: str) -> subprocess.CompletedProcess[str]:
 def test_stop_signal_is_heard_while_the_main_thread_cannot_hear_it() -> None:
     """As when the kernel hands it to a thread of the transport, which Python's handlers await."""
     text = """
-import signal, threading
+import signal, threading, time
 from gazelle.ending import at_stop_signal
+threading.Thread(target=time.sleep, args=(30,), daemon=True).start()
 stop = threading.Event()
 at_stop_signal(stop.set)
 signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})

@@ -28,6 +28,7 @@ __all__ = [
     "interrupts_held",
     "raise_interrupts",
     "raise_or_end",
+    "start_deaf_thread",
     "when_nobody_reads",
 ]
 
@@ -209,7 +210,24 @@ def _at_each_signal(act: Callable[[], object]) -> None:
     far.setblocking(False)
     signal.set_wakeup_fd(far.fileno(), warn_on_full_buffer=False)
     # It must live as long as the process: so the thread holds both ends.
-    threading.Thread(target=_listen, args=(near, far, act), daemon=True).start()
+    start_deaf_thread(_listen, near, far, act)
+
+
+def start_deaf_thread(act: Callable[..., object], *arguments: object) -> None:
+    """Start a daemon thread that the system gives no signals to.
+
+    A signal to a process goes to any thread that does not block it. A program that blocks one to
+    wait for it (``sigwait``) knows its own threads only, and would be ended by one of ours.
+    """
+    thread = threading.Thread(target=act, args=arguments, daemon=True)
+    if not hasattr(signal, "pthread_sigmask"):
+        thread.start()
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+    try:
+        thread.start()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def when_nobody_reads(stream: TextIO, act: Callable[[], object]) -> None:
@@ -227,7 +245,7 @@ def when_nobody_reads(stream: TextIO, act: Callable[[], object]) -> None:
     if is_pipe:
         # One of its own: `drop_output` may put something else in its place meanwhile.
         own = os.dup(descriptor)
-        threading.Thread(target=_await_end, args=(own, act), daemon=True).start()
+        start_deaf_thread(_await_end, own, act)
 
 
 def drop_output(stream: TextIO) -> None:

@@ -9,6 +9,8 @@ import sys
 import threading
 import time
 
+from gazelle.ending import start_deaf_thread
+
 __all__ = ["PARENT_VARIABLE", "end_with_parent"]
 
 PARENT_VARIABLE = "GAZELLE_PARENT_PID"
@@ -31,7 +33,7 @@ def end_with_parent() -> None:
         ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
     if os.getppid() != int(parent):
         os.kill(os.getpid(), signal.SIGTERM)
-    threading.Thread(target=_watch, args=(int(parent),), daemon=True).start()
+    start_deaf_thread(_watch, int(parent))
 
 
 def _watch(parent: int) -> None:

@@ -16,13 +16,15 @@ _MANIFEST = (
 )
 _SETUP = "setup(entry_points={'console_scripts': ['talk = demo.nodes:talk']})"
 _NODES = """
-import signal, sys
+import os, signal, sys
 
 def talk():
     # Held before the word that lets the test send it.
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
     print(*sys.argv[1:], flush=True)
-    if "wait" in sys.argv:
+    if "early" in sys.argv:
+        os.kill(os.getpid(), signal.SIGTERM)
+    if {"early", "wait"} & set(sys.argv):
         signal.sigwait({signal.SIGTERM})
         sys.exit(5)
     sys.exit(3 if "fail" in sys.argv else 0)
@@ -58,6 +60,13 @@ def test_node_ends_with_the_command(package: Path, gazelle: Callable[..., Any]) 
     running = gazelle("ros2", "run", "demo", "talk", "wait", cwd=package)
     running.wait_for_line("wait")
     assert running.stop(signal.SIGTERM) == 5
+
+
+def test_node_that_blocks_a_signal_gets_it_when_it_waits_for_it(
+    package: Path, gazelle: Callable[..., Any]
+) -> None:
+    running = gazelle("ros2", "run", "demo", "talk", "early", cwd=package)
+    assert running.wait() == 5, running.text
 
 
 def test_missing_package_and_executable_are_told(package: Path, run: Any) -> None:
