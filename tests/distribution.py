@@ -70,8 +70,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
-    """Two workers more than processors: many a test waits for a process or for time to pass."""
-    return _processors() + 2
+    """One worker more than processors: many a test waits for a process or for time to pass."""
+    return _processors() + 1
 
 
 @pytest.hookimpl(tryfirst=True)

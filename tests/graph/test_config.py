@@ -1,11 +1,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph import config
+from gazelle.graph import config, places
 
 
 @pytest.mark.parametrize(
@@ -41,9 +43,21 @@ def test_bad_environment_is_told(environ: dict[str, str], text: str) -> None:
         config.port_of(environ)
 
 
-@pytest.mark.parametrize("make", [config.hub_config, config.peer_config, config.client_config])
-def test_nothing_leaves_the_machine(make: object) -> None:
-    made = make(7447)  # type: ignore[operator]
+@pytest.mark.parametrize(
+    "make",
+    [
+        config.hub_config,
+        lambda port: config.peer_config(port, places.own_endpoint()),
+        config.client_config,
+    ],
+)
+@pytest.mark.parametrize("has_files", [True, False])
+def test_nothing_leaves_the_machine(
+    make: Callable[[int], Any], has_files: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(places, "_HAS_SOCKET_FILES", has_files and places._HAS_SOCKET_FILES)
+    links = "unixsock-stream//tmp/gazelle-" if places._HAS_SOCKET_FILES else "tcp/127.0.0.1:"
+    made = make(7447)
     for key in ("listen/endpoints", "connect/endpoints"):
-        assert all(one.startswith("tcp/127.0.0.1:") for one in json.loads(made.get_json(key)))
+        assert all(one.startswith(links) for one in json.loads(made.get_json(key)))
     assert made.get_json("scouting/multicast/enabled") == "false"

@@ -3,13 +3,14 @@ from __future__ import annotations
 import socket
 import threading
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.patience import stretched
 
 from gazelle.errors import NotFoundError
-from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo
+from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo, places
 from gazelle.interfaces import message_type, service_type
 
 String = message_type("std_msgs/msg/String")
@@ -20,10 +21,20 @@ Wait = Callable[..., Any]
 
 @pytest.fixture
 def stranger(port: int) -> Iterator[int]:
-    """A program that holds the port and never says a word."""
-    with socket.create_server(("127.0.0.1", port)) as server:
+    """A program that listens where the hub would and never says a word."""
+    if places._HAS_SOCKET_FILES:
+        release = places.claim_hub(port)
+        assert release is not None
+        place = Path(places.name_of_hub(port))
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(str(place))
+            server.listen()
+            yield port
+        place.unlink()
+        release()
+        return
+    with socket.create_server(("127.0.0.1", port)):
         yield port
-        server.close()
 
 
 def test_first_member_carries_the_hub_others_join(join: Join) -> None:
@@ -42,7 +53,8 @@ def test_port_of_a_stranger_is_one_clear_error(
         with pytest.raises(PortTakenError) as caught:
             Graph.open(port=stranger, environ={}, role=role)  # type: ignore[arg-type]
         text = str(caught.value)
-        assert f"port {stranger} on 127.0.0.1 is taken by a program that is not a Gazelle" in text
+        place = places.name_of_hub(stranger)
+        assert f"the graph on port {stranger} does not answer: who listens at {place} is" in text
         assert "graph.port-taken" in text
         assert f"export GAZELLE_PORT={stranger + 1}" in text
     assert Graph.current() is None

@@ -36,8 +36,10 @@ def cut_off():
         try:
             if stat.S_ISSOCK(os.fstat(number).st_mode):
                 with socket.socket(fileno=os.dup(number)) as own:
-                    if {port} not in (own.getpeername()[1], own.getsockname()[1]):
-                        own.shutdown(socket.SHUT_RDWR)
+                    names = str(own.getpeername()), str(own.getsockname())
+                    if any("{port}" in name for name in names) or not any(names):
+                        continue
+                    own.shutdown(socket.SHUT_RDWR)
         except OSError:
             pass
 def handle(request):

@@ -65,7 +65,8 @@ def test_world_in_real_time_pauses_says_who_did_it_and_goes_on(
     thread = _run_in_real_time(server)
     try:
         _push(sim)
-        eventually(lambda: server.paused)
+        eventually(lambda: caplog.records)
+        assert server.paused
         (record,) = caplog.records
         assert record.levelname == "ERROR"
         assert "the simulation diverged in step" in record.message

@@ -1,8 +1,8 @@
 """How sessions are set up, and which port the hub has.
 
-Proven on one machine: one hub in router mode on the loopback interface, processes are peers that
-find each other through it by gossip, command-line tools are clients. No multicast; nothing
-listens beyond 127.0.0.1.
+Proven on one machine: one hub in router mode, processes are peers that find each other through it
+by gossip, command-line tools are clients. No multicast; nothing listens beyond this machine, nor
+for anybody else on it (see `places`).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlparse
 
 from gazelle.errors import GraphError
+from gazelle.graph.places import hub_endpoint
 
 if TYPE_CHECKING:
     import zenoh
@@ -41,7 +42,7 @@ def domain_of(environ: Mapping[str, str]) -> int:
 
 
 def port_of(environ: Mapping[str, str]) -> int:
-    """Return the hub's port.
+    """Return the graph's number, which the hub's place has: a port, where places are ports.
 
     ``GAZELLE_PORT`` decides. Else it is 7447, plus ``ROS_DOMAIN_ID``, plus the distance of the
     port in ``ROS_MASTER_URI`` from 11311: people who separate graphs with either get separate
@@ -60,16 +61,21 @@ def port_of(environ: Mapping[str, str]) -> int:
 
 
 def hub_config(port: int) -> zenoh.Config:
-    """Return the setting of the hub: a router that listens on one port and connects nowhere."""
-    return _config("router", listen=[_endpoint(port)])
+    """Return the setting of the hub: a router that listens at its place and connects nowhere."""
+    return _config("router", listen=[hub_endpoint(port)])
 
 
-def peer_config(port: int) -> zenoh.Config:
-    """Return the setting of a process with nodes: looks for the hub for ever, listens anywhere."""
+def peer_config(port: int, endpoint: str) -> zenoh.Config:
+    """Return the setting of a process with nodes: looks for the hub for ever.
+
+    Args:
+        port: the hub's.
+        endpoint: where to listen, of `own_endpoint`.
+    """
     return _config(
         "peer",
-        listen=[_endpoint(0)],
-        connect=[_endpoint(port)],
+        listen=[endpoint],
+        connect=[hub_endpoint(port)],
         settings={"connect/timeout_ms": -1, "connect/exit_on_failure": False},
     )
 
@@ -83,13 +89,9 @@ def client_config(port: int, patience_s: float = 0.5) -> zenoh.Config:
     """
     return _config(
         "client",
-        connect=[_endpoint(port)],
+        connect=[hub_endpoint(port)],
         settings={"connect/timeout_ms": round(patience_s * 1000), "connect/exit_on_failure": True},
     )
-
-
-def _endpoint(port: int) -> str:
-    return f"tcp/127.0.0.1:{port}"
 
 
 def _config(

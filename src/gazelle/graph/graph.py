@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import itertools
 import os
-import socket
 import threading
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
@@ -29,6 +28,7 @@ from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.namesakes import TAKEN_OVER, Namesakes
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
+from gazelle.graph.places import name_of_hub, own_endpoint, share, somebody_listens
 from gazelle.graph.stamps import StampWatch
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Graph:
     the parameters over; with none left the graph is gone.
 
     Attributes:
-        port: the hub's port on 127.0.0.1.
+        port: the graph's number.
         domain: ``ROS_DOMAIN_ID``.
         session: the transport.
         zid: the session's name, in tokens.
@@ -379,7 +379,9 @@ def _open_peer(
 
     keeper = HubKeeper(port, eager=eager)
     keeper.carry()
-    session = zenoh.open(peer_config(port))
+    endpoint = own_endpoint()
+    session = zenoh.open(peer_config(port, endpoint))
+    share(endpoint)
     graph = cls(session, port=port, domain=domain, environ=environ, keeper=keeper)
     if not keeper.start(session, _HUB_S, graph.parameter_share.own):
         keeper.close()
@@ -391,7 +393,7 @@ def _open_peer(
 def _open_client(port: int) -> zenoh.Session:
     import zenoh
 
-    if not _somebody_listens(port):
+    if not somebody_listens(port):
         raise NoGraphError(
             f"no graph is running on port {port} (Unable to communicate with master!)\n"
             "  fix: start a launch, a simulator or `gazelle roscore`; GAZELLE_PORT, "
@@ -404,19 +406,13 @@ def _open_client(port: int) -> zenoh.Session:
         raise _port_taken(port) from error
 
 
-def _somebody_listens(port: int) -> bool:
-    with socket.socket() as probe:
-        probe.settimeout(1.0)
-        return probe.connect_ex(("127.0.0.1", port)) == 0
-
-
 def _port_taken(port: int) -> PortTakenError:
     return PortTakenError(
         coded(
             "graph.port-taken",
-            f"port {port} on 127.0.0.1 is taken by a program that is not a Gazelle graph, or by "
-            "one that does not answer",
-            fix=f"end that program (ss -ltnp 'sport = :{port}' shows it), or choose another port "
+            f"the graph on port {port} does not answer: who listens at {name_of_hub(port)} is "
+            "stopped, or no Gazelle graph",
+            fix=f"end that program (fuser {name_of_hub(port)} shows it), or choose another port "
             f"for all shells: export GAZELLE_PORT={port + 1}",
         )
     )

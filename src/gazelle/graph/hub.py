@@ -10,7 +10,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ending import called_by_library
+from gazelle.errors import GraphError
 from gazelle.graph.config import hub_config
+from gazelle.graph.places import claim_hub, hub_endpoint, share, sweep_places
 from gazelle.graph.relink import Relinker
 
 if TYPE_CHECKING:
@@ -27,8 +29,8 @@ _CLOSE_S = 2.0
 class HubKeeper:
     """Carries the hub when nobody else does, and takes it over when it is lost.
 
-    The hub is a second session in router mode; only one process of a machine can listen on the
-    port, which is what elects it. The others are told by their connection ending.
+    The hub is a second session in router mode; only one process can listen at its place, which is
+    what elects it. The others are told by their connection ending.
     """
 
     def __init__(self, port: int, *, eager: bool) -> None:
@@ -42,6 +44,7 @@ class HubKeeper:
         self._eager = eager
         self._on_gain: Callable[[], None] | None = None
         self._hub: zenoh.Session | None = None
+        self._release: Callable[[], None] = _do_nothing
         self._connected = threading.Event()
         self._lost = threading.Event()
         self._ended = threading.Event()
@@ -69,16 +72,22 @@ class HubKeeper:
         """Carry the hub if nobody does; return whether this process does now."""
         import zenoh
 
+        release = claim_hub(self._port)
+        if release is None:
+            return False
         try:
             hub = zenoh.open(hub_config(self._port))
         except zenoh.ZError:
+            release()
             return False
+        share(hub_endpoint(self._port))
+        sweep_places()
         with self._lock:
             carries = not self._ended.is_set()
             if carries:
-                self._hub = hub
+                self._hub, self._release = hub, release
         if not carries:
-            close_session(hub)
+            close_session(hub, release)
         elif self._on_gain is not None:
             self._on_gain()
         return carries
@@ -125,7 +134,7 @@ class HubKeeper:
         if self._listener is not None:
             self._listener.undeclare()
         if hub is not None:
-            close_session(hub)
+            close_session(hub, self._release)
 
     @called_by_library
     def _on_transport(self, event: Any) -> None:
@@ -143,7 +152,7 @@ class HubKeeper:
             self._lost.set()
 
     def _watch(self) -> None:
-        """Wait for the hub's loss, then race for the port until there is a hub again."""
+        """Wait for the hub's loss, then race for its place until there is a hub again."""
         while not self._ended.is_set():
             self._lost.wait()
             if self._ended.is_set():
@@ -151,29 +160,41 @@ class HubKeeper:
             if not self._eager:
                 time.sleep(random.uniform(_PAUSE_S, 2 * _PAUSE_S))
             if not self._connected.is_set() and not self.is_hub:
-                self.carry()
+                # Without a folder for it nobody can; when there is one again somebody will.
+                with contextlib.suppress(GraphError):
+                    self.carry()
             if self._connected.wait(_CHECK_S):
                 self._lost.clear()
 
 
-def close_session(session: Any) -> None:
+def close_session(session: Any, then: Callable[[], None] | None = None) -> None:
     """Leave; what the session declared disappears for all others.
 
     The transport waits up to ten seconds for its threads, which may be in the middle of a link
     that just broke. They get two here; the process' end takes the rest.
+
+    Args:
+        session: the one to close.
+        then: called when it is closed, however long that takes.
     """
-    closing = threading.Thread(target=_close, args=(session,), name="gazelle-close", daemon=True)
+    words = (session, then or _do_nothing)
+    closing = threading.Thread(target=_close, args=words, name="gazelle-close", daemon=True)
     try:
         closing.start()
     except RuntimeError:
         # Python 3.12 and later start no thread at the process' very end.
-        _close(session)
+        _close(*words)
     else:
         closing.join(_CLOSE_S)
 
 
-def _close(session: Any) -> None:
+def _close(session: Any, then: Callable[[], None]) -> None:
     import zenoh
 
     with contextlib.suppress(zenoh.ZError):
         session.close()
+    then()
+
+
+def _do_nothing() -> None:
+    pass

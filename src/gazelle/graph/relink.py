@@ -16,6 +16,7 @@ from contextlib import suppress
 from typing import Any
 
 from gazelle.graph.config import client_config
+from gazelle.graph.places import is_hub
 
 __all__ = ["Relinker", "hub_knows"]
 
@@ -91,5 +92,5 @@ def _cut(port: int) -> None:
             if not stat.S_ISSOCK(os.fstat(number).st_mode):
                 continue
             with socket.socket(fileno=os.dup(number)) as own:
-                if own.getpeername() == ("127.0.0.1", port):
+                if is_hub(own.getpeername(), port):
                     own.shutdown(socket.SHUT_RDWR)

@@ -63,6 +63,7 @@ def _free_ports() -> Iterator[int]:
     for _ in range(_COUNT):
         port = _FIRST + (os.getpid() * _STRIDE + next(_numbers)) % _COUNT
         with socket.socket() as probe:
+            # Not the graph's, but the page and others count their own ports from its number.
             try:
                 probe.bind(("127.0.0.1", port))
             except OSError:

@@ -44,7 +44,7 @@ _COMMANDS = {
 }
 # Commands of ROS 2 that are not here, and what does their work.
 _ELSEWHERE = {
-    "security": "the graph is on this machine only (127.0.0.1); there is nothing to encrypt",
+    "security": "the graph is for you on this machine only; there is nothing to encrypt",
 }
 
 

@@ -17,7 +17,7 @@ _VERBS = {
 }
 _WHY = (
     "multicast is not used and not tested here: all nodes of the graph are on this machine and "
-    "find each other over 127.0.0.1"
+    "find each other by its own sockets"
 )
 
 

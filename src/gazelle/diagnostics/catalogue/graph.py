@@ -10,9 +10,10 @@ ENTRIES = (
     Entry(
         "graph.port-taken",
         "error",
-        "The port of the graph's hub belongs to another program",
-        "Every process finds the others through the hub, so no graph can start there.",
-        "end that program, or export GAZELLE_PORT (or ROS_DOMAIN_ID) in all shells",
+        "Who listens as the graph's hub does not answer",
+        "Every process finds the others through the hub: it is stopped, or another program is at"
+        " its place, so no graph can start there.",
+        "let it go on or end that program, or export GAZELLE_PORT (or ROS_DOMAIN_ID) in all shells",
         "Unable to start XML-RPC server, port 11311 is already in use",
     ),
     Entry(
