@@ -322,6 +322,26 @@ def reserved_port() -> Iterator[int]:
 
 
 @pytest.fixture
+def stranger(free_port: int) -> Iterator[int]:
+    """The number of a graph where a program listens in the hub's place and never says a word."""
+    from gazelle.graph import places
+
+    if not hasattr(socket, "AF_UNIX"):
+        with socket.create_server(("127.0.0.1", free_port)):
+            yield free_port
+        return
+    release = places.claim_hub(free_port)
+    assert release is not None
+    place = Path(places.name_of_hub(free_port))
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(str(place))
+        server.listen()
+        yield free_port
+    place.unlink()
+    release()
+
+
+@pytest.fixture
 def next_port() -> Iterator[Callable[[], int]]:
     """Gives ports that nobody else gets before the test has ended."""
     with contextlib.ExitStack() as reserved:

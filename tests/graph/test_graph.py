@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import socket
 import threading
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -17,24 +16,6 @@ String = message_type("std_msgs/msg/String")
 SetBool = service_type("std_srvs/srv/SetBool")
 Join = Callable[..., Graph]
 Wait = Callable[..., Any]
-
-
-@pytest.fixture
-def stranger(port: int) -> Iterator[int]:
-    """A program that listens where the hub would and never says a word."""
-    if places._HAS_SOCKET_FILES:
-        release = places.claim_hub(port)
-        assert release is not None
-        place = Path(places.name_of_hub(port))
-        with socket.socket(socket.AF_UNIX) as server:
-            server.bind(str(place))
-            server.listen()
-            yield port
-        place.unlink()
-        release()
-        return
-    with socket.create_server(("127.0.0.1", port)):
-        yield port
 
 
 def test_first_member_carries_the_hub_others_join(join: Join) -> None:

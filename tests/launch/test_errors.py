@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ import pytest
 from tests.launch.conftest import write_package
 
 from gazelle.cli.main import main
+from gazelle.graph import places
 
 Run = Callable[..., Any]
 
@@ -187,15 +187,6 @@ def test_launch_whose_nodes_all_miss_ends_with_an_error(
     assert run.lines[-1] == "none of the nodes can be started, roslaunch will exit"
 
 
-@pytest.fixture
-def stranger() -> Iterator[int]:
-    """A port that belongs to a program of another kind."""
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        yield int(taken.getsockname()[1])
-
-
 def test_taken_port_is_named_with_two_ways_out(
     node: Run,
     stranger: int,
@@ -210,8 +201,8 @@ def test_taken_port_is_named_with_two_ways_out(
     file.write_text(f"<launch>{node('one', 'say=hi')}</launch>", encoding="utf-8")
     assert main(["roslaunch", str(file)]) == 1
     told = capsys.readouterr()
-    assert f"port {stranger} on 127.0.0.1 is taken by a program that is not a Gazelle" in told.err
-    assert f"ss -ltnp 'sport = :{stranger}'" in told.err
+    assert f"the graph on port {stranger} does not answer: who listens at" in told.err
+    assert f"fuser {places.name_of_hub(stranger)}" in told.err
     assert f"export GAZELLE_PORT={stranger + 1}" in told.err
     assert "started with pid" not in told.out + told.err
 

@@ -135,6 +135,18 @@ def test_stubborn_nodes_get_stronger_signals(launch: Launch, node: Launch) -> No
     assert run.processes() == {}
 
 
+def test_interrupt_while_nodes_are_started_ends_those_that_are_there(
+    launch: Launch, node: Launch
+) -> None:
+    """No more are started then, and the launch ends as well as later."""
+    run = launch("".join(node(f"n{number}", "wait") for number in range(60)))
+    run.wait_for_line(r"process\[n0-\d\]: started with pid")
+    assert run.stop() == 0, run.text
+    assert len(re.findall(r"process\[n\d+-\d+\]: started", run.text)) < 60
+    assert "... shutting down processing monitor complete" in run.text
+    assert run.processes() == {}
+
+
 def test_broken_arguments_are_told_and_the_rest_starts(launch: Launch, node: Launch) -> None:
     run = launch(node("torn", "'open") + node("fine", "say=hi", output="screen"))
     assert run.wait() == 1

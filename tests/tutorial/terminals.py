@@ -83,7 +83,8 @@ class Terminal:
     def ended(self, code: int | None = 0, timeout_s: float = PATIENCE_S) -> str:
         """Wait for the prompt after the typed line and return what was shown before it."""
         self.wait_for(r"\n?" + _PROMPT.pattern, timeout_s)
-        shown = self.text[self._mark :]
+        # Back to a line's beginning where it is already: bash does so now and then.
+        shown = self.text[self._mark :].replace("\n\r", "\n")
         found = _PROMPT.search(shown)
         assert found is not None
         assert code is None or int(found[1]) == code, shown

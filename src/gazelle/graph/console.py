@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 
 __all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
@@ -117,9 +118,11 @@ def print_record(record: LogRecord, *, padded: bool = True) -> None:
     colour = _COLOURS[record.level]
     if colour and stream is not None and stream.isatty():
         line = f"{colour}{line}{_RESET}"
-    if stream is not None:
-        stream.write(f"{line}\n")
-        stream.flush()
+    # One that is closed is nobody's any more: a thread may outlive what the main one had for it.
+    with suppress(ValueError):
+        if stream is not None:
+            stream.write(f"{line}\n")
+            stream.flush()
 
 
 def _seconds(stamp_ns: int, digits: int) -> str:

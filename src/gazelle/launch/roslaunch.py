@@ -113,18 +113,18 @@ def launch(
             render(diagnostics)
             run = _Run(graph, workspace, console)
             environment = _environment(config, options, workspace, log)
-            supervisor = _supervisor(run, environment, log, options, console)
             hopeless = bool(missing) and not nodes
-            if not hopeless:
-                join(seen, supervisor, graph, console)
-            _set_params(config, graph, log.run_id)
-            if options.show_summary:
-                console.plain(summary(config, {**config.params, **_core_params()}))
-            _announce(graph, console, title, log)
-            if hopeless:
-                console.error("none of the nodes can be started, roslaunch will exit")
-                return 1
-            code = run(supervisor, nodes, in_turn=options.lockstep and starts_in_turn(nodes))
+            with _supervisor(run, environment, log, options, console) as supervisor:
+                if not hopeless:
+                    join(seen, supervisor, graph, console)
+                _set_params(config, graph, log.run_id)
+                if options.show_summary:
+                    console.plain(summary(config, {**config.params, **_core_params()}))
+                _announce(graph, console, title, log)
+                if hopeless:
+                    console.error("none of the nodes can be started, roslaunch will exit")
+                    return 1
+                code = run(supervisor, nodes, in_turn=options.lockstep and starts_in_turn(nodes))
     console.bold("done")
     return 1 if missing else code
 

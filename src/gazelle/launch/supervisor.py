@@ -13,7 +13,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from gazelle.launch.config import NodeSpec
 from gazelle.launch.console import Console
@@ -64,7 +64,8 @@ class Supervisor:
     """Owns every process of a launch; when it ends, all of them end.
 
     Events (ends, respawns, signals) come through one queue and are handled in the thread that
-    calls `run`, so nothing here needs a lock.
+    calls `run`, so nothing here needs a lock. Signals count as soon as it is entered (``with``), so
+    that one that comes while processes are being started ends those that are there.
     """
 
     def __init__(
@@ -108,15 +109,39 @@ class Supervisor:
         self._host_ids = itertools.count(1)
         self._host_deaths: deque[float] = deque(maxlen=_HOST_DEATHS)
         self._exit_code = 0
+        self._is_stopping = False
+        self._is_over = False
+        self._previous: dict[int, Any] = {}
+
+    def __enter__(self) -> Self:
+        """Listen to the signals that end a launch."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self._previous[number] = signal.signal(number, self._on_signal)
+        return self
+
+    def __exit__(self, *_exc_info: object) -> None:
+        """End what still runs, and leave signals as they were."""
+        if self._running and not self._is_over:
+            self.shutdown()
+        for number, handler in self._previous.items():
+            signal.signal(number, handler)
+
+    def _on_signal(self, *_args: object) -> None:
+        self._is_stopping = True
+        self._events.put(_Shutdown())
 
     def start(self, spec: NodeSpec, executable: Executable, *, core: bool = False) -> bool:
         """Start a node; False (and a line on the terminal) when that is impossible.
+
+        None is started any more, without a line, once the launch is to end.
 
         Args:
             spec: what to start.
             executable: its command.
             core: the launch does not go on for its sake alone, as for rosout.
         """
+        if self._is_stopping:
+            return False
         self._count += 1
         label = f"{spec.full_name.strip('/').replace('/', '-')}-{self._count}"
         self._executables[label] = executable
@@ -125,7 +150,12 @@ class Supervisor:
         return self._start(label, spec)
 
     def runs(self, spec: NodeSpec) -> bool:
-        """Return whether a node that was started in a process of its own has not ended."""
+        """Return whether a node that was started in a process of its own has not ended.
+
+        None counts any more once the launch is to end: nobody need wait for it.
+        """
+        if self._is_stopping:
+            return False
         started = [item.popen for item in self._running if item.spec is spec]
         return any(popen is not None and popen.poll() is None for popen in started)
 
@@ -172,10 +202,6 @@ class Supervisor:
         Returns:
             0 when all went well, 1 when a required process died or a start failed.
         """
-        previous = {
-            number: signal.signal(number, lambda *_args: self._events.put(_Shutdown()))
-            for number in (signal.SIGINT, signal.SIGTERM)
-        }
         try:
             self._console.when_nobody_reads(lambda: self._events.put(_Shutdown()))
             only_core = self._count == len(self._core)
@@ -187,8 +213,6 @@ class Supervisor:
                     break
         finally:
             self.shutdown()
-            for number, handler in previous.items():
-                signal.signal(number, handler)
         return self._exit_code
 
     def _next_event(self) -> Any:
@@ -206,6 +230,7 @@ class Supervisor:
 
     def shutdown(self) -> None:
         """End all processes: SIGINT, then SIGTERM, then SIGKILL."""
+        self._is_over = True
         for process in reversed(self._running):
             self._console.plain(f"[{process.label}] killing on exit")
             self._signal(process, signal.SIGINT)
