@@ -111,13 +111,96 @@ def test_effort_is_clamped_to_its_limit():
     assert handle.velocity == pytest.approx(0.5, rel=1e-6)
 
 
-def test_velocity_limit_does_not_act():
-    axis = JointAxis((1, 0, 0), velocity=0.005)
-    joint = Joint("j", JointType.PRISMATIC, "world", "cart", axis=axis)
-    engine = engine_of(Model("m", links=(Link("cart", inertial=SMALL),), joints=(joint,)))
-    engine.joint("m::j").set_effort(1.0)
-    engine.step(1000)
-    assert engine.joint("m::j").velocity == pytest.approx(1.0, rel=1e-6)
+def cart(**axis):
+    """A cart of 1 kg on a rail along gravity, which pulls with 1 m/s²."""
+    joint = Joint("j", JointType.PRISMATIC, "world", "cart", axis=JointAxis((1, 0, 0), **axis))
+    model = Model("m", links=(Link("cart", inertial=SMALL),), joints=(joint,))
+    engine = engine_of(model, gravity_m_s2=(1.0, 0.0, 0.0))
+    return engine, engine.joint("m::j")
+
+
+@pytest.mark.parametrize("steps", [1, 100])
+def test_effort_ends_in_the_step_after_the_one_that_passed_the_velocity_limit(steps):
+    """Joint::CheckAndTruncateForce in Gazebo: 1 mm/s a step of weight, and as much of effort."""
+    engine, handle = cart(velocity=0.005)
+    handle.set_effort(1.0)
+    for _ in range(100 // steps):
+        engine.step(steps)
+    assert handle.velocity == pytest.approx(0.006 + 0.097, rel=1e-6)
+    assert handle.effort == 1.0
+    handle.set_effort(-2.0)
+    engine.step(3)
+    assert handle.velocity == pytest.approx(0.1, rel=1e-6)
+
+
+def test_velocity_limit_does_not_hold_what_no_effort_drives():
+    engine, handle = cart(velocity=0.0)
+    engine.step(100)
+    assert handle.velocity == pytest.approx(0.1, rel=1e-6)
+    handle.set_effort(1.0)
+    engine.step(100)
+    assert handle.velocity == pytest.approx(0.2, rel=1e-6)
+
+
+def test_effort_turns_a_joint_without_a_limit_by_a_quarter_turn_a_step():
+    """Faster turning would throw light robots about."""
+    found = Diagnostics()
+    feather = Inertial(1e-6, inertia_kg_m2=(1e-9, 0, 0, 1e-9, 0, 1e-9))
+    joint = Joint("spin", JointType.CONTINUOUS, "world", "rim", axis=Z)
+    engine = engine_of(Model("m", links=(Link("rim", inertial=feather),), joints=(joint,)), found)
+    handle = engine.joint("m::spin")
+    handle.set_effort(1e-3)
+    engine.step(1)
+    assert handle.velocity == pytest.approx(1000.0, rel=1e-6)
+    assert not found.by_code("engine.quarter-turn")
+    engine.step(100)
+    engine.delete("m")
+    engine.spawn(Model("m", links=(Link("rim", inertial=feather),), joints=(joint,)))
+    again = engine.joint("m::spin")
+    again.set_effort(-1e-3)
+    engine.step(100)
+    assert (handle.velocity, again.velocity) == pytest.approx((-2000.0, -2000.0), rel=1e-6)
+    assert [item.message for item in found.by_code("engine.quarter-turn")] == [
+        "joint 'spin' of model 'm' turns by more than a quarter turn in a step (2000 rad/s);"
+        " its effort does nothing while it is that fast"
+    ]
+
+
+def test_light_castors_under_efforts_do_not_throw_their_robot_about():
+    """0.5 N·m on each joint of a fork and a wheel, each a few grams: they spin on the spot."""
+    light = Inertial(0.02, inertia_kg_m2=(2e-6, 0, 0, 2e-6, 0, 2e-6))
+    body = Inertial(2.0, inertia_kg_m2=(0.02, 0, 0, 0.02, 0, 0.02))
+    links = (
+        Link("body", inertial=body),
+        Link("fork", Pose((0.1, 0, 0)), inertial=light),
+        Link("wheel", Pose((0.12, 0, -0.02)), inertial=light),
+    )
+    joints = (
+        Joint("fork", JointType.CONTINUOUS, "body", "fork", Pose((0.1, 0, 0)), axis=Z),
+        Joint(
+            "wheel", JointType.CONTINUOUS, "fork", "wheel", Pose((0.12, 0, -0.02)),
+            axis=JointAxis((0, 1, 0)),
+        ),
+    )  # fmt: skip
+    engine = engine_of(Model("m", links=links, joints=joints), gravity_m_s2=(0.0, 0.0, 0.0))
+    for name in ("fork", "wheel"):
+        engine.joint(f"m::{name}").set_effort(0.5)
+    engine.step(3000)
+    for name in ("fork", "wheel"):
+        assert abs(engine.joint(f"m::{name}").velocity) < 5000.0
+
+
+def test_velocity_limits_are_those_of_the_models_that_are_there():
+    engine, handle = cart(velocity=0.005)
+    handle.set_effort(1.0)
+    state = engine.save_state()
+    engine.step(100)
+    faster, speed = engine.state_hash(), handle.velocity
+    engine.delete("m")
+    engine.step(1)
+    engine.restore_state(state)
+    engine.step(100)
+    assert (engine.state_hash(), handle.velocity) == (faster, speed)
 
 
 def test_universal_joint_has_two_axes():

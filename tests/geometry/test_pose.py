@@ -73,7 +73,7 @@ def test_transforming_points_is_rotating_and_shifting(pose, point):
 
 
 @pytest.mark.parametrize("axis", range(3))
-def test_half_turns_survive_the_matrix(axis):
+def test_quarter_turns_survive_the_matrix(axis):
     rpy = tuple(math.pi if i == axis else 0.0 for i in range(3))
     pose = Pose.from_xyz_rpy((0, 0, 0), rpy)
     assert near(Pose.from_matrix(pose.matrix()), pose)

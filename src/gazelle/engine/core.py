@@ -25,6 +25,7 @@ from gazelle.engine.names import joint_part, scoped
 from gazelle.engine.reading import joint_reaction, waking_copy
 from gazelle.engine.records import Contact, Wrench
 from gazelle.engine.state import carry_over, initial_data, joint_names_of
+from gazelle.engine.speed_limits import SpeedLimits
 from gazelle.engine.tyres import TyreBank
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import TimedWrench, WrenchTable
@@ -64,6 +65,7 @@ class EngineCore:
         self.locks = LockBank()
         self._welds = WeldBank()
         self._tyres = TyreBank()
+        self._speed_limits = SpeedLimits()
         self._wrenches = WrenchTable()
         self._must_compile = False
         self._fresh = 0
@@ -402,6 +404,7 @@ class EngineCore:
         self.locks.bind(compiled.model, data, self._step_ns / _NS)
         self._welds.bind(compiled.model, data)
         self._tyres.bind(compiled.model, self._world)
+        self._speed_limits.bind(compiled.model, self._world, self._step_ns / _NS)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
 
@@ -409,6 +412,7 @@ class EngineCore:
         """Keep MuJoCo's data and the views that every step reads (making one costs time)."""
         self._data = data
         self._views: tuple[Array, Array, Array] = (data.qpos, data.qvel, data.qacc_warmstart)
+        self._applied: Array = data.qfrc_applied
 
     def _write_wrenches(self) -> None:
         self._data.xfrc_applied[:] = 0.0

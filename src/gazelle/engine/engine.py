@@ -84,12 +84,15 @@ class Engine(EngineCore):
                 self._tyres.prepare(model, data, step_s)
             if self._wrenches.changed:
                 self._write_wrenches()
+            if is_limited := self._speed_limits.concern(self._applied):
+                steps = 1
             self.motors.drive(model, data, step_s, steps)
             if self.locks.steps_left:
                 steps = min(steps, self.locks.steps_left)
-                self.locks.advance(mujoco.mj_step, steps)
+            if is_limited:
+                self._advance_within_limits()
             else:
-                mujoco.mj_step(model, data, steps)
+                self._advance(steps)
             self.iteration += steps
             left -= steps
             self._wrenches.expire(self.iteration)
@@ -301,9 +304,24 @@ class Engine(EngineCore):
         self._hold(copy.copy(state.data))
         self.locks.hold(self.model, self._data)
         self._welds.hold(self.model, self._data)
+        self._speed_limits.bind(self.model, self._world, self._step_ns / _NS)
         self._must_compile = False
         self.revision += 1
         self.state_changed()
+
+    def _advance(self, steps: int) -> None:
+        if self.locks.steps_left:
+            self.locks.advance(mujoco.mj_step, steps)
+        else:
+            mujoco.mj_step(self._compiled.model, self._data, steps)
+
+    def _advance_within_limits(self) -> None:
+        """Make one step in which efforts do not push joints beyond their velocity limits."""
+        idle = self._speed_limits.overrun(self._views[1], self._applied, self.diagnostics)
+        asked = self._applied[idle]
+        self._applied[idle] = 0.0
+        self._advance(1)
+        self._applied[idle] = asked
 
     def _raise_diverged(self, culprit: Culprit, first: int) -> None:
         drained_warnings()

@@ -86,7 +86,7 @@ class JointHandle:
 
     @property
     def velocity_limit(self) -> float:
-        """Velocity limit; controllers apply it, the engine does not (as Gazebo)."""
+        """Velocity limit, beyond which no effort drives the joint further; infinity for none."""
         return self.axis.velocity
 
     @property

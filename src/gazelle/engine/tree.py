@@ -7,10 +7,14 @@ from dataclasses import dataclass
 from gazelle.description.model import Joint, JointType, Link, Model
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
+from gazelle.limits import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = ["WORLD", "KinematicTree", "TreeLink", "kinematic_tree"]
 
 WORLD = "world"
+_LONGEST_CHAIN = 500
+_DEEPEST = 1000
+"""MuJoCo's own bound on bodies below each other is a little higher."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,18 +49,25 @@ def kinematic_tree(model: Model) -> KinematicTree:
 
     Raises:
         NotFoundError: a joint names a link that the model does not have.
+        LimitError: more joints move one after the other than anything real has.
     """
     holders: dict[str, Joint] = {}
+    roots: dict[str, str] = {}
     loops: list[Joint] = []
     names = {link.name for link in model.links}
     for joint in model.joints:
         _check_links(joint, names)
         closes = joint.child in holders or joint.child not in names
-        if joint.type is JointType.GEARBOX or closes or _is_above(joint, holders):
+        root = _root(joint.parent, roots)
+        if joint.type is JointType.GEARBOX or closes or root == joint.child:
             loops.append(joint)
         else:
             holders[joint.child] = joint
-    return KinematicTree(_ordered(model, holders, names), tuple(loops))
+            roots[joint.child] = root
+    links = _ordered(model, holders, names)
+    if not model.static:
+        _check_depth(model, links)
+    return KinematicTree(links, tuple(loops))
 
 
 def _check_links(joint: Joint, names: set[str]) -> None:
@@ -71,15 +82,35 @@ def _check_links(joint: Joint, names: set[str]) -> None:
             )
 
 
-def _is_above(joint: Joint, holders: dict[str, Joint]) -> bool:
-    """Whether the child is an ancestor of the parent already."""
-    name = joint.parent
-    while name != joint.child:
-        holder = holders.get(name)
-        if holder is None:
-            return False
-        name = holder.parent
-    return True
+def _root(name: str, roots: dict[str, str]) -> str:
+    """Return the link that a link hangs on in the end; the way there is kept short."""
+    way = []
+    while name in roots:
+        way.append(name)
+        name = roots[name]
+    roots.update(dict.fromkeys(way, name))
+    return name
+
+
+def _check_depth(model: Model, links: tuple[TreeLink, ...]) -> None:
+    """Refuse what takes hours: each joint of a chain is computed with all above it."""
+    most = scaled(_LONGEST_CHAIN)
+    depths: dict[str | None, tuple[int, int]] = {None: (0, 0)}
+    for entry in links:
+        joint = entry.joint
+        links_above, moving = depths[entry.parent]
+        moving += joint is not None and joint.type is not JointType.FIXED
+        depths[entry.link.name] = (links_above + 1, moving)
+        if joint is None or (moving <= most and links_above < _DEEPEST):
+            continue
+        what, fix = f"{most} moving joints", f"\n  fix: {HOW_TO_RAISE}"
+        if moving <= most:
+            what, fix = f"{_DEEPEST} links", "; MuJoCo builds none deeper"
+        place = f" ({joint.span})" if joint.span else ""
+        raise LimitError(
+            f"model '{model.name}' has a chain of more than {what}, up to joint '{joint.name}'"
+            f"{place}{fix}"
+        )
 
 
 def _ordered(model: Model, holders: dict[str, Joint], names: set[str]) -> tuple[TreeLink, ...]:

@@ -37,7 +37,7 @@ class JointAxis:
     Attributes:
         xyz: unit vector in the joint's frame.
         effort: effort limit; infinite when the file gives none or a negative one.
-        velocity: velocity limit, acts only in controllers (design of Gazebo).
+        velocity: velocity limit; in the engine efforts end there, as in Gazebo.
         damping: N·m·s/rad or N·s/m.
         friction: Coulomb friction, N·m or N.
         position: initial position.

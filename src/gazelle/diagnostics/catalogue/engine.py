@@ -127,6 +127,15 @@ ENTRIES = (
         "read its words; simplify the collisions where contacts are too many",
     ),
     Entry(
+        "engine.quarter-turn",
+        "warning",
+        "A joint turns by more than a quarter turn in a step",
+        "Efforts end at a joint's velocity limit, and here at the latest: steps do not resolve how"
+        " faster turning acts on the other links. Mostly the part that turns has an inertia far too"
+        " small for the effort on it.",
+        "give the joint <limit velocity=…>, less effort or damping, or its child more inertia",
+    ),
+    Entry(
         "engine.parallel-axes",
         "warning",
         "Both axes of a joint have the same direction",

@@ -31,8 +31,9 @@ _COMMON = (
     'since Jazzy, unless `<limits enable="false"/>`.',
     "Joints with a `<mimic>` follow in the physics. The parameters `mimic`, `multiplier` and "
     "`offset` of a block's joint make it follow where the description has no `<mimic>`.",
-    "Of the joints' `<limit>` the effort acts, in the physics; velocity limits do not act on "
-    "simulated hardware of ROS 2, nor do `<transmission>` elements, as in Gazebo.",
+    "Of the joints' `<limit>` the effort acts, in the physics, and no effort drives a joint beyond "
+    "the velocity; on other commands of ROS 2's simulated hardware velocity limits do not act, nor "
+    "do `<transmission>` elements, as in Gazebo.",
     "IMU and force-torque sensors of the model are states by the sensor's name.",
     "A command that was never given (NaN) leaves the joint as it is: held.",
 )
