@@ -16,6 +16,7 @@ from gazelle.graph import (
     ServiceUnavailableError,
     offer_loggers,
 )
+from gazelle.graph import node as node_module
 from gazelle.interfaces import (
     message_type,
     ros1_message_type,
@@ -188,3 +189,26 @@ def test_what_a_node_that_outlives_its_shutdown_makes_reaches_nobody(
     # The end of `before` may still be on its way to the other process.
     eventually(lambda: "/x" not in dict(other.topic_names_and_types()))
     assert not other.services()
+
+
+@pytest.mark.parametrize("kind", ["Publisher", "Subscription", "ServiceServer", "ServiceClient"])
+def test_what_is_being_made_while_its_node_shuts_down_is_taken_off_the_graph(
+    kind: str, graph: Graph, monkeypatch: pytest.MonkeyPatch, eventually: Callable[..., Any]
+) -> None:
+    node = graph.create_node("closing", rosout=False)
+    make = getattr(node_module, kind)
+
+    def make_late(*words: Any, **more: Any) -> Any:
+        node.shutdown()
+        return make(*words, **more)
+
+    monkeypatch.setattr(node_module, kind, make_late)
+    if kind == "Publisher":
+        node.create_publisher("topic", "std_msgs/msg/String")
+    elif kind == "Subscription":
+        node.create_subscription("topic", "std_msgs/msg/String", print)
+    elif kind == "ServiceServer":
+        node.create_service("service", Empty, print)
+    else:
+        node.create_client("service", Empty)
+    eventually(lambda: not graph.entities())

@@ -187,8 +187,9 @@ def test_plot_follows_fields_items_and_whole_messages(page: Page, talk: Talk) ->
 
 
 def test_plot_loses_nothing(page: Page, talk: Talk) -> None:
-    talk("/ramp", "std_msgs/Float64")
+    ramp = talk("/ramp", "std_msgs/Float64")
     stream = page.open("topic.plot", curves=["/ramp/data"])
+    eventually(lambda: ramp.matched)
     for number in range(2000):
         talk("/ramp", "std_msgs/Float64", data=float(number))
     values: list[float] = []

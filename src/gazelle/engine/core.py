@@ -24,8 +24,8 @@ from gazelle.engine.moving import move_root, set_root_velocity
 from gazelle.engine.names import joint_part, scoped
 from gazelle.engine.reading import joint_reaction, waking_copy
 from gazelle.engine.records import Contact, Wrench
-from gazelle.engine.state import carry_over, initial_data, joint_names_of
 from gazelle.engine.speed_limits import SpeedLimits
+from gazelle.engine.state import carry_over, initial_data, joint_names_of
 from gazelle.engine.tyres import TyreBank
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wrenches import TimedWrench, WrenchTable

@@ -65,9 +65,7 @@ class SpeedLimits:
         """
         return bool(self._dofs.size and applied[self._dofs].any())
 
-    def overrun(
-        self, speeds: Array, applied: Array, diagnostics: Diagnostics
-    ) -> NDArray[np.intp]:
+    def overrun(self, speeds: Array, applied: Array, diagnostics: Diagnostics) -> NDArray[np.intp]:
         """Return the degrees of freedom whose effort does nothing in the next step.
 
         Args:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
@@ -71,6 +72,7 @@ class Node:
         self.parameters = ParameterStore(graph.parameter_share, self.resolve_name, name)
         self._remappings = remap(remappings, namespace, node=name)
         self._created: list[_Closable] = []
+        self._closing = threading.Lock()
         self._shutdown: list[Callable[[str], None]] = []
         self._closed = False
         self._rosout: Publisher | None = None
@@ -279,9 +281,10 @@ class Node:
 
     def shutdown(self, reason: str = "") -> None:
         """Take everything of this node off the graph; calling it twice does nothing."""
-        if self._closed:
-            return
-        self._closed = True
+        with self._closing:
+            if self._closed:
+                return
+            self._closed = True
         for listener in tuple(self._shutdown):
             listener(reason)
         self.clock.leave(self)
@@ -309,13 +312,19 @@ class Node:
         return self._closed and self.outlives
 
     def _keep(self, one: _T) -> _T:
-        if not self._closed:
-            self._created.append(one)
+        with self._closing:
+            is_late = self._closed
+            if not is_late:
+                self._created.append(one)
+        if is_late:
+            # The node was shut down while it was made, and would leave it on the graph.
+            one.unregister()
         return one
 
     def drop(self, one: object) -> None:
         """Forget what was unregistered on its own."""
-        self._created = [item for item in self._created if item is not one]
+        with self._closing:
+            self._created = [item for item in self._created if item is not one]
 
     def _on_error(self, text: str) -> None:
         if self._closed and isinstance(sys.exception(), GraphError):
