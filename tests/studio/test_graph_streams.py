@@ -159,7 +159,7 @@ def test_stats_without_topics_are_of_what_is_shown(page: Page, talk: Talk) -> No
 def test_plot_follows_fields_items_and_whole_messages(page: Page, talk: Talk) -> None:
     joints = {"name": ["a", "b"], "position": [1.0, 2.0], "velocity": [3.0]}
     talk("/arm", "sensor_msgs/JointState", latch=True, **joints)
-    talk("/pose2", "turtlesim/Pose")
+    pose = talk("/pose2", "turtlesim/Pose")
     stream = page.open(
         "topic.plot", curves=["/pose2", "/arm/position", "/arm/velocity[0]", "/arm/position/1"]
     )
@@ -176,6 +176,7 @@ def test_plot_follows_fields_items_and_whole_messages(page: Page, talk: Talk) ->
     items = {one["curve"]: one for one in stream.next()}
     assert items[6]["v"] == [2.0]
     assert items[7]["v"] == [3.0]
+    eventually(lambda: pose.matched)
     for number in range(3):
         talk("/pose2", "turtlesim/Pose", x=float(number), y=math.nan)
     values: list[Any] = []
