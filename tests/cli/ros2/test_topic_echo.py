@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -124,6 +127,26 @@ def test_volatile_subscription_does_not_get_what_was_before(say: Any, once: Any)
     say("/map", "std_msgs/msg/Int32", data=1)
     assert once("/map", "--qos-durability", "volatile", "--timeout", "0.2").out == ""
     assert once("/map", "--qos-durability", "transient_local").out == "data: 1\n---\n"
+
+
+def test_messages_are_printed_after_the_clock_was_set_back(
+    robot: Node, once: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hour_ns = 3600 * 10**9
+    late = SimpleNamespace(time_ns=lambda: time.time_ns() - hour_ns, monotonic=time.monotonic)
+    monkeypatch.setattr("gazelle.graph.publisher.time", late)
+    publisher = robot.create_publisher("/n", "std_msgs/msg/Int32")
+    ended = threading.Event()
+
+    def talk() -> None:
+        while not ended.wait(0.01):
+            publisher.publish(publisher.message_class(data=7))
+
+    talking = threading.Thread(target=talk)
+    talking.start()
+    assert once("/n").out == "data: 7\n---\n"
+    ended.set()
+    talking.join()
 
 
 def test_incompatible_quality_of_service_is_told(robot: Node, run: Any) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 
 from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2, until_ended
 from gazelle.cli.ros2.topic.echoing import Echo, Selection
@@ -18,7 +17,7 @@ from gazelle.cli.ros2.types import ros2_message_class, stated_message_class
 from gazelle.cli.ros2.verbs import add_strategy_arguments, positive_float, whole
 from gazelle.cli.tool import ToolError
 from gazelle.errors import NotFoundError
-from gazelle.graph import Graph
+from gazelle.graph import Graph, Qos
 from gazelle.interfaces import Message
 
 __all__ = ["add_arguments", "run"]
@@ -78,9 +77,7 @@ def run(options: argparse.Namespace) -> int:
         selection = Selection.of(options, kind)
         warn_of_incompatible(topic, profile, publishers)
         node, ended = cli_node(graph, options, options.node_name)
-        # A volatile subscription does not get what was published before it.
-        since_ns = time.time_ns() if profile.durability == "volatile" else 0
-        echo = Echo(graph, topic, selection, options, ended=ended, since_ns=since_ns)
+        echo = Echo(graph, topic, selection, options, ended=ended)
         node.create_subscription(
             topic,
             kind,
@@ -88,11 +85,18 @@ def run(options: argparse.Namespace) -> int:
             queue_size=_queue_size(options, profile),
             raw=options.raw,
             with_info=True,
+            qos=_told_qos(profile),
         )
         until_ended(ended, timeout_s=options.timeout)
     if echo.error is not None:
         raise echo.error
     return 0
+
+
+def _told_qos(profile: Profile) -> Qos:
+    """A volatile subscription does not get what was published before it."""
+    is_reliable = profile.reliability != "best_effort"
+    return Qos(is_reliable, profile.durability != "volatile", profile.queue_size)
 
 
 def _queue_size(options: argparse.Namespace, profile: Profile) -> int:

@@ -66,16 +66,14 @@ class Echo:
         options: argparse.Namespace,
         *,
         ended: threading.Event,
-        since_ns: int = 0,
     ) -> None:
-        """Print messages of a topic that were published after a time; set `ended` at the end."""
+        """Print messages of a topic; set `ended` at the end."""
         self.error: ToolError | None = None
         self._graph = graph
         self._topic = topic
         self._selection = selection
         self._options = options
         self._ended = ended
-        self._since_ns = since_ns
         length = None if options.full_length else options.truncate_length
         self._how = Shortening(length, options.no_arr, options.no_str)
         self._last: dict[str, int] = {}
@@ -83,7 +81,7 @@ class Echo:
 
     def __call__(self, message: Any, info: MessageInfo) -> None:
         """Print one message."""
-        if self._ended.is_set() or 0 < info.stamp_ns < self._since_ns:
+        if self._ended.is_set():
             return
         try:
             self._tell_lost(info)
