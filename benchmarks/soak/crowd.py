@@ -22,7 +22,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -31,10 +31,12 @@ import psutil
 from marked_processes import pids_of
 
 from gazelle.graph import Graph
+from gazelle.graph.keys import Entity
 
 _WORKSPACE = Path(__file__).resolve().parents[2] / "examples" / "scout_ws"
 _MARK = "GAZELLE_CROWD"
 _FAST, _WATCHERS, _SLEEPERS, _NEIGHBOURS, _TOPICS_EACH = 6, 5, 5, 44, 4
+_ROLES = ("fast", "watcher", "neighbour", "sleeper")
 _PICTURES = "/camera/rgb/image_raw"
 _STARTING_S, _SETTLING_S, _SAMPLE_EVERY_S, _WARM_UP_S = 180.0, 20.0, 10.0, 300.0
 _LEAST_SHARE, _MOST_MB_PER_HOUR = 0.95, 1.0
@@ -130,18 +132,13 @@ class _Clock:
     """Simulated time as it comes."""
 
     def __init__(self, graph: Graph) -> None:
-        self._now_s = 0.0
-        node = graph.create_node("crowd_clock", rosout=False)
-        node.create_subscription("/clock", "rosgraph_msgs/Clock", self._take, queue_size=1)
-
-    def _take(self, message: Any) -> None:
-        self._now_s = message.clock.sec + message.clock.nanosec * 1e-9
+        self._clock = graph.create_node("crowd_clock", rosout=False).clock
 
     def rate(self, window_s: float) -> float:
         """Return simulated seconds per second."""
-        first_s, begin_s = self._now_s, time.monotonic()
+        first_ns, begin_s = self._clock.now_ns(), time.monotonic()
         time.sleep(window_s)
-        return (self._now_s - first_s) / (time.monotonic() - begin_s)
+        return (self._clock.now_ns() - first_ns) * 1e-9 / (time.monotonic() - begin_s)
 
 
 @contextlib.contextmanager
@@ -183,10 +180,9 @@ def _robot(folder: Path) -> Iterator[tuple[Graph, Any]]:
 
 
 def _wait_for_nodes(graph: Graph, count: int) -> None:
-    def are_there(_known: Any) -> bool:
-        names = graph.node_names()
-        return sum(name[1:].split("_")[0] in ("fast", "watcher", "neighbour", "sleeper")
-                   for name in names) >= count  # fmt: skip
+    def are_there(known: Iterable[Entity]) -> bool:
+        roles = {one.node for one in known if one.node[1:].split("_")[0] in _ROLES}
+        return len(roles) >= count
 
     if not graph.discovery.wait_for(are_there, _STARTING_S):
         raise SystemExit(f"{count} nodes were to come, there are {graph.node_names()}")

@@ -120,7 +120,10 @@ def _config(
         # Latched messages are told apart by their time.
         "timestamping/enabled": True,
         "transport/shared_memory/enabled": False,
-        "transport/unicast/open_timeout": 2000,
+        # A link to another process that is not opened in this time is tried no more: where sixty
+        # start at once, two seconds left some without one.
+        "transport/unicast/open_timeout": 30_000,
+        "transport/unicast/accept_timeout": 30_000,
         # A process that was stopped must not stall reliable publishers for long.
         "transport/link/tx/queue/congestion_control/block/wait_before_close": (
             _BLOCKED_LINK_CLOSES_US

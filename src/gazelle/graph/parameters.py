@@ -27,7 +27,8 @@ __all__ = ["ParameterShare", "ParameterStore", "global_parameters"]
 
 _REQUIRED: Any = object()
 _NO_OWNER_S = 3.0
-_SLOW_OWNER_S = 30.0
+# Longer than a machine needs on which sixty processes start at once.
+_SLOW_OWNER_S = 120.0
 _RETRY_S = 0.02
 _ASK_S = 5.0
 _KINDS = {"op": str, "name": str, "start": str, "revision": int}
