@@ -1,6 +1,6 @@
 """Damaged files end in findings, never in a crash: the same ones every time.
 
-`benchmarks/soak/fuzz.py` reads a hundred thousand of them.
+`benchmarks/soak/fuzz.py` reads a million of them.
 """
 
 from __future__ import annotations
@@ -14,9 +14,15 @@ from tests.fuzzing.run import is_error, read_damaged, read_one
 
 from gazelle.workspace import Workspace
 
-COUNT = 60
+COUNT = 35
 # The machine may be busy and the first file of a kind imports what it needs.
 PATIENCE_S = 30.0
+# What is damaged there is left out or shown as something else, as the originals do.
+LENIENT = {
+    "cdr_grid", "cmake_lists", "material", "mcap", "mcap_lz4", "mcap_zstd", "model_config",
+    "qt_form", "setup", "setup_cfg", "texture_jpeg", "texture_png", "texture_tga", "texture_tiff",
+    "urdfdom",
+}  # fmt: skip
 CORPUS = Path(__file__).parent / "fuzz_corpus"
 
 
@@ -24,7 +30,7 @@ CORPUS = Path(__file__).parent / "fuzz_corpus"
 def test_damaged_files_end_in_findings(name: str, tmp_path: Path) -> None:
     outcome = read_damaged(KINDS[name], range(COUNT), tmp_path, most_s=PATIENCE_S)
     assert not outcome.crashes
-    assert outcome.refused > COUNT // 10 or name in {"material", "model_config", "urdfdom"}
+    assert outcome.refused > COUNT // 10 or name in LENIENT
 
 
 @pytest.mark.parametrize("name", KINDS)

@@ -95,7 +95,7 @@ def read_one(kind: Kind, data: bytes, folder: Path, workspace: Workspace) -> lis
     diagnostics = Diagnostics()
     end: list[str] = []
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
+        warnings.simplefilter("ignore")
         try:
             kind.read(path, diagnostics, workspace)
         except GazelleError as error:

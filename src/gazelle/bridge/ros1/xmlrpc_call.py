@@ -9,7 +9,14 @@ from urllib.parse import urlsplit
 
 from gazelle.errors import GraphError
 
-__all__ = ["MOST_BODY_BYTES", "RemoteError", "RemoteRefusedError", "call", "decoded"]
+__all__ = [
+    "MOST_BODY_BYTES",
+    "RemoteError",
+    "RemoteRefusedError",
+    "call",
+    "decoded",
+    "read_answer",
+]
 
 MOST_BODY_BYTES = 1 << 26
 _TIMEOUT_S = 5.0
@@ -39,9 +46,29 @@ def call(uri: str, method: str, *arguments: Any, timeout_s: float = _TIMEOUT_S) 
     """
     body = xmlrpc.client.dumps(arguments, method, allow_none=True).encode()
     try:
-        answer = decoded(_post(uri, body, timeout_s))[0][0]
-    except (OSError, http.client.HTTPException, ValueError, xmlrpc.client.Error) as error:
+        answer = _post(uri, body, timeout_s)
+    except (OSError, http.client.HTTPException, ValueError) as error:
         raise RemoteError(f"{uri} did not answer {method}: {error}") from error
+    return read_answer(answer, uri, method)
+
+
+def read_answer(body: bytes, uri: str, method: str) -> Any:
+    """Return the value in a server's answer.
+
+    Args:
+        body: what came.
+        uri: of the server, for errors.
+        method: what was called.
+
+    Raises:
+        RemoteError: it is not an answer of ROS 1.
+        RemoteRefusedError: it says that the server could not.
+    """
+    try:
+        values = decoded(body)[0]
+    except (ValueError, xmlrpc.client.Error) as error:
+        raise RemoteError(f"{uri} did not answer {method}: {error}") from error
+    answer = values[0] if len(values) == 1 else None
     if not isinstance(answer, list | tuple) or len(answer) != 3:
         raise RemoteError(f"{uri} answered {method} with something that is not ROS 1's")
     code, text, value = answer
