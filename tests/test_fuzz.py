@@ -5,13 +5,20 @@
 
 from __future__ import annotations
 
+import socket
+import struct
+import threading
+import tracemalloc
 from pathlib import Path
 
 import pytest
+from tests.fuzzing.guided import reached, read_guided
 from tests.fuzzing.kinds import KINDS, SCOUT
 from tests.fuzzing.mutations import damaged
 from tests.fuzzing.run import is_error, read_damaged, read_one
 
+from gazelle.bridge.ros1.frames import read_frame
+from gazelle.graph.keys import Entity
 from gazelle.workspace import Workspace
 
 COUNT = 35
@@ -48,6 +55,57 @@ def test_files_that_once_crashed_end_in_findings(path: Path, tmp_path: Path) -> 
     found = read_one(KINDS[path.parent.name], path.read_bytes(), tmp_path, workspace)
     assert any(map(is_error, found)), found
     assert not [line for line in found if line.startswith("crash")]
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [("bag", 260), ("db3", 1), ("db3", 14), ("db3", 86), ("db3", 94), ("mcap", 16), ("mcap", 283),
+     ("mcap_lz4", 302), ("pose_graph", 5), ("pose_graph", 176), ("rviz", 76), ("rviz_ros2", 87),
+     ("texture_png", 3), ("texture_png", 6), ("texture_tiff", 22)],
+)  # fmt: skip
+def test_damage_that_once_crashed_ends_in_findings(name: str, number: int, tmp_path: Path) -> None:
+    outcome = read_damaged(KINDS[name], [number], tmp_path, most_s=PATIENCE_S)
+    assert not outcome.crashes
+
+
+def test_a_stream_of_ros_1_takes_no_more_memory_than_it_sends() -> None:
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        theirs.sendall(struct.pack("<I", 1 << 29) + b"no more")
+        theirs.shutdown(socket.SHUT_WR)
+        tracemalloc.start()
+        with pytest.raises(ConnectionError):
+            read_frame(ours)
+        most = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+    assert most < 1 << 26
+
+
+def test_a_long_frame_of_ros_1_comes_whole() -> None:
+    data = bytes(range(256)) * (160 << 10)
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        sender = threading.Thread(
+            target=theirs.sendall, args=(struct.pack("<I", len(data)) + data,)
+        )
+        sender.start()
+        assert read_frame(ours) == data
+        sender.join()
+
+
+def test_what_reaches_new_lines_is_damaged_further(tmp_path: Path) -> None:
+    first, again = (
+        read_guided(KINDS["graph_token"], range(COUNT), tmp_path, most_s=PATIENCE_S)
+        for _ in range(2)
+    )
+    assert not first.crashes
+    assert (first.files, first.refused) == (COUNT, again.refused)
+
+
+def test_lines_that_are_reached_are_known() -> None:
+    lines = reached(lambda: Entity.from_token("a"))
+    assert lines
+    assert {Path(file).name for file, _ in lines} == {"keys.py"}
 
 
 def test_damage_is_the_same_every_time() -> None:

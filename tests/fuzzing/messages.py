@@ -11,6 +11,7 @@ import numpy as np
 from tests.fuzzing.kind import Kind
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.errors import GazelleError
 from gazelle.graph.parameter_values import value_from_message, value_message
 from gazelle.interfaces import (
     from_cdr,
@@ -68,6 +69,14 @@ def _scan(message: Any) -> None:
 
 def _picture(message: Any) -> None:
     encoded_picture(message, PictureSettings())
+
+
+def _map(message: Any) -> None:
+    try:
+        grid_of_message(message)
+    except ValueError as error:
+        # All nodes that take maps catch it.
+        raise GazelleError(str(error)) from None
 
 
 def _values(message: Any) -> None:
@@ -165,7 +174,7 @@ def _kind_ros1(make: Callable[..., Any], use: Use = _nothing) -> Kind:
 MESSAGES: dict[str, Kind] = {
     "cdr_cloud": _kind_cdr(_cloud, _points),
     "cdr_depth": _kind_cdr(partial(_image, "16UC1", 2), _picture),
-    "cdr_grid": _kind_cdr(_grid, grid_of_message),
+    "cdr_grid": _kind_cdr(_grid, _map),
     "cdr_image": _kind_cdr(partial(_image, "rgb8", 3), _picture),
     "cdr_markers": _kind_cdr(_markers),
     "cdr_parameters": _kind_cdr(_event, _values),

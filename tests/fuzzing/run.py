@@ -17,7 +17,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.workspace import Workspace
 
-__all__ = ["Outcome", "is_error", "read_damaged", "read_one"]
+__all__ = ["Outcome", "is_error", "read_damaged", "read_one", "time_limit_s"]
 
 _TWICE_EVERY = 10
 _BYTES_PER_LIMIT = 50_000
@@ -69,11 +69,16 @@ def read_damaged(
         elif _is_ended(first):
             # After how much computing and so where depends on how busy the machine is.
             continue
-        elif took_s > most_s * (1 + len(data) / _BYTES_PER_LIMIT):
+        elif took_s > time_limit_s(most_s, data):
             crashes[number] = f"it took {took_s:.2f} s"
         elif number % _TWICE_EVERY == 0 and read_one(kind, data, folder, workspace) != first:
             crashes[number] = "the second reading differs"
     return Outcome(count, refused, slowest_s, slowest, crashes)
+
+
+def time_limit_s(most_s: float, data: bytes) -> float:
+    """Return the computing time that a file may take."""
+    return most_s * (1 + len(data) / _BYTES_PER_LIMIT)
 
 
 def _is_ended(lines: list[str]) -> bool:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import io
 import json
 import os
-import socket
 from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import closing
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -95,32 +94,37 @@ def _attachment(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) ->
         raise GazelleError("no attachment")
 
 
-class _Stream(socket.socket):
-    """A stream within the machine, which has none of TCP's options."""
+class _Stream:
+    """A connection over which everything has come, and has ended."""
 
-    def setsockopt(self, *arguments: Any) -> None:
+    def __init__(self, data: bytes) -> None:
+        self._data = io.BytesIO(data)
+        self.answer = io.BytesIO()
+        self.answer.close = lambda: None  # type: ignore[method-assign]
+
+    def settimeout(self, _seconds: float) -> None:
         pass
 
+    def setsockopt(self, *_arguments: Any) -> None:
+        pass
 
-def _both_ends(data: bytes) -> tuple[socket.socket, socket.socket]:
-    """Return a stream that has sent some bytes and ended, and the end that may read them."""
-    theirs, ours = socket.socketpair()
-    theirs.sendall(data)
-    theirs.shutdown(socket.SHUT_WR)
-    return theirs, _Stream(fileno=ours.detach())
+    def makefile(self, mode: str, _size: int = -1) -> io.BytesIO:
+        return self._data if mode == "rb" else self.answer
+
+    def recv_into(self, view: memoryview) -> int:
+        return self._data.readinto(view)
 
 
 def _tcpros(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:
-    theirs, ours = _both_ends(path.read_bytes())
-    with closing(theirs), closing(ours):
-        try:
-            header = read_header(ours)
-            write_header(header)
-            while True:
-                from_ros1(ros1_message_type("std_msgs/String"), read_frame(ours))
-        except ConnectionError as error:
-            if not path.read_bytes().startswith(_GOOD_TCPROS):
-                raise GazelleError(str(error)) from None
+    data = path.read_bytes()
+    stream = cast(Any, _Stream(data))
+    try:
+        write_header(read_header(stream))
+        while True:
+            from_ros1(ros1_message_type("std_msgs/String"), read_frame(stream))
+    except ConnectionError as error:
+        if data != _GOOD_TCPROS:
+            raise GazelleError(str(error)) from None
 
 
 class _DeafMaster(Master):
@@ -143,11 +147,9 @@ def _serve(request: bytes) -> None:
     """Let a master answer; what its methods raise is told, as in the bridge."""
     told: list[str] = []
     master = _DeafMaster(_store(), lambda: None)
-    theirs, ours = _both_ends(request)
-    with closing(theirs), closing(ours):
-        serve_calls(ours, master.methods, frozenset({"localhost"}), told.append)
-        theirs.setblocking(False)
-        answer = theirs.recv(1 << 20) if not told else b""
+    stream = _Stream(request)
+    serve_calls(cast(Any, stream), master.methods, frozenset({"localhost"}), told.append)
+    answer = stream.answer.getvalue()
     master.close()
     faults = [text for text in told if not _is_reported(text)]
     if faults:

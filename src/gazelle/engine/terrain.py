@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import Heightmap
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.pictures import PictureError, opened_picture
 
 __all__ = ["read_terrain"]
 
@@ -18,14 +19,12 @@ def read_terrain(
 
     Gazebo puts the image's top edge at the largest y.
     """
-    from PIL import Image, UnidentifiedImageError
-
     if shape.path is None:
         return None
     try:
-        with Image.open(shape.path) as image:
+        with opened_picture(shape.path) as image:
             pixels = np.asarray(image.convert("I;16" if image.mode.startswith("I") else "L"))
-    except (OSError, UnidentifiedImageError, ValueError) as error:
+    except (OSError, PictureError) as error:
         diagnostics.report(
             "engine.unreadable-terrain",
             f"the heightmap '{shape.uri}' of collision '{name}' cannot be read as an image"

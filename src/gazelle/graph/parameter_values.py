@@ -123,7 +123,13 @@ def value_message(value: Any, *, for_writing: bool = False) -> Any:
 
 
 def value_from_message(message: Any) -> Any:
-    """Return the Python value of a ``ParameterValue``; None when it is not set."""
+    """Return the Python value of a ``ParameterValue``; None when it is not set.
+
+    Raises:
+        GraphError: its type is none of ROS 2's.
+    """
+    if not 0 <= message.type < len(ParameterType):
+        raise GraphError(f"a parameter's type is {message.type}; ROS 2 has 0 to 9")
     kind = ParameterType(message.type)
     if kind is ParameterType.NOT_SET:
         return None

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from gazelle.errors import NotFoundError, UserFileError
 from gazelle.interfaces.definition import Generation
+from gazelle.limits.names import is_file
 
 __all__ = ["Source", "add_package", "add_search_path", "block_names", "find_source", "revision"]
 
@@ -93,9 +94,9 @@ def find_source(package: str, part: str, name: str, generation: Generation) -> S
     if package in _user_packages:
         folder, written_for = _user_packages[package]
         file = folder / part / f"{name}.{part}"
-        if not file.is_file():
+        if not is_file(file):
             file = _files(folder, part, _revision).get(name, file)
-        if written_for in (None, generation) and file.is_file():
+        if written_for in (None, generation) and is_file(file):
             text = _read(file)
             if written_for is generation or _fits(text, generation):
                 return Source(text, str(file), generation)
@@ -153,7 +154,7 @@ def _blocks(package: str, generation: Generation) -> dict[str, str]:
     if not package.isidentifier():
         return {}
     file = _DATA / f"ros{generation.value}" / f"{package}.txt"
-    if not file.is_file():
+    if not is_file(file):
         return {}
     blocks: dict[str, str] = {}
     for block in file.read_text(encoding="utf-8").split("=== ")[1:]:

@@ -42,14 +42,18 @@ class LimitedLoader(yaml.SafeLoader):
                 error.problem = f"{error.problem}: this is a tab, YAML is indented with spaces"
             raise
 
+    def fetch_flow_collection_start(self, TokenClass: Any) -> None:
+        """Scan ``[`` or ``{`` unless it is nested too deep: PyYAML looks far ahead, slowly."""
+        if self.flow_level > _DEEPEST:
+            raise _too_deep(self.get_mark())
+        super().fetch_flow_collection_start(TokenClass)
+
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose a node unless it is nested too deep."""
         self._depth += 1
         if self._depth > _DEEPEST:
             place = self.peek_event().start_mark  # type: ignore[no-untyped-call]
-            raise YamlLimitError(
-                None, None, f"lists and mappings are nested deeper than {_DEEPEST}", place
-            )
+            raise _too_deep(place)
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node
@@ -104,6 +108,12 @@ def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:
         )
         known[own] = 1 + sum(_size(item, known, inner) for pair in pairs for item in pair)
     return known[own]
+
+
+def _too_deep(place: Any) -> YamlLimitError:
+    return YamlLimitError(
+        None, None, f"lists and mappings are nested deeper than {_DEEPEST}", place
+    )
 
 
 def _error(what: str, most: int, place: Any) -> YamlLimitError:

@@ -30,6 +30,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.geometry import Mesh, MeshMaterial, MeshPart, load_mesh_reported
+from gazelle.limits.pictures import opened_picture
 from gazelle.sensors.embree import SubScene, sub_scene
 from gazelle.sensors.tessellation import (
     Facets,
@@ -195,9 +196,7 @@ def _made_part(shape: Heightmap | Polyline, diagnostics: Diagnostics) -> MeshPar
 
 def _heights(path: Path) -> NDArray[np.float64]:
     """Read a picture's brightness as 0…1."""
-    from PIL import Image
-
-    with Image.open(path) as image:
+    with opened_picture(path) as image:
         deep = image.mode.startswith("I")
         pixels = np.asarray(image if deep else image.convert("L"), np.float64)
     return pixels / (65535.0 if deep else 255.0)

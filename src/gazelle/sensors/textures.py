@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.pictures import PictureError, opened_picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -63,12 +63,10 @@ class TextureAtlas:
         return np.concatenate(flat) if flat else np.zeros(12, np.uint8), levels, counts
 
     def _read(self, source: Path | bytes) -> NDArray[np.uint8] | None:
-        from PIL import Image, UnidentifiedImageError
-
         try:
-            with Image.open(io.BytesIO(source) if isinstance(source, bytes) else source) as image:
+            with opened_picture(source) as image:
                 return np.asarray(_power_of_two(image.convert("RGB")))
-        except (OSError, UnidentifiedImageError, Image.DecompressionBombError) as error:
+        except (OSError, PictureError) as error:
             name = "embedded in a mesh" if isinstance(source, bytes) else f"'{source}'"
             place = None if isinstance(source, bytes) else SourceSpan(str(source))
             self.diagnostics.report(

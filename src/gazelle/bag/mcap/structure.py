@@ -70,7 +70,7 @@ def _summarised(file: BinaryIO, end: int) -> Structure | None:
             content = data[record.start : record.end]
             _introduce(found, record.op, content)
             if record.op == Op.CHUNK_INDEX:
-                found.chunks.append(_chunk_of_index(file, content))
+                found.chunks.append(_chunk_of_index(content, end))
             elif record.op == Op.STATISTICS:
                 counts = _counts(content)
         if not found.chunks and any(counts.values()):
@@ -144,12 +144,14 @@ def _chunk(file: BinaryIO, position: int, record: Record) -> Chunk:
     compression = cursor.string()
     (size,) = cursor.numbers("Q")
     start = record.end - size
+    if start < record.start:
+        raise BagError(f"a chunk of {record.size} bytes cannot hold {size}")
     chunk = Chunk(position, start_ns, end_ns, compression, start, size, uncompressed)
     chunk.length = record.end - position
     return chunk
 
 
-def _chunk_of_index(file: BinaryIO, content: bytes) -> Chunk:
+def _chunk_of_index(content: bytes, end: int) -> Chunk:
     cursor = Cursor(content)
     start_ns, end_ns, position, length = cursor.numbers("QQQQ")
     cursor.block()
@@ -157,6 +159,8 @@ def _chunk_of_index(file: BinaryIO, content: bytes) -> Chunk:
     compression = cursor.string()
     size, uncompressed = cursor.numbers("QQ")
     start = position + length - size
+    if start < position or position + length > end:
+        raise BagError(f"there is no chunk at byte {position}, where the index says one is")
     chunk = Chunk(position, start_ns, end_ns, compression, start, size, uncompressed)
     chunk.length = length
     return chunk

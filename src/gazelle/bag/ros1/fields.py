@@ -79,9 +79,11 @@ def read_place(file: BinaryIO, start: int, end: int) -> Place | None:
     Raises:
         BagError: the bytes are not a record.
     """
+    if start + 4 > end:
+        return None
     file.seek(start)
     (header_size,) = _LENGTH.unpack(_exactly(file, 4) or b"\0\0\0\0")
-    if start + 4 > end or start + 8 + header_size > end:
+    if start + 8 + header_size > end:
         return None
     if header_size > _LONGEST_HEADER:
         raise BagError(f"a record's header claims {header_size} bytes")

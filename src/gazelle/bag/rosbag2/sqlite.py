@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sqlite3
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -138,7 +139,7 @@ class SqliteBag:
         try:
             self._database = _open(path)
             self._connections = _topics(self._database)
-        except (OSError, sqlite3.Error) as error:
+        except (OSError, sqlite3.Error, KeyError, ValueError) as error:
             raise BagError(f"{path}: this is not a bag of rosbag2: {error}") from None
 
     @property
@@ -149,17 +150,24 @@ class SqliteBag:
     @property
     def summary(self) -> Summary:
         """What is in it."""
-        rows = self._database.execute("SELECT topic_id, COUNT(*) FROM messages GROUP BY topic_id")
-        counts = dict(rows.fetchall())
-        edge = "SELECT timestamp FROM messages ORDER BY timestamp {} LIMIT 1"
-        first, last = (self._database.execute(edge.format(way)).fetchone() for way in _WAYS)
-        start_ns, end_ns = (first[0], last[0]) if first else (0, 0)
+        with _told(self.path):
+            chosen = f"FROM messages WHERE {_WHOLE}"
+            select = f"SELECT topic_id, COUNT(*) {chosen} GROUP BY topic_id"
+            rows = self._database.execute(select).fetchall()
+            counts = {number: count for number, count in rows if number in self._connections}
+            edge = f"SELECT timestamp {chosen} ORDER BY timestamp {{}} LIMIT 1"
+            first, last = (self._database.execute(edge.format(way)).fetchone() for way in _WAYS)
+        start_ns, end_ns = (first[0], last[0]) if first and last else (0, 0)
         return Summary(counts, start_ns, end_ns, self.path.stat().st_size)
 
     def messages(
         self, wanted: Wanted | None = None, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
-        """Yield messages by time, those of `wanted` topics between two stamps."""
+        """Yield messages by time, those of `wanted` topics between two stamps.
+
+        Raises:
+            BagError: the file is damaged there.
+        """
         chosen = {
             number: one
             for number, one in self._connections.items()
@@ -167,11 +175,17 @@ class SqliteBag:
         }
         marks = ",".join("?" * len(chosen))
         span = (0 if start_ns is None else start_ns, (1 << 63) - 1 if end_ns is None else end_ns)
-        where = f"timestamp BETWEEN ? AND ? AND topic_id IN ({marks})"
+        where = f"{_WHOLE} AND timestamp BETWEEN ? AND ? AND topic_id IN ({marks})"
         columns = "SELECT topic_id, timestamp, data FROM messages"
         select = f"{columns} WHERE {where} ORDER BY timestamp, id"
-        for number, stamp_ns, data in self._database.execute(select, (*span, *chosen)):
-            yield BagMessage(chosen[number], stamp_ns, data)
+        with _told(self.path):
+            rows = self._database.execute(select, (*span, *chosen))
+        while True:
+            with _told(self.path):
+                row = rows.fetchone()
+            if row is None:
+                return
+            yield BagMessage(chosen[row[0]], row[1], row[2])
 
     def close(self) -> None:
         """Close the file."""
@@ -179,6 +193,17 @@ class SqliteBag:
 
 
 _WAYS = ("ASC", "DESC")
+# SQLite keeps values of any type in any column; a damaged file has some.
+_WHOLE = "typeof(timestamp) = 'integer' AND typeof(data) = 'blob'"
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Raise what SQLite finds wrong as the bag's error."""
+    try:
+        yield
+    except (sqlite3.Error, OverflowError, UnicodeDecodeError) as error:
+        raise BagError(f"{path}: the file is damaged: {error}") from None
 
 
 def _open(path: Path) -> sqlite3.Connection:

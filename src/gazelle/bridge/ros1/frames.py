@@ -23,6 +23,7 @@ __all__ = [
 
 MOST_FRAME_BYTES = 1 << 29
 _MOST_HEADER_BYTES = 1 << 20
+_FIRST_BYTES = 16 << 20
 _LENGTH = struct.Struct("<I")
 
 
@@ -78,11 +79,14 @@ def read_exactly(stream: socket.socket, size: int) -> bytearray:
     Raises:
         ConnectionError: the stream ended before.
     """
-    data = bytearray(size)
-    view = memoryview(data)
+    # Whoever says that much will come must send it before there is room for more.
+    data = bytearray(min(size, _FIRST_BYTES))
     place = 0
     while place < size:
-        got = stream.recv_into(view[place:])
+        if place == len(data):
+            data.extend(bytes(min(size - place, place)))
+        with memoryview(data) as view, view[place:] as rest:
+            got = stream.recv_into(rest)
         if not got:
             raise ConnectionError("the connection was closed")
         place += got

@@ -18,7 +18,9 @@ Methods = Mapping[str, Callable[..., Any]]
 Notice = Callable[[str], None]
 
 _IDLE_S = 60.0
+_LONGEST_REASON = 200
 _ERROR = -1
+_MOST_DIGITS = 20
 _MULTICALL = "system.multicall"
 
 
@@ -59,7 +61,7 @@ class _Calls(http.server.BaseHTTPRequestHandler):
         host = self.headers.get("Host", "").rpartition(":")[0].lower()
         if host not in self._terms.hosts or "Origin" in self.headers:
             self._refuse(403, f"'{host}' is not a name of this server")
-        elif not size.isdigit():
+        elif not (size.isascii() and size.isdigit() and len(size) < _MOST_DIGITS):
             self._refuse(411, "Content-Length is needed")
         elif int(size) > MOST_BODY_BYTES:
             self._refuse(413, f"more than {MOST_BODY_BYTES} bytes")
@@ -71,13 +73,15 @@ class _Calls(http.server.BaseHTTPRequestHandler):
 
     def _refuse(self, status: int, text: str) -> None:
         self.close_connection = True
-        self.send_error(status, text)
+        # A status line is of plain letters; what was sent may hold any, and ends of lines.
+        plain = "".join(one if one.isascii() and one.isprintable() else "?" for one in text)
+        self.send_error(status, plain[:_LONGEST_REASON])
 
     def _answer(self, body: bytes) -> None:
         try:
             arguments, method = decoded(body)
         except (ValueError, xmlrpc.client.Error) as error:
-            self._refuse(400, str(error).replace("\n", " ")[:200])
+            self._refuse(400, str(error))
             return
         data = _written(self._result(method or "", arguments))
         self.send_response(200)

@@ -41,6 +41,7 @@ from gazelle.geometry import (
     plane_mesh,
     polyline_mesh,
 )
+from gazelle.limits.pictures import PictureError, opened_picture
 
 __all__ = ["COLLISION_GROUP", "Looks"]
 
@@ -165,8 +166,6 @@ class Looks:
 
     def _texture(self, source: Path | bytes | None) -> str:
         """Return the name of a picture, as PNG, the one kind MuJoCo reads; empty for none."""
-        from PIL import Image, UnidentifiedImageError
-
         if source is None:
             return ""
         try:
@@ -174,9 +173,9 @@ class Looks:
             if data in self._textures:
                 return self._textures[data]
             png = io.BytesIO()
-            with Image.open(io.BytesIO(data)) as image:
+            with opened_picture(data) as image:
                 image.convert("RGB").save(png, "PNG")
-        except (OSError, ValueError, UnidentifiedImageError) as error:
+        except (OSError, PictureError) as error:
             return self._without_texture(source, str(error))
         stem = source.stem if isinstance(source, Path) else "texture"
         file = self._beside.add(f"{stem}.png", png.getvalue())

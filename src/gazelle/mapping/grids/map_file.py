@@ -11,6 +11,7 @@ import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.limits import read_text_limited
+from gazelle.limits.names import exists
 from gazelle.limits.yaml_text import LimitedLoader
 from gazelle.mapping.grids.pixels import MapMode
 
@@ -215,7 +216,7 @@ class _Reader:
 
     def check_image(self, found: MapFile, generation: int) -> None:
         """Tell of a picture that is not there."""
-        if "image" in self._entries and not found.image.exists():
+        if "image" in self._entries and not exists(found.image):
             report_missing_image(found.image, found.image_span, self._diagnostics, generation)
 
     def check_values(self, found: MapFile) -> None:

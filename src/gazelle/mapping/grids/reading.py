@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.limits import read_limited
+from gazelle.limits.pictures import PictureError, opened_picture
 from gazelle.mapping.grids.grid import OccupancyGrid
 from gazelle.mapping.grids.map_file import (
     MapFile,
@@ -19,9 +19,11 @@ from gazelle.mapping.grids.map_file import (
 )
 from gazelle.mapping.grids.pixels import cells_of_pixels
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
 __all__ = ["read_map", "read_map_image"]
 
-_MOST_BYTES = 256 << 20
 _DEEP = ("I", "I;16", "I;16B", "I;16L", "I;16N")
 
 
@@ -64,31 +66,22 @@ def read_map_image(
 def _pixels(
     described: MapFile, diagnostics: Diagnostics, generation: int
 ) -> NDArray[np.uint8] | None:
-    from PIL import Image, UnidentifiedImageError
-
     path, span = described.image, described.image_span
     try:
-        data = read_limited(path, _MOST_BYTES)
-        with Image.open(io.BytesIO(data)) as picture:
+        # Maps are as large as the buildings are: Pillow's own limit is theirs.
+        with opened_picture(path, most_pixels=None) as picture:
             return _channels(picture)
-    except UnidentifiedImageError:
-        problem = "it is no picture"
     except FileNotFoundError:
         report_missing_image(path, span, diagnostics, generation)
         return None
-    except Image.DecompressionBombError as error:
-        problem = str(error)
-    except (OSError, ValueError, SyntaxError) as error:
+    except (OSError, PictureError) as error:
         problem = getattr(error, "strerror", None) or str(error)
     report_bad_image(path, problem, span, diagnostics, generation)
     return None
 
 
-def _channels(picture: object) -> NDArray[np.uint8]:
+def _channels(picture: Image) -> NDArray[np.uint8]:
     """Return (height, width, 1, 3 or 4)."""
-    from PIL.Image import Image
-
-    assert isinstance(picture, Image)
     if picture.mode in _DEEP:
         return (np.asarray(picture, np.int64) // 257).clip(0, 255).astype(np.uint8)[..., None]
     transparent = "A" in picture.mode or "transparency" in picture.info

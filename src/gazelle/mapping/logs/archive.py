@@ -7,7 +7,6 @@ Optional: ``angle_min``, ``angle_increment`` (rad; without them 180°, the first
 from __future__ import annotations
 
 import math
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.limits.archives import ArchiveError, read_arrays
 from gazelle.mapping.logs.record import LogRecord
 from gazelle.mapping.scans import Scan
 
@@ -28,9 +28,8 @@ _LEAST_M = 0.05
 def read_archive(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
     """Yield the scans of a numpy archive; what is wrong with it is reported."""
     try:
-        with np.load(path, allow_pickle=False) as file:
-            columns: dict[str, Any] = {name: file[name] for name in file.files}
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+        columns: dict[str, Any] = read_arrays(path)
+    except (OSError, ArchiveError) as error:
         diagnostics.report(
             "mapping.log-unreadable", f"this is no numpy archive: {error}", SourceSpan(str(path))
         )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gazelle.errors import GazelleError
+from gazelle.limits.archives import read_arrays
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.scans import Scan
@@ -58,14 +58,13 @@ def load_graph(path: Path, parameters: SlamParameters) -> Slam:
         SavedGraphError: the file is not there, or holds no graph.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
-            columns: dict[str, Any] = {name: file[name] for name in file.files}
+        columns: dict[str, Any] = read_arrays(path)
         if str(columns["format"]) != _FORMAT:
             raise ValueError(f"it is '{columns['format']}', not '{_FORMAT}'")
         return _engine(columns, parameters)
     except OSError as error:
         raise SavedGraphError(f"{path} cannot be read: {error.strerror or error}") from None
-    except (KeyError, ValueError, IndexError, zipfile.BadZipFile) as error:
+    except (KeyError, ValueError, IndexError, TypeError, OverflowError) as error:
         raise SavedGraphError(
             f"{path} holds no graph of poses that Gazelle has written ({error}); files of the "
             "original's serialize_map are its own binary format"

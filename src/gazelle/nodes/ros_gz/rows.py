@@ -99,7 +99,7 @@ def read_file(path: Path) -> tuple[list[TopicRow | ServiceRow], list[str]]:
         raise LaunchError(
             f"Could not parse config: failed to open file [{path}]: {error}"
         ) from None
-    except yaml.YAMLError as error:
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
         raise LaunchError(f"Could not parse config: {path}: {error}") from error
     if not isinstance(rows, list):
         what = "file empty" if rows is None else "top level must be a YAML sequence"

@@ -10,6 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.mapping.frontiers import Frontier, find_frontiers
+from gazelle.mapping.grids import OccupancyGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
@@ -76,7 +77,7 @@ class _Explorer:
         self._patience_ns = int(settings.number("progress_timeout") * _NANO)
         self._least_m = settings.number("min_frontier_size")
         self._scales = settings.number("potential_scale"), settings.number("gain_scale")
-        self._map: Any = None
+        self._map: tuple[str, OccupancyGrid] | None = None
         self._given_up: list[tuple[float, float]] = []
         self._goal: ClientGoal | None = None
         self._to: tuple[float, float] | None = None
@@ -90,18 +91,18 @@ class _Explorer:
 
     def step(self, now_ns: int) -> bool:
         """Go on to the best frontier; return whether there is none any more."""
-        frame = "map" if self._map is None else str(self._map.header.frame_id) or "map"
         client = next((one for one in self._clients if one[0].is_server_ready), None)
         if self._map is None or client is None:
             what = "map" if self._map is None else "action server move_base or navigate_to_pose"
             self._frames.say("warn", f"waiting: there is no {what} yet", what)
             return False
+        frame, grid = self._map
         robot = self._frames.robot(frame, self._base, self._tolerance_s)
         if isinstance(robot, str):
             self._frames.say("warn", robot, "robot")
             return False
         self._judge(robot.pose[:2], now_ns)
-        best = self._best(robot.pose[:2])
+        best = self._best(grid, robot.pose[:2])
         if best is None:
             self.cancel()
             self._node.log("info", "explored: there is no frontier left that can be reached")
@@ -117,12 +118,15 @@ class _Explorer:
         self._goal = self._to = None
 
     def _on_map(self, message: Any) -> None:
-        self._map = message
+        try:
+            self._map = (str(message.header.frame_id) or "map", grid_of_message(message))
+        except ValueError as error:
+            self._node.log("error", f"a map is not taken: {error}")
 
-    def _best(self, robot_m: tuple[float, float]) -> Frontier | None:
+    def _best(self, grid: OccupancyGrid, robot_m: tuple[float, float]) -> Frontier | None:
         potential, gain = self._scales
         frontiers = find_frontiers(
-            grid_of_message(self._map), robot_m,
+            grid, robot_m,
             least_size_m=self._least_m, potential_scale=potential, gain_scale=gain,
         )  # fmt: skip
         return next((one for one in frontiers if not self._is_given_up(one)), None)

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from gazelle.limits import read_text_limited
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
@@ -27,7 +28,7 @@ def open_perspective(_studio: Studio, params: Params) -> dict[str, Any]:
         return perspective_value(params.text("text"), params.text("name", "the perspective"))
     path = Path(params.text("path")).expanduser()
     try:
-        return perspective_value(path.read_text(encoding="utf-8"), str(path))
+        return perspective_value(read_text_limited(path), str(path))
     except OSError as error:
         raise StudioError(f"cannot read {path}: {error.strerror}", hint=_USUAL) from None
     except UnicodeDecodeError as error:
@@ -42,7 +43,7 @@ def perspective_value(text: str, name: str) -> dict[str, Any]:
     """
     try:
         content = json.loads(text)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise StudioError(f"{name} is no perspective: {error}") from None
     groups = content.get("groups", {}) if isinstance(content, dict) else {}
     manager = groups.get(_MANAGER, {}) if isinstance(groups, dict) else {}

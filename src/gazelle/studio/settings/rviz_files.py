@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from gazelle.limits import read_text_limited
 from gazelle.limits.yaml_text import load_yaml
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
@@ -31,7 +33,7 @@ def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
         return rviz_value(params.text("text"), params.text("name", "the .rviz file"))
     path = Path(params.text("path")).expanduser()
     try:
-        return rviz_value(path.read_text(encoding="utf-8"), str(path))
+        return rviz_value(read_text_limited(path), str(path))
     except OSError as error:
         raise StudioError(f"cannot read {path}: {error.strerror}", hint=_USUAL) from None
     except UnicodeDecodeError as error:
@@ -114,13 +116,22 @@ def _view(current: Mapping[str, Any]) -> dict[str, Any]:
     value: dict[str, Any] = {"kind": _short(current.get("Class", "Orbit"))}
     for theirs, ours in _NUMBERS.items():
         if isinstance(current.get(theirs), int | float):
-            value[ours] = float(current[theirs])
+            value[ours] = _number(current[theirs])
     focal = _mapping(current.get("Focal Point"))
     if focal:
-        value["focal"] = [float(focal.get(axis, 0.0)) for axis in "XYZ"]
+        value["focal"] = [_number(focal.get(axis)) for axis in "XYZ"]
     elif "X" in current and "Y" in current:
-        value["focal"] = [float(current["X"]), float(current["Y"]), 0.0]
+        value["focal"] = [_number(current["X"]), _number(current["Y"]), 0.0]
     return value
+
+
+def _number(value: Any) -> float:
+    """Return a number, also one that YAML 1.1 takes for a text such as ``1e-3``; 0 for others."""
+    try:
+        number = float(value) if isinstance(value, int | float | str) else 0.0
+    except (ValueError, OverflowError):
+        return 0.0
+    return number if math.isfinite(number) else 0.0
 
 
 def _topic(value: Any) -> str:

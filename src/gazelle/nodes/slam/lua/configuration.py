@@ -15,7 +15,8 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import LaunchError
-from gazelle.limits import FileLimitError, read_text_limited
+from gazelle.limits import read_text_limited
+from gazelle.limits.names import is_file
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.slam.lua.parser import parse
 from gazelle.nodes.slam.lua.running import Builtin, LuaTable, Machine, text_of
@@ -133,7 +134,7 @@ class _Loader:
         return {_RENAMED.get(key, key): value for key, value in found.items()}
 
     def _find(self, name: str) -> Path | None:
-        return next((path for folder in self._folders if (path := folder / name).is_file()), None)
+        return next((path for folder in self._folders if is_file(path := folder / name)), None)
 
     def _hint(self, name: str) -> str:
         there = [path.name for folder in self._folders if folder.is_dir()
@@ -144,7 +145,7 @@ class _Loader:
     def _run(self, path: Path, place: Place | None = None) -> Any:
         try:
             text = read_text_limited(path)
-        except (OSError, UnicodeDecodeError, FileLimitError) as error:
+        except (OSError, UnicodeDecodeError) as error:
             raise failure(f"{path} cannot be read: {error}", place) from error
         return self._machine.run(parse(text, str(path)))
 
@@ -177,7 +178,10 @@ class _Loader:
         path = self._find(str(_first(given)))
         if path is None:
             raise failure(f"File '{_first(given)}' was not found", place)
-        return read_text_limited(path)
+        try:
+            return read_text_limited(path)
+        except (OSError, UnicodeDecodeError) as error:
+            raise failure(f"{path} cannot be read: {error}", place) from error
 
 
 def _flatten(table: LuaTable, prefix: str, found: dict[str, Any], seen: set[int]) -> None:

@@ -1,0 +1,70 @@
+"""Reading numpy archives that may be damaged, or larger than there is room for."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gazelle.limits.scale import HOW_TO_RAISE, scaled
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["ArchiveError", "read_arrays"]
+
+_MOST_BYTES = 1 << 30
+
+
+class ArchiveError(ValueError):
+    """The bytes are no numpy archive, or one that is not read; the text says why."""
+
+
+def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """Return the arrays of an ``.npz`` by their names; objects of Python are never made.
+
+    Raises:
+        OSError: the file cannot be read.
+        ArchiveError: it is damaged, no archive, or too large.
+    """
+    with path.open("rb") as file:
+        try:
+            with zipfile.ZipFile(file) as packed:
+                _check_size(packed)
+                return {
+                    name.removesuffix(".npy"): _array(packed, name) for name in packed.namelist()
+                }
+        except ArchiveError:
+            raise
+        except MemoryError:
+            raise ArchiveError("there is no memory for it") from None
+        except Exception as error:
+            # zipfile, its decompressors and numpy have errors of their own each.
+            raise ArchiveError(str(error) or type(error).__name__) from error
+
+
+def _check_size(packed: zipfile.ZipFile) -> None:
+    """Refuse what says that it is too large; what lies about it ends at the size it says."""
+    size = sum(one.file_size for one in packed.infolist())
+    if size > scaled(_MOST_BYTES):
+        raise ArchiveError(
+            f"it holds {size} bytes, at most {scaled(_MOST_BYTES)} are read; {HOW_TO_RAISE}"
+        )
+
+
+def _array(packed: zipfile.ZipFile, name: str) -> NDArray[Any]:
+    import numpy as np
+
+    with packed.open(name) as file:
+        version = np.lib.format.read_magic(file)
+        read = np.lib.format.read_array_header_1_0
+        if version != (1, 0):
+            read = np.lib.format.read_array_header_2_0
+        shape, _, kind = read(file)
+    # numpy makes room for the shape before it reads: one that the file does not hold is refused.
+    if math.prod(shape) * kind.itemsize > packed.getinfo(name).file_size:
+        raise ArchiveError(f"'{name}' says that it is {shape}, and holds less")
+    with packed.open(name) as file:
+        found: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+        return found
