@@ -44,7 +44,7 @@ class LimitedLoader(yaml.SafeLoader):
 
     def fetch_flow_collection_start(self, TokenClass: Any) -> None:
         """Scan ``[`` or ``{`` unless it is nested too deep: PyYAML looks far ahead, slowly."""
-        if self.flow_level > _DEEPEST:
+        if self.flow_level >= _DEEPEST:
             raise _too_deep(self.get_mark())
         super().fetch_flow_collection_start(TokenClass)
 
