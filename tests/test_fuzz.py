@@ -68,6 +68,20 @@ def test_damage_that_once_crashed_ends_in_findings(name: str, number: int, tmp_p
     assert not outcome.crashes
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("cmake_lists", "foreach(a x)\n" * 300 + "endforeach()\n" * 300),
+        ("cmake_lists", "foreach(a 1 2 3 4 5 6 7 8 9)\n" * 9 + "endforeach()\n" * 9),
+        ("setup", "x = " + " + ".join(["1"] * 900)),
+    ],
+    ids=["deep blocks", "endless loops", "long sum"],
+)
+def test_nesting_of_builds_has_an_end(name: str, text: str, tmp_path: Path) -> None:
+    workspace = Workspace.discover(extra=[SCOUT])
+    assert read_one(KINDS[name], text.encode(), tmp_path, workspace) == []
+
+
 def test_a_stream_of_ros_1_takes_no_more_memory_than_it_sends() -> None:
     ours, theirs = socket.socketpair()
     with ours, theirs:

@@ -60,7 +60,11 @@ def _nothing(_message: Any) -> None:
 
 def _points(message: Any) -> None:
     points_of(message, 1000, ("intensity",), True)
-    cloud_points(message)
+    try:
+        cloud_points(message)
+    except ValueError as error:
+        # All nodes that take clouds catch it.
+        raise GazelleError(str(error)) from None
 
 
 def _scan(message: Any) -> None:

@@ -20,6 +20,8 @@ _VARIABLE = re.compile(r"\$\{([\w./+-]+)\}|\$(ENV|CACHE)\{[^}]*\}")
 _MOST_STEPS = 20_000
 _MOST_FILES = 5_000
 _DEEPEST = 8
+_DEEPEST_BLOCK = 50
+_MOST_ROUNDS = 20_000
 _MAKE_PROGRAMS = (
     "add_executable",
     "ament_auto_add_executable",
@@ -129,6 +131,8 @@ class _Walker:
         # Set in a branch that may not be taken: what they hold afterwards is a guess.
         self._doubtful: set[str] = set()
         self._depth = 0
+        self._blocks = 0
+        self._rounds = 0
         self._ifs = 0
 
     def read(self, file: Path, folder: str) -> None:
@@ -151,6 +155,15 @@ class _Walker:
         self._depth -= 1
 
     def _follow(self, commands: Sequence[Command], file: Path, folder: str) -> None:
+        """Follow commands, unless blocks are nested too deep or loops go on for too long."""
+        self._rounds += 1
+        if self._blocks >= _DEEPEST_BLOCK or self._rounds > _MOST_ROUNDS:
+            return
+        self._blocks += 1
+        self._follow_all(commands, file, folder)
+        self._blocks -= 1
+
+    def _follow_all(self, commands: Sequence[Command], file: Path, folder: str) -> None:
         place = 0
         while place < len(commands) and len(self.lists.steps) < _MOST_STEPS:
             command = commands[place]

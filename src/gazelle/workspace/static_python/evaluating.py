@@ -132,6 +132,9 @@ class Evaluator:
         # Functions of the library refuse values of the wrong type: then nothing is known.
         except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError):
             return UNKNOWN
+        # Sums of hundreds of terms are nested as deep.
+        except RecursionError:
+            return UNKNOWN
 
     def _bound(
         self, wanted: ast.arguments, arguments: Sequence[Any], keywords: dict[str, Any]
