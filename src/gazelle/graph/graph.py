@@ -397,7 +397,8 @@ def _open_client(port: int) -> zenoh.Session:
         raise NoGraphError(
             f"no graph is running on port {port} (Unable to communicate with master!)\n"
             "  fix: start a launch, a simulator or `gazelle roscore`; GAZELLE_PORT, "
-            "ROS_DOMAIN_ID and ROS_MASTER_URI must be the same in all shells"
+            "ROS_DOMAIN_ID and ROS_MASTER_URI must be the same in all shells, and so must the user "
+            "be (GAZELLE_GRAPH_FOLDER shares a graph)"
         )
     try:
         # A hub on a busy machine is silent as a stranger is, for a second and more.
