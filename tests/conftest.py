@@ -324,15 +324,15 @@ def reserved_port() -> Iterator[int]:
 @pytest.fixture
 def stranger(free_port: int) -> Iterator[int]:
     """The number of a graph where a program listens in the hub's place and never says a word."""
-    from gazelle.graph import places
+    from gazelle.graph import locators
 
     if not hasattr(socket, "AF_UNIX"):
         with socket.create_server(("127.0.0.1", free_port)):
             yield free_port
         return
-    release = places.claim_hub(free_port)
+    release = locators.claim_hub(free_port)
     assert release is not None
-    place = Path(places.name_of_hub(free_port))
+    place = Path(locators.name_of_hub(free_port))
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(str(place))
         server.listen()

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph import config, places
+from gazelle.graph import config, locators
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def test_bad_environment_is_told(environ: dict[str, str], text: str) -> None:
     "make",
     [
         config.hub_config,
-        lambda port: config.peer_config(port, places.own_endpoint()),
+        lambda port: config.peer_config(port, locators.own_endpoint()),
         config.client_config,
     ],
 )
@@ -55,8 +55,8 @@ def test_bad_environment_is_told(environ: dict[str, str], text: str) -> None:
 def test_nothing_leaves_the_machine(
     make: Callable[[int], Any], has_files: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(places, "_HAS_SOCKET_FILES", has_files and places._HAS_SOCKET_FILES)
-    links = "unixsock-stream//tmp/gazelle-" if places._HAS_SOCKET_FILES else "tcp/127.0.0.1:"
+    monkeypatch.setattr(locators, "_HAS_SOCKET_FILES", has_files and locators._HAS_SOCKET_FILES)
+    links = "unixsock-stream//tmp/gazelle-" if locators._HAS_SOCKET_FILES else "tcp/127.0.0.1:"
     made = make(7447)
     for key in ("listen/endpoints", "connect/endpoints"):
         assert all(one.startswith(links) for one in json.loads(made.get_json(key)))

@@ -9,7 +9,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import NotFoundError
-from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo, places
+from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo, locators
 from gazelle.interfaces import message_type, service_type
 
 String = message_type("std_msgs/msg/String")
@@ -34,7 +34,7 @@ def test_port_of_a_stranger_is_one_clear_error(
         with pytest.raises(PortTakenError) as caught:
             Graph.open(port=stranger, environ={}, role=role)  # type: ignore[arg-type]
         text = str(caught.value)
-        place = places.name_of_hub(stranger)
+        place = locators.name_of_hub(stranger)
         assert f"the graph on port {stranger} does not answer: who listens at {place} is" in text
         assert "graph.port-taken" in text
         assert f"export GAZELLE_PORT={stranger + 1}" in text

@@ -14,7 +14,8 @@ import pytest
 
 from gazelle.graph import Graph, relink
 from gazelle.graph.keys import MEMBERS_KEY
-from gazelle.graph.places import is_hub
+from gazelle.graph.locators import is_hub
+from gazelle.graph.members import hear_of_members
 
 Join = Callable[..., Graph]
 Wait = Callable[..., Any]
@@ -66,6 +67,14 @@ def test_process_without_a_link_to_another_joins_the_hub_again(
 
 
 @pytest.mark.parametrize("payload", [b"", b"{", b"[1]", b"\xff", b"{}", b"[" * 100_000])
-def test_list_that_is_none_is_nobodys(payload: bytes, graph: Graph, other: Graph) -> None:
-    graph.session.put(MEMBERS_KEY, payload)
-    assert graph.entities() == other.entities() == ()
+def test_list_that_is_none_is_nobodys(
+    payload: bytes, graph: Graph, other: Graph, eventually: Wait
+) -> None:
+    heard: list[frozenset[str]] = []
+    subscriber = hear_of_members(other.session, heard.append)
+    good = json.dumps([other.zid, "another"])
+    for one in (payload, good):
+        graph.session.put(MEMBERS_KEY, one)
+    eventually(lambda: frozenset({"another"}) in heard)
+    assert frozenset() not in heard
+    subscriber.undeclare()

@@ -12,7 +12,7 @@ import pytest
 from tests.launch.conftest import write_package
 
 from gazelle.cli.main import main
-from gazelle.graph import places
+from gazelle.graph import locators
 
 Run = Callable[..., Any]
 
@@ -202,7 +202,7 @@ def test_taken_port_is_named_with_two_ways_out(
     assert main(["roslaunch", str(file)]) == 1
     told = capsys.readouterr()
     assert f"the graph on port {stranger} does not answer: who listens at" in told.err
-    assert f"fuser {places.name_of_hub(stranger)}" in told.err
+    assert f"fuser {locators.name_of_hub(stranger)}" in told.err
     assert f"export GAZELLE_PORT={stranger + 1}" in told.err
     assert "started with pid" not in told.out + told.err
 

@@ -2,7 +2,7 @@
 
 Proven on one machine: one hub in router mode, processes are peers that find each other through it
 by gossip, command-line tools are clients. No multicast; nothing listens beyond this machine, nor
-for anybody else on it (see `places`).
+for anybody else on it (see `locators`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlparse
 
 from gazelle.errors import GraphError
-from gazelle.graph.places import hub_endpoint
+from gazelle.graph.locators import hub_endpoint
 
 if TYPE_CHECKING:
     import zenoh

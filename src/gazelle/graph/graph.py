@@ -24,11 +24,11 @@ from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
+from gazelle.graph.locators import name_of_hub, own_endpoint, share, somebody_listens
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.namesakes import TAKEN_OVER, Namesakes
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
-from gazelle.graph.places import name_of_hub, own_endpoint, share, somebody_listens
 from gazelle.graph.stamps import StampWatch
 
 if TYPE_CHECKING:

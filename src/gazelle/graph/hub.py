@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ending import called_by_library
 from gazelle.errors import GraphError
 from gazelle.graph.config import hub_config
+from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
 from gazelle.graph.members import MembersTeller, hear_of_members
-from gazelle.graph.places import claim_hub, hub_endpoint, share, sweep_places
 from gazelle.graph.relink import Relinker
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class HubKeeper:
             release()
             return False
         share(hub_endpoint(self._port))
-        sweep_places()
+        sweep_sockets()
         with self._lock:
             carries = not self._ended.is_set()
             if carries:

@@ -18,7 +18,7 @@ from contextlib import suppress
 from typing import Any
 
 from gazelle.graph.config import client_config
-from gazelle.graph.places import is_hub
+from gazelle.graph.locators import is_hub
 
 __all__ = ["Relinker", "hub_knows"]
 

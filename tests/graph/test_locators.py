@@ -16,7 +16,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, PortTakenError, places
+from gazelle.graph import Graph, PortTakenError, locators
 from gazelle.interfaces import message_type
 
 Wait = Callable[..., Any]
@@ -24,7 +24,7 @@ Join = Callable[..., Graph]
 String = message_type("std_msgs/msg/String")
 
 pytestmark = pytest.mark.skipif(
-    not places._HAS_SOCKET_FILES, reason="this system has no sockets that are files"
+    not locators._HAS_SOCKET_FILES, reason="this system has no sockets that are files"
 )
 _NOBODY = 65534
 _AS_NOBODY = """
@@ -55,23 +55,23 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Sockets in a folder that was named on purpose; its path is short enough."""
     path = Path(f"/tmp/gz-{os.getpid()}-{tmp_path.name[-12:]}")
     path.mkdir(mode=0o755)
-    monkeypatch.setenv(places.VARIABLE, str(path))
+    monkeypatch.setenv(locators.VARIABLE, str(path))
     yield path
     shutil.rmtree(path)
 
 
 def test_sockets_are_in_a_folder_of_their_user(graph: Graph) -> None:
-    place = Path(places.name_of_hub(graph.port))
+    place = Path(locators.name_of_hub(graph.port))
     assert place.parent == Path(f"/tmp/gazelle-{os.getuid()}")
     assert place.is_socket()
     info = place.parent.stat()
     assert (info.st_uid, stat.S_IMODE(info.st_mode)) == (os.getuid(), 0o700)
-    assert places.somebody_listens(graph.port)
+    assert locators.somebody_listens(graph.port)
     graph.close()
-    assert not places.somebody_listens(graph.port)
+    assert not locators.somebody_listens(graph.port)
 
 
-@pytest.mark.skipif(places._HAS_SOCKET_FILES and os.getuid() != 0, reason="needs two users")
+@pytest.mark.skipif(locators._HAS_SOCKET_FILES and os.getuid() != 0, reason="needs two users")
 def test_another_user_of_the_machine_has_a_graph_of_their_own(
     join: Join, port: int, next_port: Callable[[], int]
 ) -> None:
@@ -108,7 +108,7 @@ def test_folder_of_somebody_else_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
     path = Path(f"/tmp/gazelle-{number}")
     path.mkdir()
     with pytest.raises(GraphError) as caught:
-        places.hub_endpoint(7447)
+        locators.hub_endpoint(7447)
     path.rmdir()
     assert str(caught.value) == (
         f"{path}, for the graph's sockets, cannot be used: it is not a folder of yours"
@@ -118,9 +118,9 @@ def test_folder_of_somebody_else_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_folder_that_others_can_enter_is_closed_to_them() -> None:
-    path = Path(places.name_of_hub(7447)).parent
+    path = Path(locators.name_of_hub(7447)).parent
     path.chmod(0o755)
-    places.own_endpoint()
+    locators.own_endpoint()
     assert stat.S_IMODE(path.stat().st_mode) == 0o700
 
 
@@ -135,19 +135,19 @@ def test_folder_that_no_socket_can_be_in_is_refused(
     name: str, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = Path("/tmp") / name
-    monkeypatch.setenv(places.VARIABLE, str(path))
+    monkeypatch.setenv(locators.VARIABLE, str(path))
     with pytest.raises(GraphError) as caught:
-        places.hub_endpoint(12345)
+        locators.hub_endpoint(12345)
     path.rmdir()
     assert f"{path}/12345.sock is {why}\n  fix: name another folder: " in str(caught.value)
 
 
 def test_folder_that_cannot_be_made_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(places.VARIABLE, "/proc/none")
+    monkeypatch.setenv(locators.VARIABLE, "/proc/none")
     with pytest.raises(
         GraphError, match="/proc/none, for the graph's sockets, cannot be used: No such"
     ):
-        places.own_endpoint()
+        locators.own_endpoint()
 
 
 def test_sockets_of_killed_processes_are_removed(folder: Path, join: Join) -> None:
@@ -163,10 +163,10 @@ def test_hub_is_claimed_until_its_files_are_gone(
     graph: Graph, join: Join, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The transport unlocks them before it removes them, which may be another one's by then."""
-    assert places.claim_hub(graph.port) is None
-    place = Path(places.name_of_hub(graph.port))
+    assert locators.claim_hub(graph.port) is None
+    place = Path(locators.name_of_hub(graph.port))
     graph.close()
-    release = places.claim_hub(graph.port)
+    release = locators.claim_hub(graph.port)
     assert release is not None
     assert not place.exists()
     monkeypatch.setattr("gazelle.graph.graph._HUB_S", 0.2)
@@ -190,10 +190,10 @@ def test_graph_on_ports_is_the_same_graph(
     join: Join, monkeypatch: pytest.MonkeyPatch, eventually: Wait, inbox: Any
 ) -> None:
     """As on Windows: the hub, two processes, a tool, and the hub's loss."""
-    monkeypatch.setattr(places, "_HAS_SOCKET_FILES", False)
+    monkeypatch.setattr(locators, "_HAS_SOCKET_FILES", False)
     first, second = join(role="hub"), join()
-    assert places.somebody_listens(first.port)
-    assert places.name_of_hub(first.port) == f"127.0.0.1:{first.port}"
+    assert locators.somebody_listens(first.port)
+    assert locators.name_of_hub(first.port) == f"127.0.0.1:{first.port}"
     with socket.socket() as probe:
         assert probe.connect_ex(("127.0.0.1", first.port)) == 0
     second.create_node("listener", rosout=False).create_subscription("/word", String, inbox)

@@ -30,7 +30,7 @@ __all__ = [
     "own_endpoint",
     "share",
     "somebody_listens",
-    "sweep_places",
+    "sweep_sockets",
 ]
 
 VARIABLE = "GAZELLE_GRAPH_FOLDER"
@@ -81,9 +81,13 @@ def claim_hub(port: int) -> Callable[[], None] | None:
     if number is None:
         return None
     share(f"{_LINK}{claim}")
-    # Of a hub that was killed, perhaps another user's.
-    for left in (f"{port}.sock", f"{port}.sock.lock"):
-        claim.with_name(left).unlink(missing_ok=True)
+    try:
+        # Of a hub that was killed, perhaps another user's.
+        for left in (f"{port}.sock", f"{port}.sock.lock"):
+            claim.with_name(left).unlink(missing_ok=True)
+    except OSError as error:
+        os.close(number)
+        raise _unusable(claim, error) from error
 
     def release() -> None:
         with suppress(OSError):
@@ -112,7 +116,7 @@ def share(endpoint: str) -> None:
             Path(endpoint.removeprefix(_LINK)).chmod(0o666)
 
 
-def sweep_places() -> None:
+def sweep_sockets() -> None:
     """Remove the sockets of this user's processes that were killed."""
     if _HAS_SOCKET_FILES:
         sweep(_folder(), _PEER)
