@@ -13,7 +13,6 @@ from gazelle.ending import called_by_library
 from gazelle.errors import GraphError
 from gazelle.graph.config import hub_config
 from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
-from gazelle.graph.members import MembersTeller, hear_of_members
 from gazelle.graph.relink import Relinker
 
 if TYPE_CHECKING:
@@ -46,13 +45,11 @@ class HubKeeper:
         self._on_gain: Callable[[], None] | None = None
         self._hub: zenoh.Session | None = None
         self._release: Callable[[], None] = _do_nothing
-        self._teller: MembersTeller | None = None
         self._connected = threading.Event()
         self._lost = threading.Event()
         self._ended = threading.Event()
         self._lock = threading.Lock()
         self._listener: Any = None
-        self._members: Any = None
         self._watcher = threading.Thread(target=self._watch, name="gazelle-hub", daemon=True)
         self._relinker = Relinker(port)
 
@@ -89,7 +86,6 @@ class HubKeeper:
             carries = not self._ended.is_set()
             if carries:
                 self._hub, self._release = hub, release
-                self._teller = MembersTeller(hub)
         if not carries:
             close_session(hub, release)
         elif self._on_gain is not None:
@@ -108,7 +104,6 @@ class HubKeeper:
 
         callback = zenoh.handlers.Callback(self._on_transport, None, indirect=False)
         self._listener = session.info.declare_transport_events_listener(callback, history=True)
-        self._members = hear_of_members(session, self._relinker.expect)
         self._on_gain = on_gain
         if self.is_hub:
             on_gain()
@@ -136,8 +131,6 @@ class HubKeeper:
         self.settle()
         with self._lock:
             hub, self._hub = self._hub, None
-        if self._teller is not None:
-            self._teller.close()
         if self._listener is not None:
             self._listener.undeclare()
         if hub is not None:

@@ -15,7 +15,6 @@ from typing import NamedTuple
 __all__ = [
     "ANY_TYPE",
     "DEFAULT_QOS",
-    "MEMBERS_KEY",
     "NO_HASH",
     "Attachment",
     "Entity",
@@ -41,8 +40,6 @@ NO_HASH = "TypeHashNotSupported"
 _ANY_ON_WIRE = "any"
 _SPACE = "@ros2_lv"
 _OWN_SPACE = "@gazelle"
-MEMBERS_KEY = f"{_OWN_SPACE}/members"
-"""Where the hub tells which sessions of nodes are linked to it."""
 _ATTACHMENT = struct.Struct("<qqB16s")
 _DEFAULT_DEPTH = 42
 _KEEP_ALL = "2"

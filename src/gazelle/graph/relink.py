@@ -1,10 +1,8 @@
-"""Finding back to a process that was cut off, or that a link was never opened to.
+"""Finding back to a process that was cut off.
 
 A process that was stopped (Ctrl-Z) while messages waited for it loses its direct link: whoever
-sent them must go on. On a machine with much to do a link may not open in time at all, and the
-transport tries it no more. Both stay linked to the hub, which tells where peers are only when one
-joins it. So the one that finds itself without a peer that still lives joins the hub once more; the
-hub, which alone is linked to all, says who there is.
+sent them must go on. Both stay linked to the hub, which tells where peers are only when one joins
+it. So the one that finds itself without a peer that still lives joins the hub once more.
 """
 
 from __future__ import annotations
@@ -25,8 +23,6 @@ __all__ = ["Relinker", "hub_knows"]
 _PAUSE_S = (0.3, 0.6)
 _ASK_S = 1.0
 _LAST_QUESTION_S = 2.0
-# After so long the hub is joined again for a link that is missed: longer than one is given to open.
-_MISSED_S = (35.0, 60.0, 120.0)
 _DESCRIPTORS = 1024
 
 
@@ -40,8 +36,6 @@ class Relinker:
             port: the hub's port.
         """
         self._port = port
-        self._members: frozenset[str] = frozenset()
-        self._looking = threading.Lock()
         self._ended = threading.Event()
         self._asking = threading.Lock()
         self._linked: set[str] = set()
@@ -57,12 +51,6 @@ class Relinker:
             return
         threading.Thread(target=self._look_after, args=(zid,), daemon=True).start()
 
-    def expect(self, zids: frozenset[str]) -> None:
-        """Hear from the hub who there is beside this session, and look for links to them all."""
-        self._members = zids
-        if self._missed() and self._looking.acquire(blocking=False):
-            threading.Thread(target=self._look_for_missed, daemon=True).start()
-
     def close(self) -> None:
         """Look after nothing more; a question that is under way is waited for."""
         self._ended.set()
@@ -75,20 +63,6 @@ class Relinker:
         with self._asking:
             if not self._ended.is_set() and zid not in self._linked and self._lives(zid):
                 _cut(self._port)
-
-    def _missed(self) -> frozenset[str]:
-        return self._members - frozenset(tuple(self._linked))
-
-    def _look_for_missed(self) -> None:
-        try:
-            for pause_s in _MISSED_S:
-                self._ended.wait(pause_s)
-                with self._asking:
-                    if self._ended.is_set() or not self._missed():
-                        return
-                    _cut(self._port)
-        finally:
-            self._looking.release()
 
     def _lives(self, zid: str) -> bool:
         return hub_knows(self._port, f"@ros2_lv/*/{zid}/**")
