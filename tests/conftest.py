@@ -32,6 +32,8 @@ _OWN_FOLDERS += ("XDG_STATE_HOME",)
 _FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
+# Workers and what they start, some thousand processes, share the processors.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 _RUN_MARK = "TESTS_COMMANDS"
 _RUN_NUMBERS = itertools.count()
 _PORT_NUMBERS = itertools.count(os.getpid() % 500)

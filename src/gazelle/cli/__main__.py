@@ -6,6 +6,7 @@ import os
 from typing import NoReturn
 
 from gazelle.ending import end_at_interrupts, end_with, raise_interrupts
+from gazelle.starting import collect_garbage_rarely
 
 __all__ = ["run"]
 
@@ -13,6 +14,7 @@ __all__ = ["run"]
 def run() -> NoReturn:
     """Run the command of the command line and end the process."""
     end_at_interrupts()
+    collect_garbage_rarely()
     from gazelle.cli.main import main
     from gazelle.library_warnings import shorten_library_warnings
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import ModuleType, TracebackType
 
 from gazelle.ending import end_at_interrupts, end_with, raise_interrupts
+from gazelle.starting import collect_garbage_rarely
 
 __all__ = ["main", "run_script"]
 
@@ -19,6 +20,7 @@ def main(words: list[str]) -> int:
         sys.stderr.write("usage: python -m gazelle.compat.runner SCRIPT [args…]\n")
         return 2
     end_at_interrupts()
+    collect_garbage_rarely()
     from gazelle.compat.finder import install
     from gazelle.launch.environment import drop_in_folder
     from gazelle.parent import end_with_parent

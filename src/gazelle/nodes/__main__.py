@@ -9,6 +9,7 @@ from pathlib import Path
 
 from gazelle.ending import StopEvent, at_stop_signal, end_at_interrupts, end_with
 from gazelle.library_warnings import shorten_library_warnings
+from gazelle.starting import collect_garbage_rarely, want_one_blas_thread
 
 __all__ = ["main"]
 
@@ -59,5 +60,7 @@ def _single(name: str, argv: list[str]) -> int:
 
 
 if __name__ == "__main__":
+    collect_garbage_rarely()
+    want_one_blas_thread()
     shorten_library_warnings()
     end_with(lambda: main(sys.argv[1:]))

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from gazelle.description.context import ReadContext
 from gazelle.description.sdf.versions import OLDEST_VERSION, version_from
-from gazelle.description.sdformat.document.console import Console
-from gazelle.description.sdformat.document.raw import raw_element
-from gazelle.description.sdformat.document.upgrading import upgrade
-from gazelle.description.sdformat.element import SdfElement
-from gazelle.description.sdformat.release import Release
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import SourceSpan
+
+if TYPE_CHECKING:
+    from gazelle.description.sdformat.element import SdfElement
 
 __all__ = ["OLD_ROOT", "upgraded"]
 
@@ -30,6 +30,12 @@ def upgraded(root: Tag, context: ReadContext) -> Tag:
     is_old = version is not None and version < OLDEST_VERSION
     if root.name not in ("sdf", OLD_ROOT) or not (is_old or root.name == OLD_ROOT):
         return root
+    # Hardly anybody needs it, and it takes a third of a state publisher's start to import.
+    from gazelle.description.sdformat.document.console import Console
+    from gazelle.description.sdformat.document.raw import raw_element
+    from gazelle.description.sdformat.document.upgrading import upgrade
+    from gazelle.description.sdformat.release import Release
+
     shown = f"SDF {written} is older than 1.4" if is_old else "the root element is <gazebo>"
     message = f"{shown}; it is read as sdformat brings it to 1.4"
     context.diagnostics.report("sdf.version", message, root.span)

@@ -165,9 +165,12 @@ class _Explorer:
         self._goals.abort(text=text)
 
     def _send(self, to: PlanePose) -> bool:
-        """Drive somewhere; False when the robot is on the way there already."""
-        is_moving = self._move is not None and not self._move.is_done
-        if is_moving and self._to is not None and math.dist(to[:2], self._to[:2]) <= self._same_m:
+        """Drive somewhere; False when the robot is on the way there already or has just ended."""
+        if self._move is not None and self._move.is_done:
+            # What came of it is looked at before anything is sent again.
+            return False
+        is_near = self._to is not None and math.dist(to[:2], self._to[:2]) <= self._same_m
+        if self._move is not None and is_near:
             return False
         target = message_type("geometry_msgs/msg/PoseStamped")()
         self._fill(target, to)
@@ -186,9 +189,12 @@ class _Explorer:
         One that is still there after the robot stood at it will not go away. The original ends its
         task with the first goal that move_base gives up; here only one at the centre does that.
         """
-        if self._move is None or self._move.status.name not in ("ABORTED", "SUCCEEDED"):
+        if self._move is None or not self._move.is_done:
             return False
-        failed, why, self._move = self._move.status.name == "ABORTED", self._move.text, None
+        status, why, self._move = self._move.status.name, self._move.text, None
+        if status not in ("ABORTED", "SUCCEEDED"):
+            return False
+        failed = status == "ABORTED"
         if self._frontier is not None:
             self._left_out.append(self._frontier)
             self._failures += failed
