@@ -46,12 +46,12 @@ def test_what_waits_without_a_limit_of_items_has_one_of_bytes() -> None:
         goes_on.wait(stretched())
         handled.append(item)
 
-    bound = Bound(1000, len, lambda: told.append("full"))
+    bound = Bound(1000, len, lambda item: item[:100], lambda: told.append("full"))
     mailbox = Mailbox(handle, size=0, name="post", bound=bound)
     mailbox.put(b"first")
     eventually(mailbox._items.empty)
     for number in range(100):
-        mailbox.put(bytes([number]) * 100)
+        mailbox.put(bytes([number]) * 200)
     assert mailbox._items.qsize() == 10
     assert mailbox.dropped == 90
     assert told == ["full"]

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError
+from gazelle.graph.allocator import return_large_blocks
 from gazelle.graph.console import Level, LogRecord, print_record
 
 __all__ = ["Bound", "Mailbox"]
@@ -25,11 +26,13 @@ class Bound(NamedTuple):
     Attributes:
         bytes: most bytes.
         weigh: tells how many an item has.
+        pack: gives an item the form in which it waits.
         reached: called the first time when the oldest are dropped for it.
     """
 
     bytes: int
     weigh: Callable[[Any], int]
+    pack: Callable[[Any], Any]
     reached: Callable[[], None]
 
 
@@ -79,6 +82,7 @@ class Mailbox:
         if self._size and self._items.qsize() >= self._size:
             self._drop()
         elif self._bound is not None and self._items.qsize():
+            item = self._bound.pack(item)
             self._make_room(self._bound, item)
         self._items.put(item)
 
@@ -106,6 +110,7 @@ class Mailbox:
         while self._items.qsize() >= most:
             self._drop()
         if is_first:
+            return_large_blocks()
             bound.reached()
 
     def _start(self) -> None:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["MessageInfo", "RawMessage", "Subscription"]
 
 _MOST_WAITING_BYTES = 64 << 20
+# Of the mailbox: a message of this process and its attachment, or a sample of another.
+_Item = tuple[Any, Attachment | None, Any]
 # What an item holds besides its message.
 _ITEM_BYTES = 500
 
@@ -47,6 +49,17 @@ class MessageInfo(NamedTuple):
     publisher: str
     type_name: str
     gid: bytes = bytes(16)
+
+
+class _WaitingSample(NamedTuple):
+    """What is taken of a sample while it waits.
+
+    The sample itself keeps the buffers it came in, which are larger and full of holes.
+    """
+
+    key_expr: str
+    payload: Any
+    attachment: Any
 
 
 class Subscription:
@@ -91,7 +104,7 @@ class Subscription:
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
         self._closed = is_mute
-        bound = Bound(_MOST_WAITING_BYTES, _weight, self._tell_full)
+        bound = Bound(_MOST_WAITING_BYTES, _weight, _packed, self._tell_full)
         name = f"sub {self.topic}"
         self._mailbox = Mailbox(self._handle, size=queue_size, name=name, bound=bound)
         self._take = self._handle if inline else self._mailbox.put
@@ -151,7 +164,7 @@ class Subscription:
             return
         self._take((None, None, sample))
 
-    def _handle(self, item: tuple[Any, Attachment | None, Any]) -> None:
+    def _handle(self, item: _Item) -> None:
         message, attachment, sample = item
         if self._closed:
             return
@@ -240,7 +253,7 @@ class Subscription:
             self._on_error(text)
 
 
-def _weight(item: tuple[Any, Attachment | None, Any]) -> int:
+def _weight(item: _Item) -> int:
     """Return about how many bytes of memory an item of the mailbox holds."""
     message, _attachment, sample = item
     if sample is not None:
@@ -248,6 +261,18 @@ def _weight(item: tuple[Any, Attachment | None, Any]) -> int:
     data = getattr(message, "data", b"")
     size = getattr(data, "nbytes", None)
     return _ITEM_BYTES + (size or len(data) if hasattr(data, "__len__") else 0)
+
+
+def _packed(item: _Item) -> _Item:
+    message, attachment, sample = item
+    if sample is None:
+        return item
+    import zenoh
+
+    payload, attached = sample.payload, sample.attachment
+    own = zenoh.ZBytes(attached.to_bytes()) if attached else None
+    waiting = _WaitingSample(str(sample.key_expr), zenoh.ZBytes(payload.to_bytes()), own)
+    return message, attachment, waiting
 
 
 def _attachment_of(sample: Any) -> Attachment:

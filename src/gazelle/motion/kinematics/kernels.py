@@ -32,7 +32,7 @@ _POLISH = 2
 _EXACT = 1e-9
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _turn(axis, angle, out):
     """Rodrigues' formula for a unit axis."""
     s, c = math.sin(angle), math.cos(angle)
@@ -49,7 +49,7 @@ def _turn(axis, angle, out):
     out[2, 2] = c + z * z * k
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _from_quaternion(x, y, z, w, out):
     n = math.sqrt(x * x + y * y + z * z + w * w)
     if n < 1e-12:
@@ -66,7 +66,7 @@ def _from_quaternion(x, y, z, w, out):
     out[2, 2] = 1 - 2 * (x * x + y * y)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _put(M, out):
     """Copy a matrix; as an assignment of slices it would take seconds to compile."""
     for i in range(3):
@@ -74,21 +74,21 @@ def _put(M, out):
             out[i, j] = M[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _times(a, b, out):
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _moved(R, p, v):
     """Add R v to p."""
     for i in range(3):
         p[i] += R[i, 0] * v[0] + R[i, 1] * v[1] + R[i, 2] * v[2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
     """Write rotation and position of every link; a planar joint is kind 4, a floating one 5."""
     M = np.empty((3, 3))
@@ -131,7 +131,7 @@ def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
         _put(S, R[i])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q, R, p, F, o):
     """Write the tip's rotation and position, and the frame of every step before its motion."""
     M = np.empty((3, 3))
@@ -172,7 +172,7 @@ def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q
     _put(S, R)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def chain_jacobian(kinds, axes, dofs, factors, F, o, p, J):
     """Write the Jacobian, linear rows first; a quaternion's columns are turns about x, y, z."""
     J[:] = 0.0
@@ -204,7 +204,7 @@ def chain_jacobian(kinds, axes, dofs, factors, F, o, p, J):
                 J[3 + k, d + k] += 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _error(R, p, target_R, target_p, e):
     """Write what is missing, in the robot's frame: metres and a rotation vector."""
     for k in range(3):
@@ -233,7 +233,7 @@ def _error(R, p, target_R, target_p, e):
             e[3 + i] = math.pi * (0.5 * (D[i, k] + (1.0 if i == k else 0.0))) / n
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _solved(H, g, n, x):
     """Solve H x = g by Cholesky in place; H is symmetric and positive definite."""
     for j in range(n):
@@ -259,7 +259,7 @@ def _solved(H, g, n, x):
         x[i] = t / H[i, i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def _turn_quaternion(q, at, dx, d, scale, F):
     """Turn a quaternion by a rotation vector given in the robot's frame."""
     v = np.empty(3)
@@ -280,7 +280,7 @@ def _turn_quaternion(q, at, dx, d, scale, F):
         q[at + k] /= n
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True)
 def solve(
     A, a, kinds, axes, variables, factors, offsets, dofs, tool_R, tool_p,
     lower, upper, dof_variables, target_R, target_p, seeds, weight, eps_m, eps_rad, steps, out,

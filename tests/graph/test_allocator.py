@@ -1,0 +1,34 @@
+"""What the C library does with memory that is free again."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+_FREED_AFTER_LARGER_ONES = """
+import psutil
+from gazelle.graph.allocator import return_large_blocks
+
+def held_mb():
+    # From the largest to the smallest, so that none fits where another one was.
+    blocks = [bytearray(900_000 - 1_000 * number) for number in range(60)]
+    full = psutil.Process().memory_info().rss
+    # Small blocks between them and the end of the heap.
+    small = [bytes(5_000) for _ in range(200)]
+    del blocks
+    return (full - psutil.Process().memory_info().rss) / 1e6
+
+held_mb()
+return_large_blocks()
+print(held_mb())
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks glibc")
+def test_large_blocks_go_back_to_the_system() -> None:
+    words = [sys.executable, "-c", _FREED_AFTER_LARGER_ONES]
+    ended = subprocess.run(words, capture_output=True, text=True, check=True)
+    # 52 MB of blocks.
+    assert float(ended.stdout) > 45.0
