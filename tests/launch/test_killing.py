@@ -9,6 +9,7 @@ from typing import Any
 
 import psutil
 import pytest
+from tests.processes import is_gone
 
 Run = Callable[..., Any]
 _TF = '<node pkg="tf2_ros" type="static_transform_publisher" name="tf" args="0 0 0 0 0 0 a b"/>'
@@ -28,12 +29,8 @@ def test_killing_a_process_of_the_launch_leaves_nothing(
     everything = run.processes()
     (pid,) = [pid for pid, line in everything.items() if _VICTIMS[victim] in line]
     os.kill(pid, signal.SIGKILL)
-    run.eventually(lambda: _is_gone(pid))
+    run.eventually(lambda: is_gone(pid))
     assert run.stop() == 0
     run.eventually(lambda: run.processes() == {})
     # A zombie is whom nobody has asked how it ended.
     run.eventually(lambda: not [one for one in everything if psutil.pid_exists(one)])
-
-
-def _is_gone(pid: int) -> bool:
-    return not psutil.pid_exists(pid) or psutil.Process(pid).status() == psutil.STATUS_ZOMBIE

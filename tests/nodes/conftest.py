@@ -115,8 +115,10 @@ class Keyboard:
 
 
 @pytest.fixture
-def keyboard(monkeypatch: pytest.MonkeyPatch) -> Iterator[Keyboard]:
+def keyboard(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> Iterator[Keyboard]:
     made = Keyboard()
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(fileno=lambda: made.seen))
     yield made
+    # Nodes that read it end first.
+    bench.stop()
     made.close()

@@ -228,3 +228,18 @@ def test_a_mode_that_keeps_time_drops_late_frames_and_says_so(
     found = sim.diagnostics.by_code("simulator.frames-dropped")
     assert len(found) == 1
     assert "camera 'eye::eye::camera' is late for its 100 Hz" in found[0].message
+
+
+def test_a_standstill_of_the_process_is_told(
+    load: Load, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    server = load().server
+    server.step(250)
+    lengths = iter((0.0, 20.04))
+    monkeypatch.setattr(server._standstill, "look", lambda expected_s=0.0: next(lengths, 0.0))
+    server.run(iterations=50)
+    told = [text for text in caplog.messages if "nothing was computed" in text]
+    assert told == [
+        "nothing was computed for 20.0 s: this process was stopped, or the machine had no time for "
+        "it; the world goes on from 0.300 s"
+    ]

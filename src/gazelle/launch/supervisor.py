@@ -27,6 +27,7 @@ from gazelle.launch.process import (
     node_words,
     start_process,
 )
+from gazelle.launch.stopped import StoppedProcess
 
 __all__ = ["StopTimes", "Supervisor"]
 
@@ -100,6 +101,7 @@ class Supervisor:
         self._events: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._running: list[LaunchedProcess] = []
         self._leftovers: set[int] = set()
+        self._stopped: dict[int, StoppedProcess] = {}
         self._executables: dict[str, Executable] = {}
         self._core: set[str] = set()
         self._count = 0
@@ -221,6 +223,7 @@ class Supervisor:
         A signal that comes just before the wait begins does not end it, so the wait is cut up.
         """
         while True:
+            self._tell_stopped()
             with contextlib.suppress(queue.Empty):
                 return self._events.get(timeout=_WAIT_S)
 
@@ -259,6 +262,18 @@ class Supervisor:
         if self._guard is None:
             self._guard = Guard()
         self._guard.begun(popen.pid)
+        self._stopped[popen.pid] = StoppedProcess(popen.pid)
+
+    def _tell_stopped(self) -> None:
+        """Say which processes a signal has stopped, or lets go on."""
+        labels: dict[int, list[str]] = {}
+        for process in self._running:
+            if process.popen is not None:
+                labels.setdefault(process.popen.pid, []).append(process.label)
+        self._stopped = {pid: one for pid, one in self._stopped.items() if pid in labels}
+        for pid, one in self._stopped.items():
+            if news := one.news():
+                self._console.warning(f"[{', '.join(labels[pid])}] {news}")
 
     def _wait_for(self, process: LaunchedProcess) -> None:
         assert process.popen is not None

@@ -6,7 +6,11 @@ import time
 from collections.abc import Callable
 from enum import Enum
 
-__all__ = ["Mode", "Pace"]
+__all__ = ["Mode", "Pace", "Standstill"]
+
+_LONG_S = 2.0
+# Of the time that has passed; loading and compiling compute all the while.
+_IDLE_SHARE = 0.1
 
 
 class Mode(Enum):
@@ -57,3 +61,32 @@ class Pace:
     def slice_steps(self, step_ns: int) -> int:
         """Return how many steps fit into one slice of wall time at the wanted factor."""
         return max(1, int(self.SLICE_S * max(self.factor, 1e-3) * 1e9 / step_ns))
+
+
+class Standstill:
+    """Tells that the process did nothing where it should have: SIGSTOP, a debugger, a busy machine.
+
+    A clock of a machine that sleeps stands still itself; that is not seen.
+    """
+
+    def __init__(
+        self,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        computing: Callable[[], float] = time.process_time,
+    ) -> None:
+        """Begin to look."""
+        self._clock, self._computing = clock, computing
+        self._last_s, self._computed_s = clock(), computing()
+
+    def look(self, expected_s: float = 0.0) -> float:
+        """Return for how many seconds nothing was done since the last call, 0 for no long time.
+
+        Args:
+            expected_s: how long there was nothing to do.
+        """
+        now_s, computed_s = self._clock(), self._computing()
+        passed_s, work_s = now_s - self._last_s, computed_s - self._computed_s
+        self._last_s, self._computed_s = now_s, computed_s
+        is_long = passed_s - expected_s > _LONG_S and work_s < _IDLE_SHARE * passed_s
+        return passed_s if is_long else 0.0

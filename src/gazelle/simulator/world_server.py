@@ -16,7 +16,7 @@ from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.frames import FrameWorker
 from gazelle.simulator.inputs import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.pace import Mode, Pace
+from gazelle.simulator.pace import Mode, Pace, Standstill
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
@@ -113,6 +113,7 @@ class WorldServer:
         self.sensors = SensorSet(self.engine, seed)
         self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
         self.pace = Pace(self._wanted_factor())
+        self._standstill = Standstill()
         self._stop = threading.Event()
         self._resources: dict[str, Resources] = {}
         self._world_resources = Resources(self)
@@ -171,6 +172,7 @@ class WorldServer:
         """
         self.commands.own()
         self.pace.restart(self.engine.time_ns)
+        self._standstill.look()
         try:
             last = self.engine.iteration + iterations if iterations else None
             while not self._stop.is_set() and self.engine.iteration != last:
@@ -283,11 +285,13 @@ class WorldServer:
             self.commands.wait(None)
             self.commands.clear_wake()
             self.pace.restart(self.engine.time_ns)
+            self._standstill.look()
             return
         lead = self.pace.lead_s(self.engine.time_ns)
         if lead > 0:
             self.commands.wait(lead)
             self.commands.clear_wake()
+            self._tell_standstill(lead)
             return
         factor = self.pace.factor
         count = self.pace.slice_steps(self.engine.step_ns) if factor > 0 else _FAST_SLICE
@@ -300,6 +304,15 @@ class WorldServer:
                 raise
             recover(self, error)
             self.pace.restart(self.engine.time_ns)
+        self._tell_standstill(0.0)
+
+    def _tell_standstill(self, expected_s: float) -> None:
+        if seconds := self._standstill.look(expected_s):
+            text = (
+                f"nothing was computed for {seconds:.1f} s: this process was stopped, or the "
+                f"machine had no time for it; the world goes on from {self.time_ns * 1e-9:.3f} s"
+            )
+            self.node.log("WARN", text)
 
     def senders(self, arrival: Arrival) -> tuple[str, ...]:
         """Return the nodes that called a service or publish a topic, as far as they are known."""

@@ -203,6 +203,28 @@ def test_master_that_comes_back_learns_everything_again(
         again.close()
 
 
+def test_master_that_was_started_anew_unseen_learns_everything_again(
+    graph: Graph, master: EmbeddedMaster, joined: Bridge, eventually: Eventually,
+    capfd: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """Faster than the bridge looks; the one before left no connection open."""
+    graph.create_node("talker").create_publisher("/chatter", "std_msgs/msg/String")
+    graph.parameters.set("/ours", 1)
+    eventually(lambda: ("/talker", "/chatter") in master.state().publishers)
+    eventually(lambda: master.ask("getParam", "/peer", "/ours") == 1)
+    master._master.registry.__init__()
+    eventually(lambda: ("/talker", "/chatter") in master.state().publishers)
+    eventually(lambda: master._master.registry.listeners("/any"))
+    said: list[str] = []
+
+    def is_over() -> bool:
+        said.append(capfd.readouterr().err)
+        return f"the master at {master.uri} answers again" in "".join(said)
+
+    eventually(is_over)
+    assert "".join(said).count("has forgotten everything; it is told again") == 1
+
+
 def test_topic_that_ros1_does_not_define_is_told_once(
     graph: Graph, bridge: Bridge, peer: Peer, capfd: pytest.CaptureFixture[str],
     eventually: Eventually,

@@ -14,7 +14,8 @@ from typing import Any
 
 import psutil
 import pytest
-from tests.patience import PATIENCE_S, at_most, eventually, stretched
+from tests.patience import PATIENCE_S, at_most, eventually
+from tests.processes import is_gone
 
 from gazelle.launch.ros2 import LaunchDescription, LaunchService, child_process, logging
 from gazelle.launch.ros2 import actions as a
@@ -305,15 +306,8 @@ def test_what_a_process_left_behind_ends_with_the_launch(run: Run, tmp_path: Pat
     note = tmp_path / "pid"
     run(a.ExecuteProcess(cmd=["sh", "-c", f"trap '' INT TERM; sleep 9999 & echo $! > {note}"]))
     pid = int(note.read_text(encoding="utf-8"))
-
-    def is_gone() -> bool:
-        try:
-            return psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
-        except psutil.NoSuchProcess:
-            return True
-
     # It was killed, and needs a core once more to be gone.
-    eventually(is_gone)
+    eventually(lambda: is_gone(pid))
 
 
 _LAUNCHER = """
@@ -338,11 +332,7 @@ def test_no_process_survives_a_launcher_that_is_killed() -> None:
         lines = (line for line in launcher.stdout if "] pids " in line)
         pids = [int(word) for _ in range(2) for word in next(lines).split()[-2:]]
         launcher.kill()
-        gone, alive = psutil.wait_procs(
-            [psutil.Process(pid) for pid in pids if psutil.pid_exists(pid)], timeout=stretched()
-        )
-    assert [one for one in alive if one.status() != psutil.STATUS_ZOMBIE] == []
-    assert len(gone) + len(alive) <= 4
+        eventually(lambda: all(map(is_gone, pids)))
 
 
 def test_log_files_are_below_a_folder_of_the_run(run: Run) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from tests.patience import stretched
+
 from gazelle.bag import Storage, create_bag, open_bag, ros1_connection
 from gazelle.interfaces import ros1_message_type, to_ros1
 
@@ -36,4 +38,5 @@ def test_a_launched_recorder_stamps_with_the_clock_that_a_bag_plays(
     assert len(messages) == 10
     assert messages[0].connection.callerid == "/player"
     offsets = [one.stamp_ns - start_ns - place * 10**8 for place, one in enumerate(messages)]
-    assert max(map(abs, offsets[1:])) < 60_000_000
+    # The wall's clock is decades away from the bag's.
+    assert max(map(abs, offsets[1:])) < stretched(1.0) * 1e9

@@ -118,6 +118,7 @@ class Bridge:
 
     def _settle(self) -> None:
         state = self.master.state()
+        self._register_again(state)
         entities = [one for one in self._graph.discovery.known() if one.zid != self._graph.zid]
         taken = frozenset(node for node in _nodes(state) if node not in self._presences)
         wishes = wishes_of(entities, taken - {BRIDGE_NAME}, self._skipped, self._book)
@@ -127,6 +128,21 @@ class Bridge:
         traits = traits_of(state, own, self._skipped, services, self._book)
         self._mirrors.settle(traits)
         self._settle_topics(wishes)
+
+    def _register_again(self, state: State) -> None:
+        """Forget what a master has forgotten that was started anew since it was last asked."""
+        forgotten = [one for one in self._all_presences if one.is_forgotten(state)]
+        for presence in forgotten:
+            presence.start_over()
+        if forgotten and not self._lost:
+            # Who listens to parameters is forgotten, too.
+            self._lost = True
+            text = f"the master at {self.master.uri} has forgotten everything; it is told again"
+            self._notice(text)
+
+    @property
+    def _all_presences(self) -> tuple[Presence, ...]:
+        return *self._presences.values(), self._own
 
     def _settle_presences(self, wishes: dict[str, Wishes]) -> None:
         wishes = dict(wishes)
@@ -201,7 +217,7 @@ class Bridge:
                 self._lost = True
 
     def _end_presences(self) -> None:
-        for presence in (*self._presences.values(), self._own):
+        for presence in self._all_presences:
             if self._lost:
                 # A master that does not answer would be waited for once for each name.
                 presence.start_over()
@@ -215,7 +231,7 @@ class Bridge:
             return
         self._lost = True
         self._notice(f"the master does not answer, the bridge waits for it: {error}")
-        for presence in (*self._presences.values(), self._own):
+        for presence in self._all_presences:
             presence.start_over()
         self._mirrors.close()
         self._crossing.keep_topics(())

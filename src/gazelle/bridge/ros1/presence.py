@@ -17,6 +17,7 @@ from gazelle.bridge.ros1.endpoint import Endpoint
 from gazelle.bridge.ros1.frames import read_header, write_header
 from gazelle.bridge.ros1.link import Link
 from gazelle.bridge.ros1.outlet import Offer
+from gazelle.bridge.ros1.registry import State
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError
 
@@ -99,6 +100,7 @@ class Presence:
         self._ask = ask
         self._lock = threading.Lock()
         self._registered: set[tuple[str, str]] = set()
+        self._refused: set[tuple[str, str]] = set()
         methods: dict[str, Callable[..., Any]] = {
             "getBusInfo": self._bus_info,
             "getBusStats": self._bus_stats,
@@ -143,12 +145,24 @@ class Presence:
                     self._register(*key)
                 except RemoteRefusedError as error:
                     self._hub.notice(f"the master refuses {key[1]} of {self.name}: {error}")
+                    self._refused.add(key)
                 self._registered.add(key)
 
     def start_over(self) -> None:
         """Forget what was registered: the master is a new one."""
         with self._lock:
             self._registered.clear()
+            self._refused.clear()
+
+    def is_forgotten(self, state: State) -> bool:
+        """Return whether a master that this was registered at knows nothing of it any more.
+
+        One that knows the name knows somebody else by it, or a part was taken back.
+        """
+        sides = (state.publishers, state.subscribers, state.services)
+        with self._lock:
+            was_taken = bool(self._registered - self._refused)
+        return was_taken and not any(node == self.name for side in sides for node, _ in side)
 
     def close(self) -> None:
         """Unregister all and close the port.
@@ -179,6 +193,7 @@ class Presence:
         with contextlib.suppress(RemoteRefusedError):
             self._ask(f"unregister{what}", self.name, name, uri)
         self._registered.discard((what, name))
+        self._refused.discard((what, name))
 
     def _take(self, stream: socket.socket) -> None:
         header = read_header(stream)

@@ -35,6 +35,7 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
+from gazelle.launch.stopped import StoppedProcess
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
@@ -44,6 +45,7 @@ __all__ = ["ExecuteLocal"]
 _SIGTERM_TIMEOUT = LaunchConfiguration("sigterm_timeout", default=5)
 _SIGKILL_TIMEOUT = LaunchConfiguration("sigkill_timeout", default=5)
 _EVENTS = {1: ProcessStdout, 2: ProcessStderr}
+_LOOK_S = 1.0
 
 
 class ExecuteLocal(Action):
@@ -221,7 +223,7 @@ class ExecuteLocal(Action):
             logger.error(f"exception occurred while executing process: {error}")
             context.tell(not_started(error, details["cmd"], details["cwd"], self.place))
             return False
-        code = await child.complete
+        code = await _end_of(child, logger)
         await context.emit_event(ProcessExited(returncode=code, **details))
         child.close()
         if context.guarded is not None:
@@ -319,3 +321,13 @@ class ExecuteLocal(Action):
         if child is None or not child.complete.done():
             return None
         return child.complete.result()
+
+
+async def _end_of(child: ChildProcess, logger: Any) -> int:
+    """Return a process's exit code; say when it is stopped meanwhile, and when it goes on."""
+    stopped = StoppedProcess(child.pid)
+    while not child.complete.done():
+        await asyncio.wait({child.complete}, timeout=_LOOK_S)
+        if news := stopped.news():
+            logger.warning(news)
+    return child.complete.result()
