@@ -7,6 +7,7 @@ environment, and says what to do about it in its message.
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,11 @@ __all__ = [
     "NotFoundError",
     "SimulationDivergedError",
     "UserFileError",
+    "file_refusal_text",
 ]
+
+_NO_ROOM = {getattr(errno, name, 0) for name in ("EDQUOT", "EFBIG", "ENOSPC")}
+_NO_RIGHT = {errno.EACCES, errno.EPERM, errno.EROFS}
 
 
 class GazelleError(Exception):
@@ -93,6 +98,21 @@ class GraphError(GazelleError):
 
 class LaunchError(GazelleError):
     """A launch cannot start or go on."""
+
+
+def file_refusal_text(error: OSError) -> str:
+    """Return what to tell of a file system that refuses, with a fix; empty for other errors."""
+    if error.errno in _NO_ROOM:
+        fix = "make some room there, or name another place"
+    elif error.errno in _NO_RIGHT and error.filename is not None:
+        fix = "name a place that you may write to (ls -ld shows whose one is)"
+    else:
+        return ""
+    place = f"{error.filename}: " if error.filename is not None else ""
+    return (
+        f"{place}{error.strerror}\n  fix: {fix}; "
+        "logs go below ROS_LOG_DIR or ROS_HOME, what is kept for next time below XDG_CACHE_HOME"
+    )
 
 
 def _not_found_text(

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.bag.conftest import START_NS, STEP_NS, point_bytes
+from tests.bag.conftest import START_NS, STEP_NS, fill, point_bytes
 from tests.patience import stretched
 
-from gazelle.bag import BagError, Encoding, open_bag, ros1_connection
+from gazelle.bag import (
+    BagError,
+    Encoding,
+    Storage,
+    create_bag,
+    open_bag,
+    ros1_connection,
+    storage_of,
+)
 from gazelle.bag.ros1 import Compression, Ros1Writer
 
 Fill = Callable[..., Path]
@@ -97,3 +106,30 @@ def test_other_files_are_not_touched(tmp_path: Path) -> None:
     with pytest.raises(BagError, match=r"this is no bag of version 2\.0; nothing is appended"):
         Ros1Writer(path, append=True)
     assert path.read_text() == "a letter"
+
+
+@pytest.mark.parametrize("name", ["a.bag", "a.mcap"])
+def test_a_folder_that_somebody_removes_takes_nothing_along(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "runs" / name
+    path.parent.mkdir()
+    writer = create_bag(path, storage_of(path))
+    fill(writer, 100)
+    writer.flush()
+    assert writer.restored == 0
+    shutil.rmtree(path.parent)
+    fill(writer, 10)
+    writer.flush()
+    assert writer.restored == 1
+    shutil.rmtree(path.parent)
+    writer.close()
+    assert writer.restored == 2
+    assert len(list(open_bag(path).messages())) == 110
+
+
+def test_sqlite_tells_that_somebody_removed_its_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.db3"
+    writer = create_bag(path, Storage.SQLITE)
+    fill(writer, 10)
+    path.unlink()
+    with pytest.raises(BagError, match=r"Error writing to file: .*a\.db3: somebody has removed it"):
+        writer.flush()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import threading
 from pathlib import Path
 
@@ -52,3 +53,28 @@ def test_a_file_that_cannot_be_created_is_told_at_the_beginning(
         recorder = Recorder(graph, graph.create_node("recorder"), sink)
         with pytest.raises(BagError, match="No such file or directory"):
             recorder.begin(Selection(("/named",)))
+
+
+def test_a_file_that_somebody_removes_is_written_anew(tmp_path: Path, free_port: int) -> None:
+    folder, said, stop = tmp_path / "runs", list[str](), threading.Event()
+    folder.mkdir()
+    with Graph.open(port=free_port) as hub, Graph.open(port=free_port, role="client") as own:
+        out = hub.create_node("talker").create_publisher("/named", _INT)
+        sink = Ros1Files(lambda: str(folder / "a"))
+        say = lambda level, text: said.append(f"{level}: {text}")  # noqa: E731
+        recorder = Recorder(own, own.create_node("recorder"), sink, say=say)
+        selection = Selection(("/named",))
+        recorder.begin(selection)
+        thread = threading.Thread(target=recorder.run, args=(selection, stop))
+        thread.start()
+        eventually(lambda: out.matched)
+        out.publish(_INT(data=1))
+        eventually(lambda: recorder.written == 1)
+        shutil.rmtree(folder)
+        out.publish(_INT(data=2))
+        text = f"warn: somebody removed the file of '{folder / 'a.bag'}'; it is written anew"
+        eventually(lambda: text in said)
+        stop.set()
+        thread.join()
+    assert said.count(text) == 1
+    assert len(list(open_bag(folder / "a.bag").messages())) == 2

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.patience import stretched
+
+from gazelle.cli.main import main
 
 _GAZELLE = f"{sys.executable} -m gazelle.cli"
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="devices and pipes are files elsewhere")
@@ -72,3 +76,36 @@ def test_endless_device_and_silent_pipe_are_refused(
     assert "Traceback" not in text
     assert "it is a device, not a file" in text
     assert str(pipe) in text
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("roscore",), ("roslaunch", "a.launch"), ("ros2", "launch", "./a.launch.py")],
+    ids=lambda words: " ".join(words[:2]),
+)
+def test_a_home_that_cannot_be_written_is_one_clear_error(
+    words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
+    capsys: pytest.CaptureFixture[str], free_port: int,
+) -> None:  # fmt: skip
+    """As in containers and clusters; root may write everywhere, so the system's word is put in."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("GAZELLE_PORT", str(free_port))
+    (tmp_path / "a.launch").write_text("<launch/>", encoding="utf-8")
+    (tmp_path / "a.launch.py").write_text(
+        "from launch import LaunchDescription as generate_launch_description\n", encoding="utf-8"
+    )
+    make = Path.mkdir
+
+    def refuse(path: Path, *args: Any, **options: Any) -> None:
+        if path == tmp_path / "home":
+            raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(path))
+        make(path, *args, **options)
+
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    assert main([*words]) == 1
+    assert capsys.readouterr().err.endswith(
+        f"{words[0]}: {tmp_path / 'home'}: Read-only file system\n"
+        "  fix: name a place that you may write to (ls -ld shows whose one is); logs go below "
+        "ROS_LOG_DIR or ROS_HOME, what is kept for next time below XDG_CACHE_HOME\n"
+    )

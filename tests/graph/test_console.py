@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import errno
+import io
+import os
 import sys
 
 import pytest
@@ -46,3 +49,19 @@ def test_terminals_get_colours(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     print_record(LogRecord(Level.WARN, "careful", "/n", 0))
     assert capsys.readouterr().err == "\033[33m[ WARN] [0.000000000]: careful\033[0m\n"
+
+
+def test_a_full_disk_ends_nobody_who_writes_to_a_file(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Full(io.StringIO):
+        def flush(self) -> None:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(sys, "stdout", Full())
+    for _ in range(2):
+        print_record(LogRecord(Level.INFO, "here", "/node", wall_ns=0))
+    assert capsys.readouterr().err == (
+        "warning: standard output: No space left on device; "
+        "what cannot be written is missing there\n"
+    )

@@ -11,6 +11,7 @@ from gazelle.bag.records import BagError
 __all__ = ["AppendedFile"]
 
 _MOST_BUFFERS = 512
+_PIECE_BYTES = 1 << 20
 
 
 class AppendedFile:
@@ -19,6 +20,7 @@ class AppendedFile:
     Attributes:
         path: the file.
         size: bytes written.
+        restored: how often somebody had removed it and it was written anew.
     """
 
     def __init__(self, path: Path, start: int | None = None) -> None:
@@ -33,6 +35,7 @@ class AppendedFile:
         """
         self.path = path
         self.size = start or 0
+        self.restored = 0
         anew = os.O_CREAT | os.O_TRUNC if start is None else 0
         try:
             self._file = os.open(path, os.O_RDWR | anew, 0o644)
@@ -50,6 +53,7 @@ class AppendedFile:
         """
         waiting = [memoryview(piece) for piece in pieces if piece]
         try:
+            self._restore_if_removed()
             while waiting:
                 count = os.writev(self._file, waiting[:_MOST_BUFFERS])
                 self.size += count
@@ -64,6 +68,23 @@ class AppendedFile:
     def close(self) -> None:
         """Close the file."""
         os.close(self._file)
+
+    def _restore_if_removed(self) -> None:
+        """Write everything into a new file when the old one is in no folder any more."""
+        if os.fstat(self._file).st_nlink:
+            return
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        new = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o644)
+        try:
+            at = 0
+            while piece := os.pread(self._file, _PIECE_BYTES, at):
+                at += os.write(new, piece)
+        except OSError:
+            os.close(new)
+            raise
+        os.close(self._file)
+        self._file = new
+        self.restored += 1
 
 
 def _rest(pieces: list[memoryview], written: int) -> list[memoryview]:

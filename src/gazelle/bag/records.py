@@ -162,6 +162,11 @@ class BagWriter(Protocol):
         """Bytes written so far, those that wait included."""
         ...
 
+    @property
+    def restored(self) -> int:
+        """How often the file was written anew because somebody had removed it."""
+        ...
+
     def add(self, connection: Connection) -> Connection:
         """Add a connection; returns it with its number in this bag."""
         ...

@@ -9,7 +9,7 @@ from importlib import import_module
 from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
 from gazelle.ending import drop_output
-from gazelle.errors import GazelleError, UserFileError
+from gazelle.errors import GazelleError, UserFileError, file_refusal_text
 
 __all__ = ["main"]
 
@@ -83,6 +83,12 @@ def _run(name: str, rest: list[str]) -> int:
         return 1
     except GazelleError as error:
         print(f"{name}: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        text = file_refusal_text(error)
+        if not text:
+            raise
+        print(f"{name}: {text}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130

@@ -11,6 +11,7 @@ import time
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import TextIO
 
 __all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
 
@@ -36,6 +37,7 @@ _COLOURS = {
     Level.ERROR: "\033[31m",
     Level.FATAL: "\033[31m",
 }
+_full: set[TextIO] = set()
 _WORDS = {"warning": Level.WARN, "critical": Level.FATAL}
 
 
@@ -121,8 +123,21 @@ def print_record(record: LogRecord, *, padded: bool = True) -> None:
     # One that is closed is nobody's any more: a thread may outlive what the main one had for it.
     with suppress(ValueError):
         if stream is not None:
-            stream.write(f"{line}\n")
-            stream.flush()
+            _write(stream, f"{line}\n")
+
+
+def _write(stream: TextIO, text: str) -> None:
+    try:
+        stream.write(text)
+        stream.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        # It goes to a file on a full disk, which is no reason to end.
+        if stream is not sys.stderr and stream not in _full:
+            _full.add(stream)
+            told = f"standard output: {error.strerror}; what cannot be written is missing there"
+            sys.stderr.write(f"warning: {told}\n")
 
 
 def _seconds(stamp_ns: int, digits: int) -> str:

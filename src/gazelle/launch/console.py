@@ -12,6 +12,7 @@ import yaml
 from gazelle.ending import drop_output, when_nobody_reads
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.xml1.values import flatten
+from gazelle.log_files import LogStream
 
 __all__ = ["Console", "dump_text", "summary"]
 
@@ -25,7 +26,7 @@ class Console:
     def __init__(self, stream: TextIO | None = None) -> None:
         self._stream = stream or sys.stdout
         self._coloured = self._stream.isatty()
-        self._log: TextIO | None = None
+        self._log: LogStream | None = None
         self._is_read = True
 
     def when_nobody_reads(self, act: Callable[[], object]) -> None:
@@ -35,7 +36,7 @@ class Console:
         else:
             act()
 
-    def keep(self, log: TextIO | None) -> None:
+    def keep(self, log: LogStream | None) -> None:
         """Write every line to an open file too, from now on; None ends that."""
         self._log = log
 
@@ -60,7 +61,6 @@ class Console:
             # The format of the original's log files.
             time_text = datetime.now().strftime("%Y-%m-%d %H:%M:%S,%f")[:-3]
             self._log.write(f"[roslaunch][{level}] {time_text}: {text}\n")
-            self._log.flush()
         shown = f"{colour}{text}{_RESET}" if colour and self._coloured else text
         try:
             self._stream.write(shown + "\n")

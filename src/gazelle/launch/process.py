@@ -112,4 +112,6 @@ def _log_stream(process: LaunchedProcess) -> IO[bytes] | _Inherited:
     if process.spec.output == "screen":
         return _Inherited()
     path = process.log_stem.with_name(f"{process.log_stem.name}-stdout.log")
+    # `rosclean purge` may have taken the folder away since the launch began.
+    path.parent.mkdir(parents=True, exist_ok=True)
     return path.open("ab")

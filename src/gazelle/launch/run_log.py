@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.launch.environment import ros_home
+from gazelle.log_files import LogStream
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
@@ -51,8 +52,8 @@ def run_log(graph: Graph, wanted: str = "", other: str = "") -> RunLog:
 def begin_log(console: Console, folder: Path) -> Iterator[None]:
     """Keep what a console shows in ``roslaunch-HOST-PID.log`` and say so."""
     name = f"roslaunch-{os.uname().nodename}-{os.getpid()}.log"
-    with (folder / name).open("a", encoding="utf-8") as log:
-        console.plain(f"... logging to {log.name}")
+    with contextlib.closing(LogStream(folder / name)) as log:
+        console.plain(f"... logging to {log.path}")
         console.plain("Press Ctrl-C to interrupt\n")
         console.keep(log)
         try:

@@ -36,7 +36,7 @@ def main(words: list[str]) -> int:
 
 
 def _single(name: str, argv: list[str]) -> int:
-    from gazelle.errors import GazelleError
+    from gazelle.errors import GazelleError, file_refusal_text
     from gazelle.graph import Graph
     from gazelle.nodes.arguments import read_arguments
     from gazelle.nodes.host import run_node
@@ -56,6 +56,12 @@ def _single(name: str, argv: list[str]) -> int:
             return run_node(request, graph, stop)
     except GazelleError as error:
         print(f"[{name}] {error}", file=sys.stderr)  # noqa: T201
+        return 1
+    except OSError as error:
+        text = file_refusal_text(error)
+        if not text:
+            raise
+        print(f"[{name}] {text}", file=sys.stderr)  # noqa: T201
         return 1
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.graph import Level
 from gazelle.graph.console import LogRecord, format_record, print_record
+from gazelle.log_files import LogStream
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -33,15 +33,13 @@ class LogFile:
         show: Callable[..., None] = print_record,
     ) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
-        self._stream = path.open("a", encoding="utf-8", errors="replace", buffering=1)
+        self._stream = LogStream(path)
         self._terminal = terminal
         self._show = show
 
     def __call__(self, record: LogRecord, *, padded: bool = True) -> None:
         """Write one record."""
-        # The node may log once more while it is being closed.
-        with contextlib.suppress(ValueError):
-            self._stream.write(f"{format_record(record, padded=padded)}\n")
+        self._stream.write(f"{format_record(record, padded=padded)}\n")
         if record.level >= self._terminal:
             self._show(record, padded=padded)
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterable
 from logging import Formatter, Handler, LogRecord, NullHandler
-from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from typing import Any
 
 from gazelle.graph import Entity, Graph, Kind, Level, Node
 from gazelle.graph.names import resolve
 from gazelle.interfaces import ros1_message_type
+from gazelle.log_files import RotatingLog
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 
@@ -88,7 +88,7 @@ def _file(own_log: str) -> Handler:
     else:
         path = Path(own_log).with_name("rosout.log")
         path.parent.mkdir(parents=True, exist_ok=True)
-        handler = RotatingFileHandler(
+        handler = RotatingLog(
             path, maxBytes=_FILE_BYTES, backupCount=_FILES, encoding="utf-8", errors="replace"
         )
     handler.setFormatter(Formatter("%(message)s"))

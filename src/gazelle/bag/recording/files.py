@@ -66,6 +66,11 @@ class Ros1Files:
         """Bytes of the file that is being written."""
         return 0 if self._writer is None else self._writer.size
 
+    @property
+    def restored(self) -> int:
+        """How often the file was written anew because somebody had removed it."""
+        return 0 if self._writer is None else self._writer.restored
+
     def add(self, connection: Connection) -> Connection:
         """Add a connection; returns it with its number in these bags."""
         own = replace(connection, id=len(self._connections))

@@ -37,6 +37,11 @@ class Sink(Protocol):
         """Bytes of the file that is being written."""
         ...
 
+    @property
+    def restored(self) -> int:
+        """How often that file was written anew because somebody had removed it."""
+        ...
+
     def add(self, connection: Connection) -> Connection:
         """Add a connection."""
         ...
@@ -119,6 +124,7 @@ class Recorder:
         """
         self.dropped = 0
         self.written = 0
+        self._restored = 0
         self._graph = graph
         self._node = node
         self._sink = sink
@@ -190,13 +196,20 @@ class Recorder:
                 self._write_waiting()
                 if time.monotonic() - flushed_s >= _FLUSH_S:
                     flushed_s = time.monotonic()
-                    self._sink.flush()
+                    self._flush()
                 self._check_limits(self._node.clock.now_ns())
         finally:
             for one in self._subscriptions.values():
                 one.unregister()
             self._write_waiting()
             self._sink.close()
+
+    def _flush(self) -> None:
+        self._sink.flush()
+        restored, self._restored = self._restored, self._sink.restored
+        if self._restored > restored:
+            text = f"somebody removed the file of '{self._sink.path}'; it is written anew"
+            self._say("warn", text)
 
     def _found(self, selection: Selection) -> list[str]:
         return selection.found(self._graph.discovery.known()) if selection.is_open else []

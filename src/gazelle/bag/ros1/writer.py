@@ -112,6 +112,11 @@ class Ros1Writer:
         if self._filled >= self._chunk_bytes:
             self.flush()
 
+    @property
+    def restored(self) -> int:
+        """How often the file was written anew because somebody had removed it."""
+        return self._file.restored
+
     def flush(self) -> None:
         """Write the chunk that is being filled into the file."""
         if not self._filled:

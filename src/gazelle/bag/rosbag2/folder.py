@@ -163,6 +163,11 @@ class Rosbag2Writer:
         """The file that is being written."""
         return self._file.path
 
+    @property
+    def restored(self) -> int:
+        """How often the file was written anew because somebody had removed it."""
+        return self._file.restored
+
     def add(self, connection: Connection) -> Connection:
         """Add a topic; returns it with its number in this bag."""
         own = replace(connection, id=len(self._connections))

@@ -93,14 +93,21 @@ class SqliteWriter:
         if self._held >= _HELD_BYTES:
             self.flush()
 
+    @property
+    def restored(self) -> int:
+        """How often the file was written anew: SQLite cannot do that."""
+        return 0
+
     def flush(self) -> None:
         """Write what waits, as one transaction.
 
         Raises:
-            BagError: the disk is full, or SQLite fails otherwise.
+            BagError: the disk is full, somebody removed the file, or SQLite fails otherwise.
         """
         if not self._waiting:
             return
+        if not self.path.exists():
+            raise BagError(f"Error writing to file: {self.path}: somebody has removed it")
         try:
             self._database.execute("BEGIN")
             self._database.executemany(_INSERT, self._waiting)

@@ -8,9 +8,14 @@ import sys
 from typing import Any, TextIO
 
 from gazelle.ending import drop_output
+from gazelle.log_files import RotatingLog, WatchedLog
 
 __all__ = ["ScreenHandler", "with_per_logger_formatting"]
 
+_OWN: dict[str, type[logging.Handler]] = {
+    "RotatingFileHandler": RotatingLog,
+    "WatchedFileHandler": WatchedLog,
+}
 _made: dict[str, type[logging.Handler]] = {}
 
 
@@ -43,7 +48,7 @@ def with_per_logger_formatting(cls: type[logging.Handler]) -> type[Any]:
 
 def __getattr__(name: str) -> Any:
     """Return any handler of `logging` and `logging.handlers` with a formatter per logger."""
-    found = getattr(logging, name, None) or getattr(logging.handlers, name, None)
+    found = _OWN.get(name) or getattr(logging, name, None) or getattr(logging.handlers, name, None)
     if not (isinstance(found, type) and issubclass(found, logging.Handler)):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     if name not in _made:
