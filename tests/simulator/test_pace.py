@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from gazelle.simulator.pace import Pace, Standstill
+from gazelle.simulator.pace import ClockJump, Pace, Standstill
 
 
 class Wall:
@@ -58,3 +58,13 @@ def test_compiling_and_waiting_for_the_next_step_are_no_standstill() -> None:
     assert standstill.look() == 0.0
     wall.now += 20.0
     assert standstill.look(expected_s=19.0) == 0.0
+
+
+def test_a_clock_that_is_set_jumps_one_that_is_corrected_does_not() -> None:
+    wall, clock = Wall(), Wall()
+    jump = ClockJump(wall=wall, clock=clock)
+    wall.now, clock.now = wall.now + 10.02, clock.now + 10.0
+    assert jump.look() == 0.0
+    wall.now -= 3600.0
+    assert jump.look() == -3600.0
+    assert jump.look() == 0.0

@@ -243,3 +243,16 @@ def test_a_standstill_of_the_process_is_told(
         "nothing was computed for 20.0 s: this process was stopped, or the machine had no time for "
         "it; the world goes on from 0.300 s"
     ]
+
+
+def test_a_clock_that_is_set_is_told(
+    load: Load, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    server = load().server
+    jumps = iter((-3600.04,))
+    monkeypatch.setattr(server._clock_jump, "look", lambda: next(jumps, 0.0))
+    server.run(iterations=50)
+    assert [text for text in caplog.messages if "clock" in text] == [
+        "the system's clock was set back by 3600.0 s; simulated time goes on as before, stamps of "
+        "the system's clock jump"
+    ]

@@ -6,9 +6,11 @@ import time
 from collections.abc import Callable
 from enum import Enum
 
-__all__ = ["Mode", "Pace", "Standstill"]
+__all__ = ["ClockJump", "Mode", "Pace", "Standstill"]
 
 _LONG_S = 2.0
+# Clocks that are corrected by the network creep; who sets one jumps.
+_JUMP_S = 1.0
 # Of the time that has passed; loading and compiling compute all the while.
 _IDLE_SHARE = 0.1
 
@@ -90,3 +92,24 @@ class Standstill:
         self._last_s, self._computed_s = now_s, computed_s
         is_long = passed_s - expected_s > _LONG_S and work_s < _IDLE_SHARE * passed_s
         return passed_s if is_long else 0.0
+
+
+class ClockJump:
+    """Tells that somebody set the system's clock."""
+
+    def __init__(
+        self,
+        *,
+        wall: Callable[[], float] = time.time,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Begin to look."""
+        self._wall, self._clock = wall, clock
+        self._ahead_s = wall() - clock()
+
+    def look(self) -> float:
+        """Return by how many seconds the clock was set since the last call, 0 for not."""
+        ahead_s = self._wall() - self._clock()
+        before_s, self._ahead_s = self._ahead_s, ahead_s
+        jump_s = ahead_s - before_s
+        return jump_s if abs(jump_s) > _JUMP_S else 0.0

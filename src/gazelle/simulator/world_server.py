@@ -16,7 +16,7 @@ from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.frames import FrameWorker
 from gazelle.simulator.inputs import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.pace import Mode, Pace, Standstill
+from gazelle.simulator.pace import ClockJump, Mode, Pace, Standstill
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
@@ -114,6 +114,7 @@ class WorldServer:
         self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
         self.pace = Pace(self._wanted_factor())
         self._standstill = Standstill()
+        self._clock_jump = ClockJump()
         self._stop = threading.Event()
         self._resources: dict[str, Resources] = {}
         self._world_resources = Resources(self)
@@ -291,7 +292,7 @@ class WorldServer:
         if lead > 0:
             self.commands.wait(lead)
             self.commands.clear_wake()
-            self._tell_standstill(lead)
+            self._tell_disturbances(lead)
             return
         factor = self.pace.factor
         count = self.pace.slice_steps(self.engine.step_ns) if factor > 0 else _FAST_SLICE
@@ -304,13 +305,20 @@ class WorldServer:
                 raise
             recover(self, error)
             self.pace.restart(self.engine.time_ns)
-        self._tell_standstill(0.0)
+        self._tell_disturbances(0.0)
 
-    def _tell_standstill(self, expected_s: float) -> None:
+    def _tell_disturbances(self, expected_s: float) -> None:
         if seconds := self._standstill.look(expected_s):
             text = (
                 f"nothing was computed for {seconds:.1f} s: this process was stopped, or the "
                 f"machine had no time for it; the world goes on from {self.time_ns * 1e-9:.3f} s"
+            )
+            self.node.log("WARN", text)
+        if jump_s := self._clock_jump.look():
+            way = "back" if jump_s < 0 else "ahead"
+            text = (
+                f"the system's clock was set {way} by {abs(jump_s):.1f} s; simulated time goes on "
+                "as before, stamps of the system's clock jump"
             )
             self.node.log("WARN", text)
 
