@@ -33,6 +33,7 @@ class PlaneWorld:
         blind: no scans are sent.
         touched: where the robot's centre was in a wall.
         drift: of odometry against the map, x and y.
+        factor: how many times faster than real time it runs.
     """
 
     def __init__(self, node: Any, walls: np.ndarray, pose=(1.0, 1.0, 0.0), factor: float = 8.0):
@@ -45,7 +46,7 @@ class PlaneWorld:
         self.touched: list[tuple[float, float]] = []
         self.drift = (0.3, -0.2)
         self.now_ns = 1_000_000_000
-        self._factor = factor
+        self.factor = factor
         self._stop = threading.Event()
         node.parameters.set("/use_sim_time", True)
         self._clock = node.create_publisher("/clock", "rosgraph_msgs/msg/Clock")
@@ -79,7 +80,7 @@ class PlaneWorld:
         while not self._stop.is_set():
             began = time.monotonic()
             self._step()
-            left = _STEP_NS / 1e9 / self._factor - (time.monotonic() - began)
+            left = _STEP_NS / 1e9 / self.factor - (time.monotonic() - began)
             self._stop.wait(max(left, 0.0))
 
     def _step(self) -> None:

@@ -57,6 +57,8 @@ class _Plot:
         self._channel = channel
         self._curves = curves
         self._lock = threading.Lock()
+        # Of two workers that empty the queue, the first one's points go out first.
+        self._turn = threading.Lock()
         by_topic: dict[str, list[int]] = {}
         for index, curve in enumerate(curves):
             by_topic.setdefault(curve.topic, []).append(index)
@@ -81,6 +83,10 @@ class _Plot:
         self._studio.workers.submit(self._drain)
 
     def _drain(self) -> None:
+        with self._turn:
+            self._send()
+
+    def _send(self) -> None:
         with self._lock:
             queue, self._queue = self._queue, deque()
         times: dict[int, list[float]] = {}
