@@ -16,24 +16,23 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
-import os
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import psutil
+from launched_scout import launched_scout
 from marked_processes import pids_of
 
 from gazelle.graph import Graph
 from gazelle.graph.keys import Entity
 
-_WORKSPACE = Path(__file__).resolve().parents[2] / "examples" / "scout_ws"
 _MARK = "GAZELLE_CROWD"
 _FAST, _WATCHERS, _SLEEPERS, _NEIGHBOURS, _TOPICS_EACH = 6, 5, 5, 44, 4
 _ROLES = ("fast", "watcher", "neighbour", "sleeper")
@@ -89,8 +88,14 @@ def main() -> int:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        graph, start = stack.enter_context(_robot(folder))
-        clock = _Clock(graph)
+        scout = stack.enter_context(launched_scout(folder, _MARK))
+        graph, clock = scout.graph, _Clock(scout.graph)
+        member = folder / "member.py"
+        member.write_text(_member_text(), encoding="utf-8")
+
+        def start(role: str, number: int) -> subprocess.Popen[bytes]:
+            return scout.start("gazelle.compat.runner", str(member), role, str(number))
+
         for number in range(_FAST):
             start("fast", number)
         for number in range(_WATCHERS):
@@ -121,6 +126,11 @@ def main() -> int:
     return int(share < _LEAST_SHARE or steepest > _MOST_MB_PER_HOUR)
 
 
+def _member_text() -> str:
+    text = _MEMBER.replace("EACH", str(_TOPICS_EACH)).replace("COUNT", str(_NEIGHBOURS))
+    return text.replace("PICTURES", repr(_PICTURES))
+
+
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=30.0, help="of looking at memory")
@@ -139,44 +149,6 @@ class _Clock:
         first_ns, begin_s = self._clock.now_ns(), time.monotonic()
         time.sleep(window_s)
         return (self._clock.now_ns() - first_ns) * 1e-9 / (time.monotonic() - begin_s)
-
-
-@contextlib.contextmanager
-def _robot(folder: Path) -> Iterator[tuple[Graph, Any]]:
-    """Bring the robot up; gives the graph and what starts a member of the crowd."""
-    text = _MEMBER.replace("EACH", str(_TOPICS_EACH)).replace("COUNT", str(_NEIGHBOURS))
-    member = folder / "member.py"
-    member.write_text(text.replace("PICTURES", repr(_PICTURES)), encoding="utf-8")
-    port = str(20_000 + os.getpid() % 10_000)
-    own = {"GAZELLE_PORT": port, _MARK: folder.name, "ROS_HOME": str(folder), "GAZELLE_STUDIO": "0"}
-    environ = {**os.environ, **own}
-    log = (folder / "launch.log").open("w", encoding="utf-8")
-    launch = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli", "roslaunch", "scout_robot", "scout.launch"],
-        cwd=_WORKSPACE, env=environ, stdout=log, stderr=subprocess.STDOUT,
-    )  # fmt: skip
-    started = [launch]
-
-    def start(role: str, number: int) -> subprocess.Popen[bytes]:
-        words = [sys.executable, "-m", "gazelle.compat.runner", str(member), role, str(number)]
-        started.append(subprocess.Popen(words, env=environ, stdout=log, stderr=log))
-        return started[-1]
-
-    try:
-        with Graph.open(environ=environ) as graph:
-            if not graph.wait_for_service("/gazebo/set_model_state", _STARTING_S):
-                raise SystemExit(f"the robot did not come up:\n{Path(log.name).read_text()}")
-            yield graph, start
-    finally:
-        for one in reversed(started):
-            one.send_signal(signal.SIGINT)
-        for one in started:
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                one.wait(20.0)
-        for pid in pids_of(_MARK, folder.name):
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-        log.close()
 
 
 def _wait_for_nodes(graph: Graph, count: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -206,3 +207,19 @@ def test_killed_simulator_is_reported_and_comes_back_when_the_file_says_so(
     run.messages({"/clock": 1})
     assert run.stop() == 0
     assert run.processes() == {}
+
+
+def test_a_node_starts_again_where_its_logs_were_removed(
+    launch: Launch, node: Launch, tmp_path: Path
+) -> None:
+    """``rosclean purge`` beside a launch."""
+    run = launch(node("stays", "say=here wait", respawn="true"))
+    started = r"process\[stays-2\]: started with pid \[(\d+)\]"
+    found = re.search(started, run.wait_for_line(started))
+    assert found
+    shutil.rmtree(tmp_path / "ros_home" / "log")
+    os.kill(int(found[1]), signal.SIGKILL)
+    run.eventually(lambda: len(re.findall(started, run.text)) == 2)
+    logs = tmp_path / "ros_home" / "log"
+    run.eventually(lambda: [one for one in logs.rglob("stays-2-stdout.log") if one.read_text()])
+    assert run.stop() == 0
