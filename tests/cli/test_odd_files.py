@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 from tests.patience import stretched
-
-from gazelle.cli.main import main
 
 _GAZELLE = f"{sys.executable} -m gazelle.cli"
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="devices and pipes are files elsewhere")
@@ -78,34 +74,41 @@ def test_endless_device_and_silent_pipe_are_refused(
     assert str(pipe) in text
 
 
-@pytest.mark.parametrize(
-    "words",
-    [("roscore",), ("roslaunch", "a.launch"), ("ros2", "launch", "./a.launch.py")],
-    ids=lambda words: " ".join(words[:2]),
-)
+# Root may write everywhere, so the system's word is put in.
+_READ_ONLY = """
+import errno, os, sys
+from pathlib import Path
+from gazelle.cli.main import main
+home, make = Path(os.environ["ROS_HOME"]), Path.mkdir
+
+def refuse(path, *args, **options):
+    if path == home:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(path))
+    make(path, *args, **options)
+
+Path.mkdir = refuse
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.parametrize("words", ["roscore", "roslaunch a.launch", "ros2 launch ./a.launch.py"])
 def test_a_home_that_cannot_be_written_is_one_clear_error(
-    words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
-    capsys: pytest.CaptureFixture[str], free_port: int,
-) -> None:  # fmt: skip
-    """As in containers and clusters; root may write everywhere, so the system's word is put in."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("ROS_HOME", str(tmp_path / "home"))
-    monkeypatch.setenv("GAZELLE_PORT", str(free_port))
+    words: str, tmp_path: Path, free_port: int
+) -> None:
+    """As in containers and on clusters."""
+    home = tmp_path / "home"
     (tmp_path / "a.launch").write_text("<launch/>", encoding="utf-8")
     (tmp_path / "a.launch.py").write_text(
         "from launch import LaunchDescription as generate_launch_description\n", encoding="utf-8"
     )
-    make = Path.mkdir
-
-    def refuse(path: Path, *args: Any, **options: Any) -> None:
-        if path == tmp_path / "home":
-            raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(path))
-        make(path, *args, **options)
-
-    monkeypatch.setattr(Path, "mkdir", refuse)
-    assert main([*words]) == 1
-    assert capsys.readouterr().err.endswith(
-        f"{words[0]}: {tmp_path / 'home'}: Read-only file system\n"
+    environ = {**os.environ, "ROS_HOME": str(home), "GAZELLE_PORT": str(free_port)}
+    done = subprocess.run(
+        [sys.executable, "-c", _READ_ONLY, *words.split()],
+        cwd=tmp_path, env=environ, capture_output=True, text=True, timeout=stretched(), check=False,
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.endswith(
+        f"{words.split(maxsplit=1)[0]}: {home}: Read-only file system\n"
         "  fix: name a place that you may write to (ls -ld shows whose one is); logs go below "
         "ROS_LOG_DIR or ROS_HOME, what is kept for next time below XDG_CACHE_HOME\n"
     )
