@@ -155,14 +155,29 @@ class Presence:
             self._refused.clear()
 
     def is_forgotten(self, state: State) -> bool:
-        """Return whether a master that this was registered at knows nothing of it any more.
+        """Return whether a master lacks what was registered there.
 
-        One that knows the name knows somebody else by it, or a part was taken back.
+        Not where somebody else has this name now: that is how it should be.
+
+        Raises:
+            RemoteError: the master does not answer; call again later.
         """
-        sides = (state.publishers, state.subscribers, state.services)
+        sides = {
+            "Publisher": state.publishers,
+            "Subscriber": state.subscribers,
+            "Service": state.services,
+        }
         with self._lock:
-            was_taken = bool(self._registered - self._refused)
-        return was_taken and not any(node == self.name for side in sides for node, _ in side)
+            wanted = self._registered - self._refused
+        # Of several that offer a service the last one counts.
+        wanted -= {("Service", name) for _, name in state.services}
+        if all((self.name, name) in sides[what] for what, name in wanted):
+            return False
+        if not any(node == self.name for side in sides.values() for node, _ in side):
+            return True
+        with contextlib.suppress(RemoteRefusedError):
+            return bool(self._ask("lookupNode", self.name, self.name) == self.uri)
+        return True
 
     def close(self) -> None:
         """Unregister all and close the port.
