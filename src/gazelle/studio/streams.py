@@ -196,10 +196,12 @@ class Channel:
         frames: tuple[Any, ...] = ()
         if make is not None and not self._closed:
             frames = self._made(make)
+        with self._lock:
+            # Before they are sent: the page may have drawn them before this goes on.
+            self._credits -= len(frames)
         # Before another worker may make the next: the newest is sent last.
         self._send_frames(frames)
         with self._lock:
-            self._credits -= len(frames)
             again = self._next is not None and self._credits > 0 and not self._closed
             self._making = again
         if again:
