@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import errno
-import logging
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from gazelle.log_files import LogStream, RotatingLog, WatchedLog
+from gazelle.log_files import LogStream
 
 
 class Disk:
@@ -58,28 +56,3 @@ def test_lines_of_a_full_disk_are_left_out_and_that_is_told_once(
         "… 2 lines are missing here: they could not be written",
         "four",
     ]
-
-
-@pytest.mark.parametrize("kind", [RotatingLog, WatchedLog])
-def test_handlers_tell_of_a_full_disk_once_and_close(
-    kind: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    handler = kind(tmp_path / "rosout.log")
-
-    class Full:
-        def write(self, text: str) -> None:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-        flush = close = lambda self: self.write("")
-
-    handler.stream.close()
-    handler.stream = Full()
-    handler.reopenIfNeeded = lambda: None
-    handler.shouldRollover = lambda record: False
-    for _ in range(2):
-        handler.handle(logging.LogRecord("rosout", 0, "", 0, "text", None, None))
-    handler.close()
-    assert capsys.readouterr().err == (
-        f"warning: {tmp_path / 'rosout.log'}: No space left on device; "
-        "what cannot be written is missing there\n"
-    )

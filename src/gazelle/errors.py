@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 _NO_ROOM = {getattr(errno, name, 0) for name in ("EDQUOT", "EFBIG", "ENOSPC")}
-_NO_RIGHT = {errno.EACCES, errno.EPERM, errno.EROFS}
+_NO_RIGHT = {errno.EACCES, errno.EPERM}
 
 
 class GazelleError(Exception):
@@ -104,8 +104,10 @@ def file_refusal_text(error: OSError) -> str:
     """Return what to tell of a file system that refuses, with a fix; empty for other errors."""
     if error.errno in _NO_ROOM:
         fix = "make some room there, or name another place"
-    elif error.errno in _NO_RIGHT and error.filename is not None:
+    elif error.errno == errno.EROFS and error.filename is not None:
         fix = "name a place that you may write to (ls -ld shows whose one is)"
+    elif error.errno in _NO_RIGHT and error.filename is not None:
+        fix = "give yourself the right to it (ls -ld shows whose it is), or name another place"
     else:
         return ""
     place = f"{error.filename}: " if error.filename is not None else ""

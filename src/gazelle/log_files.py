@@ -1,17 +1,16 @@
-"""Log files that a full disk does not turn into the end of whoever writes them."""
+"""Log files on a disk that may be full, which is no reason for whoever writes them to end."""
 
 from __future__ import annotations
 
-import logging
 import os
 import sys
+import threading
 from contextlib import suppress
-from logging.handlers import RotatingFileHandler, WatchedFileHandler
 from pathlib import Path
 
-__all__ = ["LogStream", "RotatingLog", "WatchedLog"]
+__all__ = ["LogStream", "tell_of_gap"]
 
-_told: set[Path] = set()
+_told: set[str] = set()
 
 
 class LogStream:
@@ -30,11 +29,25 @@ class LogStream:
         self.path = path
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
         self._missing = 0
+        # A closed descriptor's number may be another file's at once. A signal's handler may log
+        # while its own thread does.
+        self._lock = threading.RLock()
 
     def write(self, text: str) -> None:
         """Add some text, usually a line; nothing after `close`."""
-        if self._descriptor < 0:
-            return
+        with self._lock:
+            if self._descriptor >= 0:
+                self._add(text)
+
+    def close(self) -> None:
+        """Write nothing more."""
+        with self._lock:
+            descriptor, self._descriptor = self._descriptor, -1
+        if descriptor >= 0:
+            with suppress(OSError):
+                os.close(descriptor)
+
+    def _add(self, text: str) -> None:
         if self._missing:
             gap = f"… {self._missing} lines are missing here: they could not be written\n"
             text = f"{gap}{text}"
@@ -42,41 +55,9 @@ class LogStream:
             _write_all(self._descriptor, text.encode("utf-8", "replace"))
         except OSError as error:
             self._missing += 1
-            _tell_once(self.path, error)
+            tell_of_gap(str(self.path), error)
         else:
             self._missing = 0
-
-    def close(self) -> None:
-        """Write nothing more."""
-        descriptor, self._descriptor = self._descriptor, -1
-        if descriptor >= 0:
-            with suppress(OSError):
-                os.close(descriptor)
-
-
-class _TellsOnce(logging.FileHandler):
-    """A handler that says once when the disk does not take a record, in place of tracebacks."""
-
-    def handleError(self, record: logging.LogRecord) -> None:
-        """Say what is wrong with the disk; leave other mistakes to logging."""
-        error = sys.exc_info()[1]
-        if isinstance(error, OSError):
-            _tell_once(Path(self.baseFilename), error)
-        else:
-            super().handleError(record)
-
-    def close(self) -> None:
-        """Close the file, also when it cannot take its last bytes."""
-        with suppress(OSError):
-            super().close()
-
-
-class RotatingLog(_TellsOnce, RotatingFileHandler):
-    """The handler of this name, on a disk that may be full."""
-
-
-class WatchedLog(_TellsOnce, WatchedFileHandler):
-    """The handler of this name, on a disk that may be full."""
 
 
 def _write_all(descriptor: int, data: bytes) -> None:
@@ -84,12 +65,12 @@ def _write_all(descriptor: int, data: bytes) -> None:
         data = data[os.write(descriptor, data) :]
 
 
-def _tell_once(path: Path, error: OSError) -> None:
-    """Say of a file that it lacks something; several may write to it."""
-    if path in _told:
+def tell_of_gap(place: str, error: OSError) -> None:
+    """Say once on standard error that something is missing at a place; several may write there."""
+    if place in _told:
         return
-    _told.add(path)
-    text = f"{path}: {error.strerror}; what cannot be written is missing there"
+    _told.add(place)
     if sys.stderr is not None:
         with suppress(OSError, ValueError):
+            text = f"{place}: {error.strerror}; what cannot be written is missing there"
             sys.stderr.write(f"warning: {text}\n")

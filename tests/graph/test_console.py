@@ -58,6 +58,7 @@ def test_a_full_disk_ends_nobody_who_writes_to_a_file(
         def flush(self) -> None:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
+    monkeypatch.setattr("gazelle.log_files._told", set())
     monkeypatch.setattr(sys, "stdout", Full())
     for _ in range(2):
         print_record(LogRecord(Level.INFO, "here", "/node", wall_ns=0))

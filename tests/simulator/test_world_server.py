@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -230,29 +231,20 @@ def test_a_mode_that_keeps_time_drops_late_frames_and_says_so(
     assert "camera 'eye::eye::camera' is late for its 100 Hz" in found[0].message
 
 
-def test_a_standstill_of_the_process_is_told(
+def test_disturbances_are_told_with_the_worlds_time(
     load: Load, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
+    looks: list[tuple[float, float]] = []
+
+    class Disturbed:
+        def look(self, world_s: float, idle_s: float) -> list[str]:
+            looks.append((world_s, idle_s))
+            return ["nothing was computed"] if len(looks) == 2 else []
+
     server = load().server
     server.step(250)
-    lengths = iter((0.0, 20.04))
-    monkeypatch.setattr(server._standstill, "look", lambda expected_s=0.0: next(lengths, 0.0))
+    monkeypatch.setattr(server, "_disturbances", Disturbed())
     server.run(iterations=50)
-    told = [text for text in caplog.messages if "nothing was computed" in text]
-    assert told == [
-        "nothing was computed for 20.0 s: this process was stopped, or the machine had no time for "
-        "it; the world goes on from 0.300 s"
-    ]
-
-
-def test_a_clock_that_is_set_is_told(
-    load: Load, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    server = load().server
-    jumps = iter((-3600.04,))
-    monkeypatch.setattr(server._clock_jump, "look", lambda: next(jumps, 0.0))
-    server.run(iterations=50)
-    assert [text for text in caplog.messages if "clock" in text] == [
-        "the system's clock was set back by 3600.0 s; simulated time goes on as before, stamps of "
-        "the system's clock jump"
-    ]
+    assert caplog.messages.count("nothing was computed") == 1
+    # What was before the run is no standstill.
+    assert looks == [(pytest.approx(0.25), math.inf), (pytest.approx(0.3), 0.0)]

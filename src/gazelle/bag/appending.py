@@ -81,6 +81,7 @@ class AppendedFile:
                 at += os.write(new, piece)
         except OSError:
             os.close(new)
+            self.path.unlink()
             raise
         os.close(self._file)
         self._file = new

@@ -13,6 +13,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TextIO
 
+from gazelle.log_files import tell_of_gap
+
 __all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
 
 _DEFAULT_FORMAT = "[${severity}] [${time}]: ${message}"
@@ -37,7 +39,6 @@ _COLOURS = {
     Level.ERROR: "\033[31m",
     Level.FATAL: "\033[31m",
 }
-_full: set[TextIO] = set()
 _WORDS = {"warning": Level.WARN, "critical": Level.FATAL}
 
 
@@ -134,10 +135,7 @@ def _write(stream: TextIO, text: str) -> None:
         raise
     except OSError as error:
         # It goes to a file on a full disk, which is no reason to end.
-        if stream is not sys.stderr and stream not in _full:
-            _full.add(stream)
-            told = f"standard output: {error.strerror}; what cannot be written is missing there"
-            sys.stderr.write(f"warning: {told}\n")
+        tell_of_gap("standard output" if stream is sys.stdout else "standard error", error)
 
 
 def _seconds(stamp_ns: int, digits: int) -> str:

@@ -262,7 +262,6 @@ class Supervisor:
         if self._guard is None:
             self._guard = Guard()
         self._guard.begun(popen.pid)
-        self._stopped[popen.pid] = StoppedProcess(popen.pid)
 
     def _tell_stopped(self) -> None:
         """Say which processes a signal has stopped, or lets go on."""
@@ -270,7 +269,7 @@ class Supervisor:
         for process in self._running:
             if process.popen is not None:
                 labels.setdefault(process.popen.pid, []).append(process.label)
-        self._stopped = {pid: one for pid, one in self._stopped.items() if pid in labels}
+        self._stopped = {pid: self._stopped.get(pid) or StoppedProcess(pid) for pid in labels}
         for pid, one in self._stopped.items():
             if news := one.news():
                 self._console.warning(f"[{', '.join(labels[pid])}] {news}")

@@ -11,7 +11,7 @@ from typing import Any
 from gazelle.graph import Entity, Graph, Kind, Level, Node
 from gazelle.graph.names import resolve
 from gazelle.interfaces import ros1_message_type
-from gazelle.log_files import RotatingLog
+from gazelle.log_handlers import RotatingLog
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 

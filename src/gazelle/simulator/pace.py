@@ -6,13 +6,7 @@ import time
 from collections.abc import Callable
 from enum import Enum
 
-__all__ = ["ClockJump", "Mode", "Pace", "Standstill"]
-
-_LONG_S = 2.0
-# Clocks that are corrected by the network creep; who sets one jumps.
-_JUMP_S = 1.0
-# Of the time that has passed; loading and compiling compute all the while.
-_IDLE_SHARE = 0.1
+__all__ = ["Mode", "Pace"]
 
 
 class Mode(Enum):
@@ -63,53 +57,3 @@ class Pace:
     def slice_steps(self, step_ns: int) -> int:
         """Return how many steps fit into one slice of wall time at the wanted factor."""
         return max(1, int(self.SLICE_S * max(self.factor, 1e-3) * 1e9 / step_ns))
-
-
-class Standstill:
-    """Tells that the process did nothing where it should have: SIGSTOP, a debugger, a busy machine.
-
-    A clock of a machine that sleeps stands still itself; that is not seen.
-    """
-
-    def __init__(
-        self,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        computing: Callable[[], float] = time.process_time,
-    ) -> None:
-        """Begin to look."""
-        self._clock, self._computing = clock, computing
-        self._last_s, self._computed_s = clock(), computing()
-
-    def look(self, expected_s: float = 0.0) -> float:
-        """Return for how many seconds nothing was done since the last call, 0 for no long time.
-
-        Args:
-            expected_s: how long there was nothing to do.
-        """
-        now_s, computed_s = self._clock(), self._computing()
-        passed_s, work_s = now_s - self._last_s, computed_s - self._computed_s
-        self._last_s, self._computed_s = now_s, computed_s
-        is_long = passed_s - expected_s > _LONG_S and work_s < _IDLE_SHARE * passed_s
-        return passed_s if is_long else 0.0
-
-
-class ClockJump:
-    """Tells that somebody set the system's clock."""
-
-    def __init__(
-        self,
-        *,
-        wall: Callable[[], float] = time.time,
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:
-        """Begin to look."""
-        self._wall, self._clock = wall, clock
-        self._ahead_s = wall() - clock()
-
-    def look(self) -> float:
-        """Return by how many seconds the clock was set since the last call, 0 for not."""
-        ahead_s = self._wall() - self._clock()
-        before_s, self._ahead_s = self._ahead_s, ahead_s
-        jump_s = ahead_s - before_s
-        return jump_s if abs(jump_s) > _JUMP_S else 0.0

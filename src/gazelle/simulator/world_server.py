@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -13,10 +14,11 @@ from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
 from gazelle.simulator.commands import CommandQueue, telling
 from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.disturbances import Disturbances
 from gazelle.simulator.frames import FrameWorker
 from gazelle.simulator.inputs import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.pace import ClockJump, Mode, Pace, Standstill
+from gazelle.simulator.pace import Mode, Pace
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
@@ -113,8 +115,7 @@ class WorldServer:
         self.sensors = SensorSet(self.engine, seed)
         self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
         self.pace = Pace(self._wanted_factor())
-        self._standstill = Standstill()
-        self._clock_jump = ClockJump()
+        self._disturbances = Disturbances()
         self._stop = threading.Event()
         self._resources: dict[str, Resources] = {}
         self._world_resources = Resources(self)
@@ -173,7 +174,7 @@ class WorldServer:
         """
         self.commands.own()
         self.pace.restart(self.engine.time_ns)
-        self._standstill.look()
+        self._tell_disturbances(math.inf)
         try:
             last = self.engine.iteration + iterations if iterations else None
             while not self._stop.is_set() and self.engine.iteration != last:
@@ -286,7 +287,7 @@ class WorldServer:
             self.commands.wait(None)
             self.commands.clear_wake()
             self.pace.restart(self.engine.time_ns)
-            self._standstill.look()
+            self._tell_disturbances(math.inf)
             return
         lead = self.pace.lead_s(self.engine.time_ns)
         if lead > 0:
@@ -307,19 +308,8 @@ class WorldServer:
             self.pace.restart(self.engine.time_ns)
         self._tell_disturbances(0.0)
 
-    def _tell_disturbances(self, expected_s: float) -> None:
-        if seconds := self._standstill.look(expected_s):
-            text = (
-                f"nothing was computed for {seconds:.1f} s: this process was stopped, or the "
-                f"machine had no time for it; the world goes on from {self.time_ns * 1e-9:.3f} s"
-            )
-            self.node.log("WARN", text)
-        if jump_s := self._clock_jump.look():
-            way = "back" if jump_s < 0 else "ahead"
-            text = (
-                f"the system's clock was set {way} by {abs(jump_s):.1f} s; simulated time goes on "
-                "as before, stamps of the system's clock jump"
-            )
+    def _tell_disturbances(self, idle_s: float) -> None:
+        for text in self._disturbances.look(self.time_ns * 1e-9, idle_s):
             self.node.log("WARN", text)
 
     def senders(self, arrival: Arrival) -> tuple[str, ...]:

@@ -196,16 +196,17 @@ class Recorder:
                 self._write_waiting()
                 if time.monotonic() - flushed_s >= _FLUSH_S:
                     flushed_s = time.monotonic()
-                    self._flush()
+                    self._sink.flush()
+                    self._tell_restored()
                 self._check_limits(self._node.clock.now_ns())
         finally:
             for one in self._subscriptions.values():
                 one.unregister()
             self._write_waiting()
             self._sink.close()
+            self._tell_restored()
 
-    def _flush(self) -> None:
-        self._sink.flush()
+    def _tell_restored(self) -> None:
         restored, self._restored = self._restored, self._sink.restored
         if self._restored > restored:
             text = f"somebody removed the file of '{self._sink.path}'; it is written anew"

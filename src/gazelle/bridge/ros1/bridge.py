@@ -130,11 +130,11 @@ class Bridge:
         self._settle_topics(wishes)
 
     def _register_again(self, state: State) -> None:
-        """Forget what a master has forgotten that was started anew since it was last asked."""
+        """Have told again what a master lacks that was started anew since it was last asked."""
         forgotten = [one for one in self._all_presences if one.is_forgotten(state)]
         for presence in forgotten:
             presence.start_over()
-        if forgotten and not self._lost:
+        if forgotten and self._sync is not None and not self._lost:
             # Who listens to parameters is forgotten, too.
             self._lost = True
             text = f"the master at {self.master.uri} has forgotten everything; it is told again"

@@ -8,7 +8,7 @@ import sys
 from typing import Any, TextIO
 
 from gazelle.ending import drop_output
-from gazelle.log_files import RotatingLog, WatchedLog
+from gazelle.log_handlers import RotatingLog, WatchedLog
 
 __all__ = ["ScreenHandler", "with_per_logger_formatting"]
 
