@@ -62,6 +62,24 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
+def own_environment() -> Iterator[None]:
+    """A test that leaves variables or another folder to those after it fails itself."""
+    variables, folder = dict(os.environ), Path.cwd()
+    yield
+    changed = sorted(
+        name
+        for name, _ in dict(os.environ).items() ^ variables.items()
+        if name != "PYTEST_CURRENT_TEST"
+    )
+    moved = Path.cwd() != folder
+    if changed or moved:
+        os.environ.clear()
+        os.environ.update(variables)
+        os.chdir(folder)
+        pytest.fail(f"left to other tests: {', '.join(dict.fromkeys(changed))} {'cwd' * moved}")
+
+
+@pytest.fixture(autouse=True)
 def own_definitions() -> Iterator[None]:
     """What a test's peers, bags and workspaces say of types is forgotten after it."""
     yield

@@ -6,7 +6,7 @@ The example robot runs in its workshop, in real time, on a graph whose hub is a 
 own. Then, one after the other:
 
 * ``simulator-stopped``, ``node-stopped``, ``launcher-stopped``: SIGSTOP for 20 s.
-* ``clock-set-back``: an hour, for the simulator, by libfaketime where that is installed.
+* ``clock-set-back``: an hour, for all processes of the launch; needs a C compiler (``cc``).
 * ``disk-full``: a recorder and the launch's logs reach a file size's limit.
 * ``folder-removed``: of the logs and of a bag that is being recorded.
 * ``hub-unplugged``: SIGKILL for `roscore`.
@@ -42,7 +42,45 @@ from gazelle.graph import Graph, NoGraphError
 from gazelle.interfaces import message_type
 
 _MARK = "GAZELLE_MISHAPS"
-_FAKETIME = Path("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1")
+_SHIFT = "clock_shift"
+# Adds what a file says to the system's clock; libfaketime 0.9.10 breaks clock_nanosleep.
+_SHIFTED_CLOCK = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/time.h>
+#include <time.h>
+static volatile long *shift;
+__attribute__((constructor)) static void begin(void) {
+    int file = open(getenv("CLOCK_SHIFT"), O_RDONLY);
+    void *place = mmap(0, sizeof(long), PROT_READ, MAP_SHARED, file, 0);
+    if (place != MAP_FAILED) shift = place;
+}
+int clock_gettime(clockid_t id, struct timespec *at) {
+    static int (*real)(clockid_t, struct timespec *);
+    if (!real) real = dlsym(RTLD_NEXT, "clock_gettime");
+    int code = real(id, at);
+    if (!code && shift && (id == CLOCK_REALTIME || id == CLOCK_REALTIME_COARSE))
+        at->tv_sec += *shift;
+    return code;
+}
+int gettimeofday(struct timeval *restrict at, void *restrict zone) {
+    struct timespec now;
+    (void)zone;
+    clock_gettime(CLOCK_REALTIME, &now);
+    at->tv_sec = now.tv_sec;
+    at->tv_usec = now.tv_nsec / 1000;
+    return 0;
+}
+time_t time(time_t *at) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    if (at) *at = now.tv_sec;
+    return now.tv_sec;
+}
+"""
 _PATIENCE_S = 60.0
 _DRIVEN_M = 0.1
 _FILE_BYTES = 300_000
@@ -54,13 +92,13 @@ def main() -> int:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        offset = folder / "offset"
-        offset.write_text("+0\n", encoding="utf-8")
         with (
             _hub(folder) as (port, core),
-            launched_scout(folder, _MARK, GAZELLE_PORT=port, **_faked(offset)) as scout,
+            launched_scout(folder, _MARK, GAZELLE_PORT=port, **_shifted_clock(folder)) as scout,
         ):
-            mishaps = _Mishaps(scout, folder, offset, core, options.stop_s)
+            mishaps = _Mishaps(scout, folder, core, options.stop_s)
+            if not mishaps.drives():
+                raise SystemExit(f"the robot does not drive:\n{scout.log.read_text()}")
             _tell("up", **mishaps.state())
             failed = [one for one in options.names or _NAMES if not _withstood(mishaps, one)]
     return int(bool(failed))
@@ -99,25 +137,30 @@ def _answers(port: str) -> bool:
         return False
 
 
-def _faked(offset: Path) -> dict[str, str]:
-    if not _FAKETIME.exists():
+def _shifted_clock(folder: Path) -> dict[str, str]:
+    """Return variables for processes whose clock `_shift_clock` sets; none without a compiler."""
+    compiler = shutil.which("cc")
+    if compiler is None:
         return {}
-    return {
-        "LD_PRELOAD": str(_FAKETIME),
-        "FAKETIME_TIMESTAMP_FILE": str(offset),
-        "FAKETIME_NO_CACHE": "1",
-        "FAKETIME_DONT_FAKE_MONOTONIC": "1",
-    }
+    source, library = folder / "clock.c", folder / "clock.so"
+    source.write_text(_SHIFTED_CLOCK, encoding="utf-8")
+    words = [compiler, "-O1", "-shared", "-fPIC", "-o", str(library), str(source), "-ldl"]
+    subprocess.run(words, check=True)
+    (folder / _SHIFT).write_bytes(bytes(8))
+    return {"LD_PRELOAD": str(library), "CLOCK_SHIFT": str(folder / _SHIFT)}
+
+
+def _shift_clock(folder: Path, seconds: int) -> None:
+    with (folder / _SHIFT).open("r+b") as file:
+        file.write(seconds.to_bytes(8, sys.byteorder, signed=True))
 
 
 class _Mishaps:
     """What can happen to the robot; each returns what is to stand in the log afterwards."""
 
-    def __init__(
-        self, scout: LaunchedScout, folder: Path, offset: Path, core: Any, stop_s: float
-    ) -> None:
+    def __init__(self, scout: LaunchedScout, folder: Path, core: Any, stop_s: float) -> None:
         self.scout = scout
-        self._folder, self._offset, self._core, self._stop_s = folder, offset, core, stop_s
+        self._folder, self._core, self._stop_s = folder, core, stop_s
         self._node = scout.graph.create_node("mishaps", rosout=False)
         twist = message_type("geometry_msgs/msg/Twist")
         self._command = self._node.create_publisher("/cmd_vel", twist)
@@ -168,12 +211,12 @@ class _Mishaps:
         return ""
 
     def clock_set_back(self) -> str:
-        """Set the clock of all processes of the launch back by an hour, and to what it was."""
-        if not _FAKETIME.exists():
+        """Set the clock of all processes of the launch back by an hour; it stays there."""
+        if "LD_PRELOAD" not in self.scout.environ:
             return ""
-        self._offset.write_text("-3600\n", encoding="utf-8")
+        _shift_clock(self._folder, -3600)
         self._settle()
-        return r"the system's clock was set back by 3[56]\d\d\.\d s"
+        return r"the system's clock was set back by 3600\.0 s"
 
     def disk_full(self) -> str:
         """Let a recorder reach its file size's limit."""
@@ -208,10 +251,14 @@ class _Mishaps:
         return ""
 
     def _stop(self, word: str) -> None:
-        (one,) = self._processes(word)
-        one.suspend()
+        found = self._processes(word)
+        if not found:
+            raise SystemExit(f"no process has {word} in its command")
+        for one in found:
+            one.suspend()
         time.sleep(self._stop_s)
-        one.resume()
+        for one in found:
+            one.resume()
 
     def _processes(self, word: str) -> list[psutil.Process]:
         found = []
