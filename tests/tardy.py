@@ -13,6 +13,7 @@ import os
 import random
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -48,7 +49,7 @@ def pytest_report_header(config: pytest.Config) -> str:
 
 
 @pytest.fixture(autouse=True)
-def late_messages(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+def late_messages(request: pytest.FixtureRequest) -> Iterator[None]:
     """Let some messages be late in this test."""
     from gazelle.graph.subscription import Subscription
 
@@ -62,4 +63,6 @@ def late_messages(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatc
             time.sleep(draw.uniform(0.0, _LATEST_S))
         take(self, item)
 
-    monkeypatch.setattr(Subscription, "_handle", late)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Subscription, "_handle", late)
+        yield
