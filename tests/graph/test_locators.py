@@ -142,12 +142,26 @@ def test_folder_that_no_socket_can_be_in_is_refused(
     assert f"{path}/12345.sock is {why}\n  fix: name another folder: " in str(caught.value)
 
 
-def test_folder_that_cannot_be_made_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(locators.VARIABLE, "/proc/none")
-    with pytest.raises(
-        GraphError, match="/proc/none, for the graph's sockets, cannot be used: No such"
-    ):
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("/proc/none", "No such file or directory"),
+        ("{tmp_path}/broken", "it leads to {tmp_path}/gone, which is not there"),
+        ("{tmp_path}/file", "it is a file"),
+    ],
+)
+def test_folder_that_cannot_be_made_is_told(
+    name: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "broken").symlink_to(tmp_path / "gone")
+    (tmp_path / "file").touch()
+    path = name.format(tmp_path=tmp_path)
+    monkeypatch.setenv(locators.VARIABLE, path)
+    with pytest.raises(GraphError) as caught:
         locators.own_endpoint()
+    reason = reason.format(tmp_path=tmp_path)
+    text = f"{path}, for the graph's sockets, cannot be used: {reason}\n  fix: name a folder"
+    assert str(caught.value).startswith(text)
 
 
 def test_sockets_of_killed_processes_are_removed(folder: Path, join: Join) -> None:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import socket
-from collections.abc import Callable
+import subprocess
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 from tests.bridge.ros1.real import Ros1
+from tests.patience import stretched
 
 from gazelle.launch import real_ros as module
 from gazelle.launch.real_ros import RealRos, join, real_ros
@@ -111,6 +115,16 @@ def test_what_is_no_master_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> Non
     assert real_ros({}, tuple) == []
 
 
+@contextlib.contextmanager
+def _real_core(ros1: Ros1, port: int) -> Iterator[subprocess.Popen[str]]:
+    with ros1.running("/usr/bin/roscore", "-p", str(port)) as core:
+        assert core.stdout is not None
+        for line in core.stdout:
+            if "started core service [/rosout]" in line:
+                break
+        yield core
+
+
 def test_the_real_roscore_is_joined(
     launch: Run, node: Run, tmp_path: Path, other_port: int
 ) -> None:
@@ -118,15 +132,39 @@ def test_the_real_roscore_is_joined(
         pytest.skip("ROS 1 is not installed (apt-get install ros-core)")
     uri = f"http://localhost:{other_port}"
     ros1 = Ros1(uri, tmp_path)
-    with ros1.running("/usr/bin/roscore", "-p", str(other_port)) as core:
-        assert core.stdout is not None
-        for line in core.stdout:
-            if "started core service [/rosout]" in line:
-                break
+    with _real_core(ros1, other_port):
         run = launch('<param name="x" value="3"/>' + node("n", "node=n"), ROS_MASTER_URI=uri)
         run.wait_for_line("the bridge has joined the master")
         run.eventually(lambda: "/n" in ros1("/usr/bin/rosnode", "list").split())
         assert ros1("/usr/bin/rosparam", "get", "/x") == "3\n"
         # The log is gathered by the real one alone.
         assert ros1("/usr/bin/rosnode", "list").split() == ["/n", "/rosout"]
+        assert run.stop() == 0
+
+
+def test_nodes_come_back_to_a_real_roscore_that_was_killed(
+    launch: Run, node: Run, tmp_path: Path, other_port: int
+) -> None:
+    if not shutil.which("roscore", path="/usr/bin"):
+        pytest.skip("ROS 1 is not installed (apt-get install ros-core)")
+    uri = f"http://localhost:{other_port}"
+    ros1 = Ros1(uri, tmp_path)
+
+    def here() -> list[str]:
+        return ros1("/usr/bin/rosnode", "list").split()
+
+    with _real_core(ros1, other_port) as core:
+        run = launch(node("n", "node=n"), ROS_MASTER_URI=uri)
+        run.wait_for_line("the bridge has joined the master")
+        run.eventually(lambda: "/n" in here())
+        (master,) = [
+            one for one in psutil.Process(core.pid).children() if "rosmaster" in one.name()
+        ]
+        master.kill()
+        core.wait(stretched())
+    with _real_core(ros1, other_port):
+        run.eventually(lambda: "/n" in here())
+        assert here() == ["/n", "/rosout"]
+        echoed = ros1("/usr/bin/rostopic", "info", "/rosout")
+        assert "* /n " in echoed
         assert run.stop() == 0

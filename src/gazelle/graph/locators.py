@@ -192,8 +192,12 @@ def _locked(path: Path) -> int | None:
 
 
 def _unusable(path: Path, error: OSError) -> GraphError:
+    reason = error.strerror
+    if isinstance(error, FileExistsError):
+        broken = path.is_symlink() and not path.exists()
+        reason = f"it leads to {path.readlink()}, which is not there" if broken else "it is a file"
     return GraphError(
-        f"{path}, for the graph's sockets, cannot be used: {error.strerror}\n"
+        f"{path}, for the graph's sockets, cannot be used: {reason}\n"
         f"  fix: name a folder of your own: export {VARIABLE}=/path/to/folder"
     )
 
