@@ -62,3 +62,14 @@ def test_no_other_run_gets_a_port_in_use(free_port: int) -> None:
         listener.bind(("127.0.0.1", free_port))
     with socket.socket(type=socket.SOCK_DGRAM) as other, pytest.raises(OSError, match="in use"):
         other.bind(("127.0.0.1", free_port))
+
+
+def test_ports_are_chosen_in_one_place() -> None:
+    """Two workers that choose by themselves meet on one graph now and then."""
+    here = Path(__file__).parent
+    choosers = {
+        str(path.relative_to(here))
+        for path in here.rglob("*.py")
+        if "os.getpid() %" in path.read_text(encoding="utf-8") and path != Path(__file__)
+    }
+    assert choosers == {"conftest.py"}

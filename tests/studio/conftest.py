@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import itertools
-import os
-import socket
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -16,13 +12,11 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import fill, message_type
 from gazelle.studio import Server, Studio
 
-_PORTS = itertools.count(os.getpid() % 1000)
-
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph(free_port: int) -> Iterator[Graph]:
     """A graph of the test."""
-    with Graph.open(port=_free_port(), role="hub", environ={}) as opened:
+    with Graph.open(port=free_port, role="hub", environ={}) as opened:
         yield opened
 
 
@@ -80,13 +74,3 @@ def talk(node: Node) -> Talk:
         return publishers[topic]
 
     return publish
-
-
-def _free_port() -> int:
-    """A port below those that the system hands out by itself, as the fixture `free_port` takes."""
-    for number in _PORTS:
-        port = 28_000 + number % 4_000
-        with socket.socket() as probe, contextlib.suppress(OSError):
-            probe.bind(("127.0.0.1", port))
-            return port
-    raise AssertionError("itertools.count ends")

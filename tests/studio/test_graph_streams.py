@@ -13,6 +13,7 @@ from tests.studio.page import Page, RefusedError
 
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionServer
+from gazelle.studio.graph_view import plot
 
 _FIBONACCI = "example_interfaces/action/Fibonacci"
 
@@ -221,6 +222,22 @@ def test_plot_of_something_else_names_what_there_is(page: Page, talk: Talk) -> N
     talk("/words", "std_msgs/String")
     with pytest.raises(RefusedError, match="'/words/data': nothing in it is a number"):
         page.open("topic.plot", curves=["/words/data"])
+
+
+def test_plot_of_items_waits_for_a_message_and_says_so(
+    page: Page, talk: Talk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plot, "_FIRST_MESSAGE_S", 0.05)
+    talk("/arm", "sensor_msgs/JointState", position=[1.0])
+    with pytest.raises(RefusedError) as caught:
+        page.open("topic.plot", curves=["/arm/position"])
+    assert caught.value.error == {
+        "message": "'/arm/position': no message has come yet that says how many items it has",
+        "hint": "name one, /arm/position[0], or try again when /arm has had a message",
+    }
+    assert page.open("topic.plot", curves=["/arm/position[0]"]).info["curves"] == [
+        "/arm/position[0]"
+    ]
 
 
 def test_rosout_gives_the_last_ones_first(page: Page, graph: Graph) -> None:

@@ -12,12 +12,10 @@ from typing import Any
 
 import pytest
 from tests.browser.tutorial.robot import Robot
-from tests.conftest import Launched
+from tests.conftest import Launched, reserved_port
 
 __all__ = ["launch", "window"]
 
-# Below the range of numbers that the system hands out, above those of other tests.
-_PORTS = iter(range(28_000 + os.getpid() % 90 * 20, 32_000))
 _PAGE_AFTER_GRAPH = 8090 - 7447
 
 
@@ -43,11 +41,12 @@ def launch(
         return running[-1]
 
     def start(package: str, file: str, cwd: Path = workspaces_dir / "catkin_ws") -> Robot:
-        return Robot(run, package, file, port=_free_port(), cwd=cwd)
+        return Robot(run, package, file, port=_graph_port(reserved), cwd=cwd)
 
-    yield start
-    for one in reversed(running):
-        one.close()
+    with contextlib.ExitStack() as reserved:
+        yield start
+        for one in reversed(running):
+            one.close()
 
 
 @pytest.fixture
@@ -62,11 +61,10 @@ def window(look: Any) -> Callable[..., Any]:
     return open_page
 
 
-def _free_port() -> int:
+def _graph_port(reserved: contextlib.ExitStack) -> int:
     """Return a port of a graph whose page's port is free as well."""
-    for port in _PORTS:
-        with socket.socket() as graph, socket.socket() as page, contextlib.suppress(OSError):
-            graph.bind(("127.0.0.1", port))
+    while True:
+        port = reserved.enter_context(reserved_port())
+        with socket.socket() as page, contextlib.suppress(OSError):
             page.bind(("127.0.0.1", port + _PAGE_AFTER_GRAPH))
             return port
-    raise AssertionError("no port is free")

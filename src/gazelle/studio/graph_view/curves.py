@@ -52,12 +52,18 @@ def curves_of(
         last_message: a topic's newest message or None, which tells how long its arrays are.
 
     Raises:
-        StudioError: there is no such topic or field, or nothing in it is a number.
+        StudioError: there is no such topic or field, nothing in it is a number, or no message has
+            come that tells how many there are.
     """
     topic, type_name, rest = _split(name, known)
     steps, field = _walk(name, type_name, rest)
     message = last_message(topic) if field is None or _is_open(field) else None
     found = list(_numbers(topic, type_name, steps, field, message))
+    if not found and field is not None and message is None and _is_open(field):
+        raise StudioError(
+            f"'{name}': no message has come yet that says how many items it has",
+            hint=f"name one, {name}[0], or try again when {topic} has had a message",
+        )
     if not found:
         raise StudioError(f"'{name}': nothing in it is a number")
     return found

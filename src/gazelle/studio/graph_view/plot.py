@@ -16,7 +16,7 @@ from gazelle.studio.taps import Sample
 
 __all__ = ["open_plot"]
 
-_FIRST_MESSAGE_S = 1.0
+_FIRST_MESSAGE_S = 3.0
 _GATHER_S = 0.03
 
 
