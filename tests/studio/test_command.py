@@ -7,8 +7,10 @@ import signal
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from tests.studio.page import Page
 
+from gazelle.cli.studio.command import main
 from gazelle.graph import Graph
 
 Run = Callable[..., Any]
@@ -49,3 +51,10 @@ def test_a_port_that_is_taken_is_an_error(gazelle: Run) -> None:
     assert second.wait() == 1
     assert f"studio: cannot listen on 127.0.0.1, port {port}" in second.text
     assert "fix: choose another one with --port" in second.text
+
+
+def test_a_folder_that_is_not_there_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["--folder", "/nowhere/bags"])
+    assert caught.value.code == 2
+    assert "argument --folder: there is no folder /nowhere/bags" in capsys.readouterr().err

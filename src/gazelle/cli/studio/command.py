@@ -44,6 +44,13 @@ def _show_panels(studio: Studio, files: list[str]) -> None:
             studio.show(f"plugin:{source.name}")
 
 
+def _folder(text: str) -> Path:
+    folder = Path(text).expanduser()
+    if not folder.is_dir():
+        raise argparse.ArgumentTypeError(f"there is no folder {text}")
+    return folder
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gazelle studio",
@@ -59,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--folder",
-        type=Path,
+        type=_folder,
         metavar="DIR",
         help="pages write files below it and nowhere else; default: the current folder",
     )
