@@ -9,7 +9,7 @@ come, while they sleep and after they have gone. What each process holds by itse
 second while they sleep, and after five minutes of it a line is laid through each minute's least:
 pictures that are on their way come and go.
 Prints one JSON object per figure. Exit code 1 when the rate with sleepers is below 0.95 of that
-without, or a process grows by more than 1 MB an hour.
+without, or a process grows by more than 1 MB an hour beyond twice the slope's standard error.
 """
 
 from __future__ import annotations
@@ -76,11 +76,18 @@ class _Trend(NamedTuple):
         name: of the node, or the process' command.
         mb: mean of the minutes' least.
         mb_per_hour: slope of the line through the samples.
+        error_mb_per_hour: its standard error, of how the samples lie about the line.
     """
 
     name: str
     mb: float
     mb_per_hour: float
+    error_mb_per_hour: float
+
+    @property
+    def surely_mb_per_hour(self) -> float:
+        """By how much it grows at least."""
+        return self.mb_per_hour - 2.0 * self.error_mb_per_hour
 
 
 def main() -> int:
@@ -122,8 +129,8 @@ def main() -> int:
     _tell("rate", topics=topics, before=before, with_sleepers=during, after=after, share=share)
     for one in trends:
         _tell("memory", **one._asdict())
-    steepest = max((one.mb_per_hour for one in trends), default=0.0)
-    _tell("judged", share=share, processes=len(trends), steepest_mb_per_hour=steepest)
+    steepest = max((one.surely_mb_per_hour for one in trends), default=0.0)
+    _tell("judged", share=share, processes=len(trends), surely_mb_per_hour=steepest)
     return int(share < _LEAST_SHARE or steepest > _MOST_MB_PER_HOUR)
 
 
@@ -185,9 +192,10 @@ def _trends(folder: Path, seconds: float) -> list[_Trend]:
                 least[minute] = one
         times, sizes = np.array(list(least.values())).reshape(-1, 2).T
         # Those that ended meanwhile have no trend.
-        if len(times) > 3 and taken[-1][0] > seconds - 60.0:
-            slope = float(np.polyfit(times / 3600.0, sizes, 1)[0])
-            trends.append(_Trend(names[pid], float(sizes.mean()), slope))
+        if len(times) > 4 and taken[-1][0] > seconds - 60.0:
+            line, covariance = np.polyfit(times / 3600.0, sizes, 1, cov=True)
+            error = float(np.sqrt(covariance[0, 0]))
+            trends.append(_Trend(names[pid], float(sizes.mean()), float(line[0]), error))
     return sorted(trends, key=lambda one: -one.mb_per_hour)
 
 
