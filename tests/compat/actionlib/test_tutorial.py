@@ -139,7 +139,8 @@ def on_goal():
     goals.append(server.accept_new_goal())
 def tell(_event):
     # Again and again: a message published at once may come before its topic is known.
-    if server.is_active():
+    # A goal is active a moment before it is in the list.
+    if goals and server.is_active():
         server.publish_feedback(FibonacciFeedback([goals[-1].order]))
 def on_preempt():
     print('preempt', server.is_preempt_requested(), server.is_new_goal_available())
@@ -158,7 +159,7 @@ rospy.spin()
     assert client.wait_for_server(stretched(20)), running.text
     feedback: list[Any] = []
     first = client.send_goal({"order": 1}, on_feedback=feedback.append)
-    eventually(lambda: feedback)
+    eventually(lambda: feedback, why=lambda: running.text)
     second = client.send_goal({"order": 2})
     assert first.wait(stretched(30))
     assert first.status is ActionlibStatus.PREEMPTED

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
@@ -208,10 +209,11 @@ _DEAD = """
 def generate_test_description():
     process = ExecuteProcess(cmd=[sys.executable, "-c", "print('oh no'); raise SystemExit(3)"])
     return launch.LaunchDescription([process, {after}])
+import threading
+goes_on = threading.Event()
 class Beside(unittest.TestCase):
     def test_nothing(self):
-        import threading
-        threading.Event().wait(PATIENCE_S)
+        goes_on.wait(PATIENCE_S)
 """
 
 
@@ -221,6 +223,18 @@ def test_a_launch_that_ends_too_soon_fails(launch_test: Callable[..., Finished])
     assert "Processes under test stopped before tests completed" in ran.stdout
     assert "exited with 3" in ran.stdout
     assert "oh no" in ran.stdout
+
+
+def test_a_test_that_outlives_its_launch_says_nothing_more(
+    launch_test: Callable[..., Finished], capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = set(threading.enumerate())
+    launch_test(_DEAD.replace("{after}", "ReadyToTest()"))
+    sys.modules["check"].goes_on.set()
+    for thread in set(threading.enumerate()) - before:
+        if thread.name == "test_runner_thread":
+            thread.join(stretched())
+    assert tuple(capsys.readouterr()) == ("", "")
 
 
 def test_a_launch_that_is_never_ready_fails(launch_test: Callable[..., Finished]) -> None:

@@ -7,7 +7,7 @@ import sys
 import threading
 import unittest
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TextIO
 
 from gazelle.launch.ros2.actions import IncludeLaunchDescription, RegisterEventHandler
 from gazelle.launch.ros2.description import LaunchDescription
@@ -90,6 +90,7 @@ class _Worker:
         self._is_ready = threading.Event()
         self._is_tested = threading.Event()
         self._result: TestResult | None = None
+        self._progress = _Progress()
         self._info = ActiveProcInfoHandler()
         self._output = ActiveIoHandler()
 
@@ -107,10 +108,11 @@ class _Worker:
         keeps_alive = self._run.markers.get("keep_alive", False)
         self._service.run(shutdown_when_idle=not keeps_alive)
         if self._result is None:
+            self._progress.end()
             _say("Processes under test stopped before tests completed")
             self._show_output()
             return None
-        self._result.append(_run_suite(self._run.post_shutdown_tests))
+        self._result.append(_run_suite(self._run.post_shutdown_tests, self._progress))
         return self._result
 
     def _bind(self, known: dict[str, Any]) -> None:
@@ -145,7 +147,7 @@ class _Worker:
             self._service.shutdown()
             return
         try:
-            result = _run_suite(self._run.pre_shutdown_tests)
+            result = _run_suite(self._run.pre_shutdown_tests, self._progress)
             if self._service.event_loop is not None:
                 self._result = result
         finally:
@@ -182,9 +184,32 @@ def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, s
     return list(found.items())
 
 
-def _run_suite(suite: unittest.TestSuite) -> TestResult:
+class _Progress:
+    """Where a suite writes how it gets on, until nobody waits for it any more.
+
+    Its thread goes on where the processes under test ended first, and what was its output may be
+    closed by then.
+    """
+
+    def __init__(self) -> None:
+        self._out: TextIO | None = sys.stdout
+
+    def write(self, text: str) -> None:
+        if (out := self._out) is not None:
+            out.write(text)
+
+    def flush(self) -> None:
+        if (out := self._out) is not None:
+            out.flush()
+
+    def end(self) -> None:
+        self._out = None
+
+
+def _run_suite(suite: unittest.TestSuite, progress: _Progress) -> TestResult:
     kind: Any = TestResult
-    runner = unittest.TextTestRunner(stream=sys.stdout, verbosity=2, resultclass=kind)
+    stream: Any = progress
+    runner = unittest.TextTestRunner(stream=stream, verbosity=2, resultclass=kind)
     found = runner.run(suite)
     assert isinstance(found, TestResult)
     return found
