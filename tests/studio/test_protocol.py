@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import threading
 from collections.abc import Callable
@@ -17,7 +18,9 @@ from websockets.sync.client import ClientConnection, connect
 
 from gazelle import __version__
 from gazelle.graph import Graph
-from gazelle.studio import Server
+from gazelle.studio import Server, Studio
+from gazelle.studio.catalogue import METHODS
+from gazelle.studio.params import Params
 
 
 def test_hello_names_version_session_and_graph(page: Page, graph: Graph, server: Server) -> None:
@@ -257,3 +260,26 @@ def test_show_reaches_pages_or_the_first_that_comes(
 
 def _wait_for(stream: Stream, count: int) -> None:
     eventually(lambda: stream.items.qsize() >= count)
+
+
+def test_a_call_without_an_answer_ends_with_the_server(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    begun, goes_on = threading.Event(), threading.Event()
+    threads: list[threading.Thread] = []
+
+    def wait(_studio: Studio, _params: Params) -> None:
+        threads.append(threading.current_thread())
+        begun.set()
+        goes_on.wait(stretched())
+
+    monkeypatch.setitem(METHODS, "wait", wait)
+    with Server(Studio(graph), port=0) as server:
+        page = Page(server.port)
+        page.send(op="call", id=1, method="wait", params={})
+        assert begun.wait(stretched())
+    page.close()
+    goes_on.set()
+    threads[0].join(stretched())
+    gc.collect()
+    assert "Task was destroyed" not in caplog.text

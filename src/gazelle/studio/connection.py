@@ -80,6 +80,11 @@ class Connection:
             for one in self._channels.values():
                 one.channel.shut()
             await asyncio.gather(*(self._close(one) for one in list(self._channels.values())))
+            # Calls whose answers nobody waits for any more.
+            left = list(self._tasks)
+            for task in left:
+                task.cancel()
+            await asyncio.gather(*left, return_exceptions=True)
 
     def post(self, data: str | bytes, on_sent: Callable[[], None] | None = None) -> None:
         """Send a frame; from any thread."""
