@@ -60,6 +60,13 @@ def test_with_181_beams_both_ends_are_measured(tmp_path: Path) -> None:
     assert records[0].scan.angles_rad[[0, -1]] == pytest.approx([-math.pi / 2, math.pi / 2])
 
 
+@pytest.mark.parametrize("ranges", ["0", "1 2.0"])
+def test_scans_of_no_beam_and_of_one_are_read(ranges: str, tmp_path: Path) -> None:
+    records, said = _read(_written(tmp_path, f"FLASER {ranges} 0 0 0 0 0 0 1.0 h 1.0\n"))
+    assert len(records[0].scan.ranges_m) == int(ranges[0])
+    assert not list(said)
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [

@@ -147,3 +147,15 @@ def test_layers_that_plugins_do_not_name_are_told_once() -> None:
         "layer 'voxel_layer' has parameters and is not one of plugins",
     ]
     assert all("navigation.idle-parameter" in text for text in said)
+
+
+@pytest.mark.parametrize(
+    ("size", "cells"), [({"width": "inf"}, "inf"), ({"width": 1e6, "height": 1e6}, "4e+14")]
+)
+def test_a_costmap_of_more_cells_than_can_be_held_has_the_usual_size(
+    size: dict[str, Any], cells: str
+) -> None:
+    made, said = _made({"rolling_window": True, "plugins": [], **size})
+    assert (made.costmap.grid.width, made.costmap.grid.height) == (200, 200)
+    (text,) = said
+    assert f"are {cells} cells of 0.05 m, 2.68e+08 can be held; 10 m and 10 m are used" in text

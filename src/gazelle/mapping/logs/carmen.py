@@ -58,7 +58,7 @@ def _flaser(words: list[str]) -> LogRecord:
         raise ValueError(f"{count} ranges are announced, {len(ranges)} are there")
     fov = math.pi
     ends = count if count % 2 == 0 else count - 1
-    step = fov / ends
+    step = fov / max(1, ends)
     # With 180 beams CARMEN's first looks along −90°, the last half a beam short of +90°.
     return _record(stamp, ranges, (-fov / 2, step, _NOTHING_M), lidar, robot)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
@@ -49,6 +49,8 @@ _FAMILIES = {
     InflationOptions: ("inflation layer", "Costs around what is lethal, as a layer."),
     SourceOptions: ("observation source", "A sensor of an obstacle or voxel layer."),
 }
+# 256 MiB: 800 m × 800 m at 5 cm.
+_MOST_CELLS = 1 << 28
 _INHERITED = ("obstacle_range", "raytrace_range")
 # What of a costmap without plugins belongs to which layer (costmap_2d, resetOldParameters).
 _OLD_STATIC = ("map_topic", "unknown_cost_value", "lethal_cost_threshold", "track_unknown_space")
@@ -133,7 +135,9 @@ def assemble(
     if isinstance(outline, list):
         own["footprint"] = repr(outline)
     settings = Settings(costmap_table(generation), own, name, diagnostics)
-    options = settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
+    options = _sized(
+        settings, settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
+    )
     settings.tree.pop("plugins", None)
     settings.report_unknown("filters", *_left_out(settings))
     footprint = _footprint(settings, options)
@@ -298,6 +302,23 @@ def _source(
     )
     settings.report_unknown()
     return options
+
+
+def _sized(settings: Settings, options: CostmapOptions) -> CostmapOptions:
+    """Return options of a costmap that has no more cells than a machine can hold."""
+    cells = options.width / options.resolution * (options.height / options.resolution)
+    if cells <= _MOST_CELLS:
+        return options
+    usual = CostmapOptions()
+    settings.report(
+        "navigation.bad-value",
+        f"parameters 'width' ({options.width:g} m) and 'height' ({options.height:g} m) are "
+        f"{cells:.3g} cells of {options.resolution:g} m, {_MOST_CELLS:.3g} can be held; "
+        f"{usual.width:g} m and {usual.height:g} m are used",
+        "write a smaller window or a coarser resolution",
+    )
+    resolution = max(options.resolution, usual.resolution)
+    return replace(options, width=usual.width, height=usual.height, resolution=resolution)
 
 
 def _footprint(settings: Settings, options: CostmapOptions) -> Footprint:
