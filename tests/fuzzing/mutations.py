@@ -17,7 +17,7 @@ WORDS = (
 )  # fmt: skip
 _NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 _TOKEN = re.compile(r"\w+|[^\w\s]")
-_ATTRIBUTE = re.compile(r'[\w:]+="[^"]*"')
+_ATTRIBUTE = re.compile(r'(?<![\w:])[\w:]+="[^"]*"')
 _ELEMENT = re.compile(r"<(\w+)[^<>]*/>|<(\w+)[^<>]*>[^<]*</\2>")
 _DEEP = ("<a>", "[", "{a: ", "<link>", "(")
 _DOCTYPES = (
