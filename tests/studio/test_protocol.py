@@ -19,8 +19,9 @@ from websockets.sync.client import ClientConnection, connect
 from gazelle import __version__
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
-from gazelle.studio.catalogue import METHODS
+from gazelle.studio.catalogue import METHODS, STREAMS
 from gazelle.studio.params import Params
+from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
 
 def test_hello_names_version_session_and_graph(page: Page, graph: Graph, server: Server) -> None:
@@ -283,3 +284,25 @@ def test_a_call_without_an_answer_ends_with_the_server(
     threads[0].join(stretched())
     gc.collect()
     assert "Task was destroyed" not in caplog.text
+
+
+def test_a_stream_that_opens_after_its_page_has_gone_is_closed(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, goes_on, closed = threading.Event(), threading.Event(), threading.Event()
+
+    def open_late(_studio: Studio, _channel: Channel, _params: Params) -> OpenStream:
+        begun.set()
+        goes_on.wait(stretched())
+        return OpenStream(closed.set)
+
+    monkeypatch.setitem(STREAMS, "late", StreamKind(latest=False, open=open_late))
+    with Page(server.port) as page:
+        page.send(op="open", ch=1, stream="late", params={})
+        assert begun.wait(stretched())
+        page.send(op="close", ch=1)
+        # Whatever was sent before it has been taken in.
+        page.call("graph.get")
+    eventually(lambda: not server.studio.pages)
+    goes_on.set()
+    assert closed.wait(stretched())

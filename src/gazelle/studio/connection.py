@@ -57,7 +57,7 @@ class Connection:
         self._emptied.set()
         self._channels: dict[int, _Open] = {}
         self._used: set[int] = set()
-        self._calls = 0
+        self._calls: set[asyncio.Task[None]] = set()
         self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
 
@@ -80,11 +80,10 @@ class Connection:
             for one in self._channels.values():
                 one.channel.shut()
             await asyncio.gather(*(self._close(one) for one in list(self._channels.values())))
-            # Calls whose answers nobody waits for any more.
-            left = list(self._tasks)
-            for task in left:
-                task.cancel()
-            await asyncio.gather(*left, return_exceptions=True)
+            # Nobody waits for their answers any more; what opens streams has to close them yet.
+            for call in self._calls:
+                call.cancel()
+            await asyncio.gather(*self._calls, *self._tasks, return_exceptions=True)
 
     def post(self, data: str | bytes, on_sent: Callable[[], None] | None = None) -> None:
         """Send a frame; from any thread."""
@@ -146,22 +145,25 @@ class Connection:
     async def _refuse(self, text: str) -> None:
         await self._socket.close(_CLOSE_MISUSE, text)
 
-    def _spawn(self, work: Coroutine[Any, Any, None]) -> None:
+    def _spawn(
+        self, work: Coroutine[Any, Any, None], kept: set[asyncio.Task[None]] | None = None
+    ) -> None:
+        kept = self._tasks if kept is None else kept
         task = asyncio.create_task(work)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        kept.add(task)
+        task.add_done_callback(kept.discard)
 
     def _fail(self, op: str, key: dict[str, Any], error: BaseException) -> None:
         self.post(json_text({"op": op, **key, "error": error_value(error)}))
 
     def _on_call(self, value: dict[str, Any]) -> None:
         key = {"id": value.get("id")}
-        if self._calls >= _MOST_CALLS:
+        if len(self._calls) >= _MOST_CALLS:
             error = StudioError(f"more than {_MOST_CALLS} calls have no answer yet")
             self._fail("error", key, error)
             return
-        self._calls += 1
-        self._spawn(self._call(key, value.get("method"), value.get("params")))
+        work = self._call(key, value.get("method"), value.get("params"))
+        self._spawn(work, self._calls)
 
     async def _call(self, key: dict[str, Any], method: Any, params: Any) -> None:
         try:
@@ -176,8 +178,6 @@ class Connection:
             self.post(text)
         except Exception as error:  # noqa: BLE001 - every call has an answer
             self._fail("error", key, error)
-        finally:
-            self._calls -= 1
 
     def _on_open(self, value: dict[str, Any]) -> None:
         number, name = value.get("ch"), value.get("stream")

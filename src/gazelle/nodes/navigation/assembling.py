@@ -317,8 +317,7 @@ def _sized(settings: Settings, options: CostmapOptions) -> CostmapOptions:
         f"{usual.width:g} m and {usual.height:g} m are used",
         "write a smaller window or a coarser resolution",
     )
-    resolution = max(options.resolution, usual.resolution)
-    return replace(options, width=usual.width, height=usual.height, resolution=resolution)
+    return replace(options, width=usual.width, height=usual.height)
 
 
 def _footprint(settings: Settings, options: CostmapOptions) -> Footprint:

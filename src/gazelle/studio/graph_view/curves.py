@@ -60,9 +60,11 @@ def curves_of(
     message = last_message(topic) if field is None or _is_open(field) else None
     found = list(_numbers(topic, type_name, steps, field, message))
     if not found and field is not None and message is None and _is_open(field):
+        later = f"try again when {topic} has had a message"
+        is_list = field.type.array is Array.SEQUENCE
         raise StudioError(
             f"'{name}': no message has come yet that says how many items it has",
-            hint=f"name one, {name}[0], or try again when {topic} has had a message",
+            hint=f"name one, {name}[0], or {later}" if is_list else later,
         )
     if not found:
         raise StudioError(f"'{name}': nothing in it is a number")
