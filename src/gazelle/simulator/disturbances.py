@@ -39,21 +39,21 @@ class Disturbances:
             world_s: what the world's clock shows.
             idle_s: for how long there was nothing to do, infinity in a pause.
         """
-        before, self._before = self._before, self._now()
-        wall_s, passed_s, work_s = (
-            now - then for now, then in zip(self._before, before, strict=True)
-        )
+        wall_then_s, then_s, computed_s = self._before
+        wall_now_s, now_s, computing_s = self._before = self._now()
+        passed_s, work_s = now_s - then_s, computing_s - computed_s
         if passed_s - idle_s > _LONG_S and work_s < _IDLE_SHARE * passed_s:
             yield (
                 f"nothing was computed for {passed_s:.1f} s: this process was stopped, or the "
                 f"machine had no time for it; the world goes on from {world_s:.3f} s"
             )
-        if abs(jump_s := wall_s - passed_s) > _JUMP_S:
+        if abs(jump_s := wall_now_s - wall_then_s - passed_s) > _JUMP_S:
             way = "back" if jump_s < 0 else "ahead"
             yield (
                 f"the system's clock was set {way} by {abs(jump_s):.1f} s; simulated time goes on "
                 "as before, stamps of the system's clock jump"
             )
 
-    def _now(self) -> tuple[float, ...]:
-        return tuple(clock() for clock in self._clocks)
+    def _now(self) -> tuple[float, float, float]:
+        wall, monotonic, computing = self._clocks
+        return wall(), monotonic(), computing()
