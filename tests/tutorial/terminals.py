@@ -20,8 +20,8 @@ from tests.patience import PATIENCE_S, stretched
 __all__ = ["Terminal"]
 
 _PROMPT = re.compile(r"\[(\d+)\]\$ \Z")
-# What a terminal acts on and does not show: colours, titles, modes.
-_CONTROL = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]|\x1b\][^\x07]*\x07")
+# What a terminal acts on and does not show: colours, modes, titles, the bell.
+_CONTROL = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]|\x1b\][^\x07]*\x07|\x07")
 _UNFINISHED = re.compile(r"(\r|\x1b\[?[?\d;]*|\x1b\][^\x07]*)\Z")
 # Opening the terminal makes it the controlling one, so that Ctrl-C reaches what runs in it.
 _OPEN = 'exec bash --noprofile --norc -i <>"$0" >&0 2>&0'
@@ -35,12 +35,13 @@ class Terminal:
     """
 
     def __init__(self, environ: dict[str, str], cwd: Path) -> None:
-        inputrc = cwd / ".inputrc"
-        inputrc.write_text("set enable-bracketed-paste off\nset bell-style none\n")
         self.text = ""
         self._mark = 0
         self._changed = threading.Condition()
         self._keys, seen = pty.openpty()
+        # Each its own: many are opened at once, and one would read what another begins to write.
+        inputrc = cwd / f".inputrc-{Path(os.ttyname(seen)).name}"
+        inputrc.write_text("set enable-bracketed-paste off\n")
         fcntl.ioctl(seen, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 400, 0, 0))
         own = {"PS1": "[$?]$ ", "INPUTRC": str(inputrc), "TERM": "xterm", "HOME": str(cwd)}
         self._bash = subprocess.Popen(
