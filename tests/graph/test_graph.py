@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from tests.patience import stretched
 
-from gazelle.errors import NotFoundError
+from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import Endpoint, Graph, NoGraphError, PortTakenError, Qos, TopicInfo, locators
 from gazelle.interfaces import message_type, service_type
 
@@ -141,8 +141,9 @@ def test_closed_graph_is_no_longer_current(graph: Graph) -> None:
     graph.close()
     graph.close()
     assert Graph.current() is None
-    with pytest.raises(Exception, match="the graph is closed"):
-        graph.create_node("n")
+    for use in (lambda: graph.create_node("n"), graph.entities):
+        with pytest.raises(GraphError, match="the graph is closed"):
+            use()
 
 
 def test_graphs_larger_than_a_channel_of_the_transport_are_listed(graph: Graph, join: Join) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ending import called_by_library
+from gazelle.errors import GraphError
 from gazelle.graph.keys import Entity, Kind, entity_gid, token_selector
 
 if TYPE_CHECKING:
@@ -54,14 +55,22 @@ class Discovery:
             self._subscriber = None
 
     def ask(self) -> tuple[Entity, ...]:
-        """Return all entities, asking the graph afresh; complete also just after joining."""
+        """Return all entities, asking the graph afresh; complete also just after joining.
+
+        Raises:
+            GraphError: the graph is closed.
+        """
         import zenoh
 
         found: dict[str, Entity] = {}
         # What this session knows is answered before get() returns: a channel of zenoh's usual
         # 256 places would fill up and nobody could ever empty it.
         channel: Any = zenoh.handlers.FifoChannel(_MOST_REPLIES)
-        for reply in self._session.liveliness().get(self._selector, channel, timeout=_ASK_S):
+        try:
+            replies = self._session.liveliness().get(self._selector, channel, timeout=_ASK_S)
+        except zenoh.ZError as error:
+            raise GraphError("the graph is closed") from error
+        for reply in replies:
             if reply.ok is not None:
                 _read_token(str(reply.ok.key_expr), found)
         # The hub's last word can cut those answers short; they are among the entities known.
