@@ -23,6 +23,7 @@ from tests.distribution import (  # noqa: F401 - hooks
     pytest_xdist_auto_num_workers,
     pytest_xdist_make_scheduler,
 )
+from tests.garbage import pytest_collection_finish, pytest_configure  # noqa: F401 - hooks
 from tests.patience import PATIENCE_S, eventually, stretched
 
 SHARED = Path(__file__).parents[2] / "shared"
