@@ -10,6 +10,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import NamedTemporaryFile
+from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
@@ -228,11 +229,14 @@ def _load(file: Path) -> tuple[MeshPart, ...]:
 
 def _save(file: Path, parts: tuple[MeshPart, ...]) -> None:
     """Write beside and rename, so that a reader never sees half a file."""
-    arrays = {f"part{index:05d}": part.vertices_m for index, part in enumerate(parts)}
+    # Typed loosely: NumPy before 2.2 knows no other argument, and would save one as an array.
+    arrays: dict[str, Any] = {
+        f"part{index:05d}": part.vertices_m for index, part in enumerate(parts)
+    }
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
-            np.savez(target, allow_pickle=False, **arrays)
+            np.savez(target, **arrays)
         Path(target.name).replace(file)
     except OSError:
         return  # a read-only home only costs the time of the next run
