@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import hypothesis
 import pytest
 from tests.distribution import (  # noqa: F401 - hooks
     pytest_collection,
@@ -31,6 +32,11 @@ _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG
 _OWN_FOLDERS += ("XDG_STATE_HOME",)
 # What programs that tests need find by the true home.
 _FOUND_BY_HOME = {"PLAYWRIGHT_BROWSERS_PATH": ".cache/ms-playwright", "PYENV_ROOT": ".pyenv"}
+# Its own limits are of wall time.
+hypothesis.settings.register_profile(
+    "patient", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow]
+)
+hypothesis.settings.load_profile("patient")
 # Windows that launch files name serve no page, except in the tests of the page.
 os.environ["GAZELLE_STUDIO"] = "0"
 # Workers and what they start, some thousand processes, share the processors.

@@ -21,7 +21,6 @@ from gazelle.interfaces import (
 NOT_CONVERTIBLE = "controller_manager_msgs/srv/SwitchController_Request"
 RELAXED = settings(
     max_examples=few(100, 300),
-    deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 

@@ -200,6 +200,34 @@ def test_goal_that_the_server_forgot_is_lost(
     assert goal.status is ActionlibStatus.LOST
 
 
+def test_goal_that_is_cancelled_at_once_is_not_lost(
+    served: Served, client: ActionClient, make_inbox: Any
+) -> None:
+    """A list of goals from before the server had heard of it comes after its cancelling."""
+    node, goals, cancels = served.node, make_inbox(), make_inbox()
+    kinds = {"goal": "ActionGoal", "feedback": "ActionFeedback", "result": "ActionResult"}
+    types = {
+        one: message_type(f"actionlib_tutorials/Fibonacci{kind}") for one, kind in kinds.items()
+    }
+    node.create_subscription("/fibonacci/goal", types["goal"], goals)
+    node.create_subscription("/fibonacci/cancel", "actionlib_msgs/GoalID", cancels)
+    node.create_publisher("/fibonacci/feedback", types["feedback"])
+    result = node.create_publisher("/fibonacci/result", types["result"])
+    status = node.create_publisher("/fibonacci/status", "actionlib_msgs/GoalStatusArray")
+    assert client.wait_for_server(stretched())
+    goal = client.send_goal({})
+    sent = goals.wait_for(1)[0]
+    goal.cancel()
+    cancels.wait_for(1)
+    status.publish(status.message_class())
+    told = types["result"]()
+    told.status.goal_id = sent.goal_id
+    told.status.status = ActionlibStatus.RECALLED
+    result.publish(told)
+    assert goal.wait(stretched())
+    assert goal.status is ActionlibStatus.RECALLED
+
+
 def test_ros2_goal_ends_when_its_server_goes(
     served: Served, client: ActionClient, eventually: Any
 ) -> None:

@@ -119,7 +119,8 @@ class ActionlibClient:
             with goal.lock:
                 if goal.goal_id in told:
                     self._take_status(goal, told[goal.goal_id])
-                elif goal.comm_state not in _BEFORE_OR_AFTER_THE_SERVER:
+                # What is cancelled at once is missing in the lists that the server sent before.
+                elif goal.is_acknowledged and goal.comm_state not in _BEFORE_OR_AFTER_THE_SERVER:
                     goal.status = ActionlibStatus.LOST
                     goal.text = "the server does not know the goal any more"
                     self._end(goal)
@@ -141,6 +142,7 @@ class ActionlibClient:
     def _take_status(self, goal: ClientGoal, told: Any) -> None:
         if goal.comm_state is CommState.DONE:
             return
+        goal.is_acknowledged = True
         status = ActionlibStatus(told.status)
         states = steps(goal.comm_state, status)
         goal.status, goal.text = status, told.text

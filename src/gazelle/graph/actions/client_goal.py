@@ -38,6 +38,7 @@ class ClientGoal:
         result: the result message, None before the end.
         feedback: the last feedback message.
         comm_state: actionlib's state of the talk with the server.
+        is_acknowledged: the server has told of it (actionlib).
         on_feedback: called with each feedback message.
         on_done: called with the goal at its end.
         on_transition: called with the goal at each change of `comm_state` (actionlib), or of
@@ -63,6 +64,7 @@ class ClientGoal:
         self.result: Any = None
         self.feedback: Any = None
         self.comm_state = CommState.WAITING_FOR_GOAL_ACK
+        self.is_acknowledged = False
         self.on_feedback = on_feedback
         self.on_done = on_done
         self.on_transition = on_transition
