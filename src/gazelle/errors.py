@@ -8,7 +8,9 @@ environment, and says what to do about it in its message.
 from __future__ import annotations
 
 import errno
+import os
 from collections.abc import Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -28,6 +30,7 @@ __all__ = [
 
 _NO_ROOM = {getattr(errno, name, 0) for name in ("EDQUOT", "EFBIG", "ENOSPC")}
 _NO_RIGHT = {errno.EACCES, errno.EPERM}
+_SHOWN = 60
 
 
 class GazelleError(Exception):
@@ -108,6 +111,9 @@ def file_refusal_text(error: OSError) -> str:
         fix = "name a place that you may write to (ls -ld shows whose one is)"
     elif error.errno in _NO_RIGHT and error.filename is not None:
         fix = "give yourself the right to it (ls -ld shows whose it is), or name another place"
+    elif error.errno == errno.ENAMETOOLONG and error.filename is not None:
+        name = max(PurePath(os.fsdecode(error.filename)).parts, key=len)
+        return f"{name[:_SHOWN]}…: {error.strerror}\n  fix: name a file; this is {len(name)} long"
     else:
         return ""
     place = f"{error.filename}: " if error.filename is not None else ""

@@ -85,6 +85,16 @@ def test_what_cannot_be_read_is_told(bag_of: Fill) -> None:
         open_bag(folder)
 
 
+def test_files_that_are_not_there_are_named(bag_of: Fill) -> None:
+    folder = bag_of("folder", storage=Storage.MCAP)
+    path, text = folder / "metadata.yaml", (folder / "metadata.yaml").read_text()
+    # The second is longer than any file's name can be.
+    for name in ("gone.mcap", "g" * 300):
+        path.write_text(text.replace("folder_0.mcap", name))
+        with pytest.raises(BagError, match=rf"its metadata.yaml names {name}, which is not there"):
+            open_bag(folder)
+
+
 def test_a_compressed_file_that_is_not_whole_is_told(bag_of: Fill) -> None:
     path = pack(bag_of("a.mcap"))
     path.write_bytes(path.read_bytes()[:-20])

@@ -74,6 +74,24 @@ def test_endless_device_and_silent_pipe_are_refused(
     assert str(pipe) in text
 
 
+_NAMING = (
+    "roslaunch", "rosbag info", "ros2 bag info", "gz sdf -p", "doctor", "ros2 launch",
+    "rosparam load", "new robot", "studio --folder", "view", "colcon build --base-paths",
+)  # fmt: skip
+
+
+def test_names_that_no_file_can_have_are_told(tmp_path: Path) -> None:
+    every = _EVERY.replace('("/dev/zero", sys.argv[1])', "sys.argv[1:2]")
+    done = subprocess.run(
+        [sys.executable, "-c", every, "n" * 300, *_NAMING],
+        cwd=tmp_path, capture_output=True, text=True, timeout=stretched(), check=True,
+    )  # fmt: skip
+    told = dict(part.split("\n", 1) for part in done.stdout.split("== ")[1:])
+    assert list(told) == list(_NAMING)
+    for text in told.values():
+        assert "n…: File name too long\n  fix: name a file; this is 300 long\n" in text
+
+
 # Root may write everywhere, so the system's word is put in.
 _READ_ONLY = """
 import errno, os, sys

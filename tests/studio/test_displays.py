@@ -18,7 +18,8 @@ from tests.studio.page import Binary, Page, RefusedError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformBroadcaster
-from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces import fill, message_type, service_type
+from gazelle.studio.displays.points import points_of
 
 Move = Callable[..., None]
 _QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
@@ -264,6 +265,12 @@ def test_broken_clouds_are_a_status(
     while text not in status["text"]:
         status = stream.status.get(timeout=stretched())
     assert status["level"] == "error"
+
+
+def test_a_cloud_without_points_may_say_anything_of_them() -> None:
+    cloud = message_type("sensor_msgs/PointCloud2")()
+    fill(cloud, _cloud([], "intensity") | {"height": 5, "point_step": 1 << 31})
+    assert len(points_of(cloud, 1000, ("intensity",), with_rgb=True).xyz) == 0
 
 
 def test_laser_scans_are_points_within_their_range(page: Page, talk: Talk, move: Move) -> None:

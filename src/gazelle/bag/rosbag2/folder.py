@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -267,7 +268,8 @@ def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
     if not files:
         raise BagError(f"{folder}: there is no bag in this folder (no .mcap and no .db3)")
     for file in files:
-        if not file.is_file():
+        # Path.is_file() raises for names that no file can have.
+        if not os.path.isfile(file):  # noqa: PTH113
             raise BagError(f"{folder}: its metadata.yaml names {file.name}, which is not there")
     return tuple(files)
 

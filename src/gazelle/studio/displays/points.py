@@ -180,6 +180,9 @@ class _Cloud:
         item = np.dtype(kind)
         if offset + item.itemsize > self._step:
             raise StudioError("a field of the cloud lies outside of its points")
+        if not self.count:
+            # Nothing that it says of its points needs to be true.
+            return np.empty(0, item)
         strides = (self._step * self._every,)
         return np.ndarray((self.count,), item, self._data, offset, strides)
 
