@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import re
 import threading
 from collections.abc import Callable, Iterator
@@ -16,7 +17,6 @@ from tests.patience import eventually
 from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
 from gazelle.cli.tf import monitor
 from gazelle.graph import Entity, Graph, Kind, Node
-from gazelle.graph.keys import token
 from gazelle.graph.relink import hub_knows
 
 _PACE_S = 0.005
@@ -77,17 +77,38 @@ def graph(port: int) -> Iterator[Graph]:
 
 @pytest.fixture
 def robot(graph: Graph) -> Node:
-    """A node on the graph, without /rosout, that those who join find there."""
-    node = graph.create_node("robot", rosout=False)
-    eventually(lambda: hub_knows(graph.port, token(graph.domain, node.entity)))
-    return node
+    """A node on the graph, without /rosout."""
+    return graph.create_node("robot", rosout=False)
 
 
 @pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Callable[..., Result]:
+def when_announced(request: pytest.FixtureRequest) -> Callable[[], None]:
+    """Waits until those who join hear of all that the graph has announced so far."""
+    if "graph" not in request.fixturenames:
+        return lambda: None
+    graph: Graph = request.getfixturevalue("graph")
+    numbers = itertools.count()
+
+    def wait() -> None:
+        if not graph.connected:
+            return
+        # What one session announces comes to the hub in order.
+        key = f"last/{next(numbers)}"
+        last = graph.session.liveliness().declare_token(key)
+        eventually(lambda: hub_knows(graph.port, key))
+        last.undeclare()
+
+    return wait
+
+
+@pytest.fixture
+def run(
+    capsys: pytest.CaptureFixture[str], when_announced: Callable[[], None]
+) -> Callable[..., Result]:
     """Runs a command: ``run("rostopic", "list", "-v")``."""
 
     def call(tool: str, *words: str) -> Result:
+        when_announced()
         capsys.readouterr()
         code = _MAINS[tool](list(words))
         return Result(code, *capsys.readouterr())
