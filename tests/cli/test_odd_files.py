@@ -75,7 +75,7 @@ def test_endless_device_and_silent_pipe_are_refused(
 
 
 _NAMING = (
-    "roslaunch", "rosbag info", "ros2 bag info", "gz sdf -p", "doctor", "ros2 launch",
+    "roslaunch", "gz sdf -p", "doctor", "ros2 launch",
     "rosparam load", "new robot", "studio --folder", "view", "colcon build --base-paths",
 )  # fmt: skip
 

@@ -11,6 +11,7 @@ from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Bag, Ros1Writer
 from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer, SqliteBag, SqliteWriter
 from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
+from gazelle.limits.names import is_file, is_folder
 
 __all__ = ["create_bag", "open_bag", "storage_of"]
 
@@ -25,9 +26,9 @@ def open_bag(path: Path | str) -> BagReader:
         BagError: it is not there, cannot be read, or is no bag.
     """
     path = Path(path)
-    if path.is_dir():
+    if is_folder(path):
         return Rosbag2(path)
-    if not path.is_file():
+    if not is_file(path):
         near = did_you_mean(path.name, _bags_beside(path))
         raise BagError(
             f"Error opening file: {path}: No such file or directory; {near}".rstrip("; ")

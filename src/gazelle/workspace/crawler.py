@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.limits import read_limited
+from gazelle.limits.names import is_file
 from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
 
 __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]
@@ -38,7 +39,7 @@ def manifest_in(folder: Path) -> Path | None:
     """Return the manifest lying directly in a folder, None when there is none."""
     for name in _MANIFESTS:
         path = folder / name
-        if path.is_file():
+        if is_file(path):
             return path
     return None
 

@@ -49,6 +49,9 @@ def test_meshes_of_packages_are_read(tmp_path: Path) -> None:
         "model://{outside}",
         "model://../other.png",
         "package://no_such/arm.stl",
+        # No file and no folder can have such a name.
+        f"package://my_arm/{'n' * 300}/arm.stl",
+        f"model://{'n' * 300}/arm.stl",
         "http://example.org/arm.stl",
         "",
     ],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import heapq
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from gazelle.bag.records import (
 from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
 from gazelle.bag.rosbag2.packed import SUFFIX, PackedFile, PackedMessages
 from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
+from gazelle.limits.names import is_file
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
 
@@ -268,8 +268,7 @@ def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
     if not files:
         raise BagError(f"{folder}: there is no bag in this folder (no .mcap and no .db3)")
     for file in files:
-        # Path.is_file() raises for names that no file can have.
-        if not os.path.isfile(file):  # noqa: PTH113
+        if not is_file(file):
             raise BagError(f"{folder}: its metadata.yaml names {file.name}, which is not there")
     return tuple(files)
 

@@ -25,6 +25,7 @@ from gazelle.description.checks.wheels import check_wheels
 from gazelle.description.model import Model
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.limits.names import is_file
 
 __all__ = ["check_description"]
 
@@ -82,7 +83,7 @@ def _root_of(model: Model) -> Tag | None:
     if model.source_format != "urdf" or model.span is None:
         return None
     path = Path(model.span.file)
-    root = read_xml(path, Diagnostics()) if path.is_file() else None
+    root = read_xml(path, Diagnostics()) if is_file(path) else None
     if root is None or root.name != "robot":
         return None
     return None if any(tag.name.startswith("xacro:") for tag in root.walk()) else root

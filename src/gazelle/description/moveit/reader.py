@@ -21,6 +21,7 @@ from gazelle.description.moveit.settings import Settings
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.limits.names import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["read_moveit_config"]
@@ -52,7 +53,7 @@ def read_moveit_config(
         NotFoundError: there is no such package.
     """
     folder = Path(source)
-    if not folder.is_dir():
+    if not is_folder(folder):
         workspace = workspace or Workspace.discover()
         folder = workspace.package(str(source)).path
     workspace = workspace or Workspace.discover(cwd=folder)

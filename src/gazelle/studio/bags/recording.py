@@ -11,6 +11,7 @@ from gazelle.bag import Storage
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.graph import Node
+from gazelle.limits.names import exists
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 
@@ -107,7 +108,7 @@ def _sink(root: Path, path: str, kind: str) -> tuple[Ros1Files | Rosbag2Writer, 
     name = str(_below(root, path or made_up))
     stem = name.removesuffix(".bag") if is_bag else name
     target = Path(f"{stem}.bag" if is_bag else name)
-    if target.exists():
+    if exists(target):
         raise StudioError(f"{target} is there already", hint="record to another name")
     if is_bag:
         return Ros1Files(lambda: stem), str(target)
