@@ -20,6 +20,7 @@ from gazelle.doctor.parameters import check_package_parameters, check_parameter_
 from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.target import package_at
+from gazelle.limits.names import is_file
 from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["examine_file", "kind_word"]
@@ -152,7 +153,7 @@ def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
 def _is_light(file: Path) -> bool:
     """Tell whether a model's folder holds a lamp, as ``model://sun`` does."""
     place = file.with_name("model.sdf") if file.name == "model.config" else file
-    root = read_xml(place, Diagnostics()) if place.is_file() else None
+    root = read_xml(place, Diagnostics()) if is_file(place) else None
     return root is not None and root.find("light") is not None
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from gazelle.diagnostics import nearest_names
 from gazelle.doctor.kinds import looks_like
 from gazelle.errors import GazelleError, NotFoundError
+from gazelle.limits.names import is_file, is_folder
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["Target", "find_target", "package_at"]
@@ -48,12 +49,12 @@ def find_target(words: Sequence[str], workspace: Workspace, cwd: Path) -> Target
         return _around(cwd, workspace)
     name = " ".join(words)
     paths = tuple(cwd / Path(word).expanduser() for word in words)
-    if len(words) > 1 and all(path.is_file() for path in paths):
+    if len(words) > 1 and all(is_file(path) for path in paths):
         return Target(name, paths)
     if len(words) == 2:
         return Target(name, (_file_in(workspace.package(words[0]), words[1]),))
     if len(words) > 2:
-        missing = next(path for path in paths if not path.is_file())
+        missing = next(path for path in paths if not is_file(path))
         raise NotFoundError("file", str(missing), hint="give one target, or files of one launch")
     return _single(words[0], paths[0], workspace)
 
@@ -66,10 +67,10 @@ def package_at(folder: Path, workspace: Workspace) -> Package | None:
 
 
 def _single(word: str, path: Path, workspace: Workspace) -> Target:
-    if path.is_file():
+    if is_file(path):
         return Target(word, (path,))
     # A package's name wins over a folder of that name that is something else.
-    if path.is_dir() and (word not in workspace.packages or "/" in word):
+    if is_folder(path) and (word not in workspace.packages or "/" in word):
         return _folder(word, path, workspace)
     if word in workspace.packages:
         return Target(word, packages=(workspace.package(word),))
@@ -90,7 +91,7 @@ def _single(word: str, path: Path, workspace: Workspace) -> Target:
 def _folder(word: str, path: Path, workspace: Workspace) -> Target:
     place = path.resolve()
     for file in ("model.config", "model.sdf"):
-        if (path / file).is_file():
+        if is_file(path / file):
             return Target(word, (path / file,))
     inside = [
         item
@@ -114,7 +115,7 @@ def _around(cwd: Path, workspace: Workspace) -> Target:
     )
     if here or own:
         return Target(str(cwd), packages=here or own)
-    if any(looks_like(path) for path in cwd.iterdir() if path.is_file()):
+    if any(looks_like(path) for path in cwd.iterdir() if is_file(path)):
         return Target(str(cwd), folder=cwd)
     raise GazelleError(
         f"'{cwd}' is no package, no workspace and holds no file that can be examined; name "
@@ -124,10 +125,10 @@ def _around(cwd: Path, workspace: Workspace) -> Target:
 
 def _file_in(package: Package, name: str) -> Path:
     direct = package.path / name
-    if direct.is_file():
+    if is_file(direct):
         return direct
     found = sorted(package.path.rglob(Path(name).name))
-    whole = [path for path in found if path.is_file() and str(path).endswith(f"/{name}")]
+    whole = [path for path in found if is_file(path) and str(path).endswith(f"/{name}")]
     if whole:
         return whole[0]
     existing = sorted({path.name for path in package.path.rglob("*") if looks_like(path)})
@@ -142,12 +143,12 @@ def _file_in(package: Package, name: str) -> Path:
 
 
 def _not_found(word: str, path: Path, workspace: Workspace) -> NotFoundError:
-    around = path.parent if path.parent.is_dir() else Path.cwd()
+    around = path.parent if is_folder(path.parent) else Path.cwd()
     prefix = word.rpartition("/")[0]
     files = {
         f"{prefix}/{item.name}" if prefix else item.name
         for item in around.iterdir()
-        if item.is_dir() or looks_like(item)
+        if is_folder(item) or looks_like(item)
     }
     names = sorted({*files, *workspace.packages, *workspace.models})
     return NotFoundError(

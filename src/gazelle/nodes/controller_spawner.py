@@ -16,6 +16,7 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.names import anonymous_name
 from gazelle.interfaces import message_type
 from gazelle.limits import read_text_limited
+from gazelle.limits.names import is_file
 from gazelle.limits.yaml_text import load_yaml
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
@@ -219,7 +220,7 @@ class _Spawner:
         """Return names; a file's parameters are set, and its controllers are meant."""
         names: list[str] = []
         for word in self._options.controllers:
-            if not Path(word).is_file():
+            if not is_file(Path(word)):
                 names.append(word)
                 continue
             try:

@@ -13,6 +13,7 @@ from gazelle.control.sources.files import FileSource
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
+from gazelle.limits.names import is_file
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import ManagerClient
 from gazelle.nodes.parameters import start_node
@@ -80,7 +81,7 @@ def spawn(node: Node, arguments: NodeArguments, stop: threading.Event) -> int:
     # Parameters of the spawner's own node are the controllers', as ros2_control's spawner has it.
     named = [*map(Path, options.param_file), *arguments.parameter_files]
     files = list(dict.fromkeys(named))
-    missing = next((str(one) for one in files if not one.is_file()), None)
+    missing = next((str(one) for one in files if not is_file(one)), None)
     if missing is not None:
         raise LaunchError(f"[Errno 2] No such file or directory: '{missing}'")
     spawner = _Spawner(node, options, files, arguments, stop)

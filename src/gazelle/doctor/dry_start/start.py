@@ -15,6 +15,7 @@ from gazelle.doctor.text_files import texts_known
 from gazelle.errors import GazelleError, NotFoundError, UserFileError
 from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
+from gazelle.limits.names import is_folder
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.server_main import check_server_plugins, ros2_plugins_of, ros_version_of
@@ -153,7 +154,7 @@ def _spawn_all(
 
 def _nearest_file(path: Path) -> str:
     """Return what of the same folder may have been meant, empty when nothing is near."""
-    if not path.parent.is_dir():
+    if not is_folder(path.parent):
         return ""
     return did_you_mean(path.name, (item.name for item in path.parent.iterdir()))
 

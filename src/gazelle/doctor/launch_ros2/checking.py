@@ -18,6 +18,7 @@ from gazelle.doctor.launch_ros2.node_checks import (
 )
 from gazelle.doctor.launch_ros2.records import LaunchReading
 from gazelle.doctor.report import Section
+from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["check_launch"]
@@ -87,7 +88,7 @@ def _say_static(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
 def _named(files: Sequence[Followed], endings: tuple[str, ...]) -> tuple[Path, ...]:
     names = (use.name for use in paths_of(files) if use.name.endswith(endings))
     found = dict.fromkeys(located(name) for name in names)
-    return tuple(path for path in found if path and path.is_file() and not _is_launch(path))
+    return tuple(path for path in found if path and is_file(path) and not _is_launch(path))
 
 
 def _is_launch(path: Path) -> bool:

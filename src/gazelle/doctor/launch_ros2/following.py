@@ -11,6 +11,7 @@ from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.python_file import read_python_file
 from gazelle.doctor.launch_ros2.records import Include, LaunchFile
 from gazelle.doctor.launch_ros2.xml_file import read_xml_file, read_yaml_file
+from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["Followed", "follow"]
@@ -95,7 +96,7 @@ class _Follower:
         self, include: Include, given: Mapping[str, str | None], above: tuple[Path, ...]
     ) -> Followed | None:
         path = located(include.path) if include.path is not None else None
-        if path is None or not path.is_file():
+        if path is None or not is_file(path):
             return None
         return self.read(path, {**given, **include.arguments}, include, above)
 

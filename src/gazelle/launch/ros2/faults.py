@@ -12,6 +12,7 @@ from gazelle.launch.ros2.conditions import InvalidConditionExpressionError
 from gazelle.launch.ros2.explaining import Explained, explain
 from gazelle.launch.ros2.place import kept_place, raising_place
 from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
+from gazelle.limits.names import is_folder
 
 __all__ = ["diagnose", "not_started", "with_diagnostic"]
 
@@ -54,7 +55,7 @@ def not_started(
     """Return the finding about a process that cannot be started."""
     program = cmd[0] if cmd else ""
     fix = ""
-    if cwd is not None and not Path(cwd).is_dir():
+    if cwd is not None and not is_folder(Path(cwd)):
         message = f"'{program}' cannot be started: its folder '{cwd}' does not exist"
     elif " " in program.strip() and shutil.which(program.split()[0]):
         message = f"'{program}' is no program: cmd is a list of words, and this is one word"

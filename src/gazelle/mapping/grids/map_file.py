@@ -11,7 +11,7 @@ import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.limits import read_text_limited
-from gazelle.limits.names import exists
+from gazelle.limits.names import exists, is_folder
 from gazelle.limits.yaml_text import LimitedLoader
 from gazelle.mapping.grids.pixels import MapMode
 
@@ -95,7 +95,7 @@ def report_missing_image(
 ) -> None:
     """Tell that a map's picture is not there, and which one has nearly its name."""
     folder = path.parent
-    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+    there = sorted(item.name for item in folder.iterdir()) if is_folder(folder) else []
     text, phrase = _words_of_image(path, "there is no such file", generation)
     fix = did_you_mean(path.name, there)
     diagnostics.report("map.no-image", text, span, fix=fix, phrase=phrase)

@@ -12,6 +12,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
+from gazelle.limits.names import is_file
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.graph_world import GraphWorld
@@ -113,15 +114,15 @@ class _Navigator:
         """Return the trees of a file; without one, or for Nav2's own, those that Gazelle has."""
         own = _TREES / _OWN[kind]
         file = Path(path) if path else own
-        if not file.is_file():
+        if not is_file(file):
             named = _TREES / file.name
-            if not named.is_file() and not file.name.startswith("navigate_"):
+            if not is_file(named) and not file.name.startswith("navigate_"):
                 known = ", ".join(sorted(one.name for one in _TREES.iterdir()))
                 text = f"{self._node.name}: the behaviour tree '{path}' does not exist"
                 fix = f"give the path of an XML file; Gazelle has {known}"
                 diagnostics.report("navigation.tree-structure", text, fix=fix)
                 return None
-            file = named if named.is_file() else own
+            file = named if is_file(named) else own
             text = f"{Path(path).name} is Nav2's own file; Gazelle's {file.name} runs"
             self._node.log("info", text)
         found = read_trees(file, diagnostics)

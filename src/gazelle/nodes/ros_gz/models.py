@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gazelle.errors import GazelleError
+from gazelle.limits.names import is_file
 
 __all__ = ["model_text"]
 
@@ -29,9 +30,9 @@ def model_text(name: str) -> str:
     found = Workspace.discover().resolve(name)
     if found.path is None:
         raise GazelleError(found.explain(name))
-    if found.path.is_file():
+    if is_file(found.path):
         return found.path.read_text(encoding="utf-8", errors="replace")
-    file = next((found.path / one for one in _MODEL_FILES if (found.path / one).is_file()), None)
+    file = next((found.path / one for one in _MODEL_FILES if is_file(found.path / one)), None)
     if file is None:
         # Its model.config says which file it is.
         return _INCLUDE.format(uri=name if "://" in name else Path(found.path).as_uri())

@@ -21,6 +21,7 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from gazelle.limits.names import exists
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.description import LaunchDescription
@@ -88,7 +89,7 @@ class IncludeLaunchDescription(Action):
         location = self.launch_description_source.location
         file = Path(location).absolute()
         # A description that a script made has a location such as <script>.
-        folder = str(file.parent) if file.exists() else location
+        folder = str(file.parent) if exists(file) else location
         places = {"current_launch_file_path": str(file), "current_launch_file_directory": folder}
         context.extend_locals(places)
         self.__check_arguments(description, context)

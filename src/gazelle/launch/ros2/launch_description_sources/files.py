@@ -17,6 +17,7 @@ from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.place import keep_place
+from gazelle.limits.names import exists, is_file, is_folder
 
 __all__ = [
     "InvalidPythonLaunchFileError",
@@ -137,13 +138,13 @@ def _functions(module: ModuleType) -> list[str]:
 
 def _check_exists(path: str) -> None:
     file = Path(path)
-    if file.is_file():
+    if is_file(file):
         return
     hint = ""
-    if file.parent.is_dir():
+    if is_folder(file.parent):
         hint = did_you_mean(file.name, sorted(one.name for one in file.parent.iterdir()))
-    elif not file.is_absolute() or not file.parent.exists():
-        existing = next((one for one in file.parents if one.is_dir()), None)
+    elif not file.is_absolute() or not exists(file.parent):
+        existing = next((one for one in file.parents if is_folder(one)), None)
         hint = f"'{file.parent}' is no folder" + (f", '{existing}' is" if existing else "")
     message = f"[Errno 2] No such file or directory: '{path}'"
     raise FileNotFoundError(f"{message}; {hint}" if hint else message)

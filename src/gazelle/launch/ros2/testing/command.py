@@ -14,6 +14,7 @@ from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.testing.loader import LoadTestsFromPythonModule
 from gazelle.launch.ros2.testing.results import unittestResultsToXml
 from gazelle.launch.ros2.testing.runner import LaunchTestRunner
+from gazelle.limits.names import is_file
 
 __all__ = ["add_arguments", "argument_lines", "main", "run"]
 
@@ -41,7 +42,7 @@ def run(
 ) -> int:
     """Run the tests of a file and return 0 when all passed, else 1."""
     file = Path(args.launch_test_file).absolute()
-    if not file.is_file():
+    if not is_file(file):
         parser.error(f"Test file '{args.launch_test_file}' does not exist")
     package = args.package_name or file.stem
     module = _module(package, file)

@@ -37,6 +37,7 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from gazelle.limits.names import is_file, is_folder
 from gazelle.nodes.arguments import ABSENT_NODES
 
 if TYPE_CHECKING:
@@ -212,7 +213,7 @@ class Node(ExecuteProcess):
             return ["-p", f"{name}:={_yaml_word(value)}"]
         if isinstance(given, dict):
             return ["--params-file", str(self._write_parameters(given))]
-        if not given.is_file():
+        if not is_file(given):
             self.__tell_of_file(context, Path(given))
             return []
         return ["--params-file", str(given)]
@@ -220,7 +221,7 @@ class Node(ExecuteProcess):
     def __tell_of_file(self, context: LaunchContext, path: Path) -> None:
         message = f"Parameter file path is not a file: {path}"
         launch_logging.get_logger("launch_ros.actions.node").warning(message)
-        names = [one.name for one in path.parent.iterdir()] if path.parent.is_dir() else []
+        names = [one.name for one in path.parent.iterdir()] if is_folder(path.parent) else []
         found = Diagnostics()
         fix = did_you_mean(path.name, sorted(names))
         found.report("ros2_launch.parameter-file", message, self.place, fix=fix)
@@ -308,7 +309,7 @@ def _global_parameter(given: Any) -> list[str]:
         name, value = given
         return ["-p", f"{name}:={_yaml_word(value) if isinstance(value, tuple) else value}"]
     path = Path(given).absolute()
-    if not path.is_file():
+    if not is_file(path):
         raise FileNotFoundError(f"SetParametersFromFile: '{path}' is not a file")
     return ["--params-file", str(path)]
 
