@@ -14,6 +14,7 @@ from tests.nodes.conftest import (
 )
 from tests.nodes.move_group.conftest import JOINTS, READY, box_object, parameters, pose
 from tests.nodes.move_group.fake_robot import FakeRobot
+from tests.patience import eventually
 
 from gazelle.compat.moveit.py import planning
 from gazelle.compat.moveit.py.kinematic_constraints import construct_joint_constraint
@@ -124,6 +125,8 @@ def test_trajectories_are_executed_in_every_way_of_calling(moveit: planning.Move
         assert call(arm.plan().trajectory) is ExecutionStatus.SUCCEEDED
     arm.set_goal_state(configuration_name="up")
     assert moveit.execute(arm.plan().trajectory, blocking=False) is None
+    # What it says at its end would be another test's output.
+    eventually(lambda: not any("_execute" in one.name for one in threading.enumerate()))
 
 
 def test_states_solve_kinematics(moveit: planning.MoveItPy) -> None:
