@@ -31,6 +31,7 @@ __all__ = [
 _NO_ROOM = {getattr(errno, name, 0) for name in ("EDQUOT", "EFBIG", "ENOSPC")}
 _NO_RIGHT = {errno.EACCES, errno.EPERM}
 _SHOWN = 60
+_LONGEST_BYTES = 255
 
 
 class GazelleError(Exception):
@@ -112,8 +113,10 @@ def file_refusal_text(error: OSError) -> str:
     elif error.errno in _NO_RIGHT and error.filename is not None:
         fix = "give yourself the right to it (ls -ld shows whose it is), or name another place"
     elif error.errno == errno.ENAMETOOLONG and error.filename is not None:
-        name = max(PurePath(os.fsdecode(error.filename)).parts, key=len)
-        return f"{name[:_SHOWN]}…: {error.strerror}\n  fix: name a file; this is {len(name)} long"
+        whole = os.fsdecode(error.filename)
+        part = max(PurePath(whole).parts, key=len)
+        name = part if len(os.fsencode(part)) > _LONGEST_BYTES else whole
+        return f"{name[:_SHOWN]}…: {error.strerror}\n  fix: shorten it from {len(name)} characters"
     else:
         return ""
     place = f"{error.filename}: " if error.filename is not None else ""

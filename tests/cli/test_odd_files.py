@@ -91,7 +91,7 @@ def test_names_that_no_file_can_have_are_told(tmp_path: Path) -> None:
     for text in told.values():
         assert "Traceback" not in text
         assert "n" * 60 in text
-    fix = "n…: File name too long\n  fix: name a file; this is 300 long\n"
+    fix = "n…: File name too long\n  fix: shorten it from 300 characters\n"
     assert told["rosparam load"].endswith(fix)
 
 

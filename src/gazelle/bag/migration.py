@@ -31,7 +31,6 @@ from gazelle.interfaces.lookup import split_name
 from gazelle.interfaces.naming import ros1_name
 from gazelle.interfaces.parser import parse_message
 from gazelle.interfaces.translate import definition_text
-from gazelle.limits.names import exists
 
 __all__ = ["Change", "Migration", "migration_of"]
 
@@ -139,7 +138,7 @@ class _BagTypes:
         package, _, bare = name.split("/")
         alias = f"{package}__{self._root_sum[:12]}"
         folder = _folder() / alias
-        if not exists(folder / "msg" / f"{bare}.msg"):
+        if not (folder / "msg" / f"{bare}.msg").exists():
             source = self._types[name]
             fields = tuple(
                 item._replace(type=item.type._replace(base=self.known_as(item.type.base)))
