@@ -122,6 +122,22 @@ def test_lines_that_are_reached_are_known() -> None:
     assert {Path(file).name for file, _ in lines} == {"keys.py"}
 
 
+def test_lines_that_other_threads_reach_are_not_counted() -> None:
+    def elsewhere() -> None:
+        thread = threading.Thread(target=Entity.from_token, args=("a",))
+        thread.start()
+        thread.join()
+
+    alone = reached(lambda: Entity.from_token("a"))
+    assert reached(elsewhere) == set()
+
+    def both() -> None:
+        elsewhere()
+        Entity.from_token("a")
+
+    assert reached(both) == alone
+
+
 def test_damage_is_the_same_every_time() -> None:
     good = KINDS["urdf"].good()
     assert [damaged(good, number) for number in range(20)] == [

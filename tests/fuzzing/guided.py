@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import random
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -110,11 +111,17 @@ def _traced(lines: set[Line]) -> Iterator[None]:
 
 @contextmanager
 def _monitored(lines: set[Line]) -> Iterator[None]:
-    """Each line tells once, then costs nothing until the next file."""
+    """Each line tells once, then costs nothing until the next file.
+
+    Events are those of all threads, and a place that one has switched off is off for all.
+    """
     monitoring: Any = sys.monitoring  # type: ignore[attr-defined, unused-ignore]
     tool, event = monitoring.COVERAGE_ID, monitoring.events.LINE
+    this_thread = threading.get_ident()
 
     def line(code: CodeType, number: int) -> Any:
+        if threading.get_ident() != this_thread:
+            return None
         if code.co_filename.startswith(_SOURCES):
             lines.add((code.co_filename, number))
         return monitoring.DISABLE
