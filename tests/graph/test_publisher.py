@@ -11,7 +11,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, MessageInfo, Node, RawMessage
+from gazelle.graph import Graph, MessageInfo, Node, RawMessage, wire
 from gazelle.interfaces import from_cdr, message_type, ros1_message_type
 
 String = message_type("std_msgs/msg/String")
@@ -121,6 +121,28 @@ def test_latched_publisher_that_comes_later_is_heard(
     listener.create_subscription("map", String, inbox)
     talker.create_publisher("map", String, latch=True).publish(String(data="map"))
     assert _texts(inbox.wait_for(1)) == ["map"]
+
+
+def test_of_two_threads_the_same_one_has_the_last_word_here_and_elsewhere(
+    talker: Node, listener: Node, make_inbox: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publisher = talker.create_publisher("map", String, latch=True)
+    second = threading.Thread(target=lambda: publisher.publish(String(data="second")))
+    encode = wire.encode
+
+    def encode_behind_the_second(message: Any) -> bytes:
+        if message.data == "first":
+            second.start()
+            second.join(0.3)
+        return encode(message)
+
+    monkeypatch.setattr(wire, "encode", encode_behind_the_second)
+    publisher.publish(String(data="first"))
+    second.join(stretched())
+    local, remote = make_inbox(), make_inbox()
+    talker.create_subscription("map", String, local)
+    listener.create_subscription("map", String, remote)
+    assert _texts(local.wait_for(1)) == _texts(remote.wait_for(1)) == ["second"]
 
 
 def test_wrong_type_is_reported_once_and_dropped(

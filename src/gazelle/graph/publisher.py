@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,7 @@ class Publisher:
         self._is_mute = is_mute
         self._closed = is_mute()
         self._last: Any = None
+        self._latching = threading.RLock()
         self._sequence = 0
         self._unsure = True
         self._sure_s = time.monotonic() + _UNSURE_S
@@ -94,10 +96,10 @@ class Publisher:
                 f"publish() on {self.topic}: this is a {type(message).__module__}."
                 f"{type(message).__qualname__}, the topic's type is {self.entity.type_name}"
             )
-        self._sequence += 1
         if self.latch:
             self._publish_latched(message)
             return
+        self._sequence += 1
         local = self._local.subscriptions
         if local:
             self._hand(message, local)
@@ -144,10 +146,13 @@ class Publisher:
         return self._closed
 
     def _publish_latched(self, message: Any) -> None:
-        with self._local.lock:
-            self._last = message
-            self._hand(message, self._local.subscriptions)
-        self._send(message)
+        # Of two threads that publish, both here and elsewhere the same one has the last word.
+        with self._latching:
+            with self._local.lock:
+                self._sequence += 1
+                self._last = message
+                self._hand(message, self._local.subscriptions)
+            self._send(message)
 
     def _hand(self, message: Any, subscriptions: tuple[Subscription, ...]) -> None:
         if self._copy_local and subscriptions:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from gazelle.launch.ros2.events.process import ProcessExited
@@ -49,11 +51,38 @@ class IoHandler:
         return list(self._by_name[key if isinstance(key, str) else key.process_details["name"]])
 
 
-class ActiveIoHandler:
+class _Awaited:
+    """Something that tests wait for in another thread.
+
+    Attributes:
+        heard_s: monotonic time when a test that waits was last told of something.
+    """
+
+    def __init__(self) -> None:
+        self.heard_s = -math.inf
+        self._condition = threading.Condition()
+        self._waits = 0
+
+    @contextmanager
+    def _waiting(self) -> Iterator[threading.Condition]:
+        with self._condition:
+            self._waits += 1
+            try:
+                yield self._condition
+            finally:
+                self._waits -= 1
+
+    def _notify(self) -> None:
+        if self._waits:
+            self.heard_s = time.monotonic()
+        self._condition.notify_all()
+
+
+class ActiveIoHandler(_Awaited):
     """The output of processes that still run."""
 
     def __init__(self) -> None:
-        self._condition = threading.Condition()
+        super().__init__()
         self._io_handler = IoHandler()
 
     @property
@@ -65,13 +94,13 @@ class ActiveIoHandler:
         """Know a process, whether it writes something or not."""
         with self._condition:
             self._io_handler.track(process_name)
-            self._condition.notify_all()
+            self._notify()
 
     def append(self, process_io: Any) -> None:
         """Add an event of output."""
         with self._condition:
             self._io_handler.append(process_io)
-            self._condition.notify_all()
+            self._notify()
 
     def __iter__(self) -> Iterator[Any]:
         with self._condition:
@@ -129,8 +158,8 @@ class ActiveIoHandler:
                 return False
             return True
 
-        with self._condition:
-            is_found = self._condition.wait_for(is_there, timeout)
+        with self._waiting() as told:
+            is_found = told.wait_for(is_there, timeout)
         if not is_found:
             resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
         return is_found
@@ -167,11 +196,11 @@ class ProcInfoHandler:
         raise KeyError(key)
 
 
-class ActiveProcInfoHandler:
+class ActiveProcInfoHandler(_Awaited):
     """Starts and ends of processes while the launch runs."""
 
     def __init__(self) -> None:
-        self._condition = threading.Condition()
+        super().__init__()
         self._proc_info_handler = ProcInfoHandler()
 
     @property
@@ -183,7 +212,7 @@ class ActiveProcInfoHandler:
         """Add a start or an end."""
         with self._condition:
             self._proc_info_handler.append(process_info)
-            self._condition.notify_all()
+            self._notify()
 
     def __iter__(self) -> Iterator[Any]:
         with self._condition:
@@ -229,9 +258,9 @@ class ActiveProcInfoHandler:
             return bool(is_it(known[action]))
 
         end_s = time.monotonic() + timeout
-        with self._condition:
+        with self._waiting() as told:
             # That a node is compiled code is not an event: it is looked at now and then.
-            while not self._condition.wait_for(holds, min(_LOOK_S, end_s - time.monotonic())):
+            while not told.wait_for(holds, min(_LOOK_S, end_s - time.monotonic())):
                 if _is_absent(process) or time.monotonic() >= end_s:
                     return False
         return True

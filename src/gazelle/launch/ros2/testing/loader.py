@@ -53,6 +53,8 @@ class TestRun:
             test_description_function, "__ready_to_test_action_timeout__", _PATIENCE_S
         )
         self._test_description_function = test_description_function
+        # A suite forgets the tests that have run.
+        self._all_cases = (*_cases(pre_shutdown_tests), *_cases(post_shutdown_tests))
         if self.param_args:
             self._rename_cases()
 
@@ -112,8 +114,7 @@ class TestRun:
 
     def all_cases(self) -> Iterator[unittest.TestCase]:
         """Yield every test."""
-        yield from _cases(self.pre_shutdown_tests)
-        yield from _cases(self.post_shutdown_tests)
+        yield from self._all_cases
 
     def __str__(self) -> str:
         return self.name + self._values()

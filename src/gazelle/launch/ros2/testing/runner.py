@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 import threading
+import time
 import unittest
 from collections.abc import Sequence
 from typing import Any, TextIO
@@ -19,6 +20,8 @@ from gazelle.launch.ros2.testing.loader import TestRun
 from gazelle.launch.ros2.testing.results import FailResult, SkipResult, TestResult
 
 __all__ = ["LaunchTestRunner", "parse_launch_arguments"]
+
+_MOMENT_S = 1.0
 
 
 class LaunchTestRunner:
@@ -107,13 +110,20 @@ class _Worker:
         tests.start()
         keeps_alive = self._run.markers.get("keep_alive", False)
         self._service.run(shutdown_when_idle=not keeps_alive)
-        if self._result is None:
+        self._let_answered_tests_end(tests)
+        result = self._result
+        if result is None:
             self._progress.end()
             _say("Processes under test stopped before tests completed")
             self._show_output()
             return None
-        self._result.append(_run_suite(self._run.post_shutdown_tests, self._progress))
-        return self._result
+        result.append(_run_suite(self._run.post_shutdown_tests, self._progress))
+        return result
+
+    def _let_answered_tests_end(self, tests: threading.Thread) -> None:
+        """The end of the last process may be what they have waited for."""
+        if max(self._info.heard_s, self._output.heard_s) > time.monotonic() - _MOMENT_S:
+            tests.join(_MOMENT_S)
 
     def _bind(self, known: dict[str, Any]) -> None:
         both = {"test_args": dict(self._arguments)}
@@ -147,9 +157,7 @@ class _Worker:
             self._service.shutdown()
             return
         try:
-            result = _run_suite(self._run.pre_shutdown_tests, self._progress)
-            if self._service.event_loop is not None:
-                self._result = result
+            self._result = _run_suite(self._run.pre_shutdown_tests, self._progress)
         finally:
             self._is_tested.set()
             self._service.shutdown()
