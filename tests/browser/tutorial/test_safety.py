@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import http.client
+import itertools
 import re
 import signal
 import threading
@@ -178,7 +179,7 @@ def _talk(begun: Session, publisher: Any) -> Callable[[], bool]:
     """Returns what publishes the next number, and is true."""
     from gazelle.interfaces import message_type
 
-    numbers = iter(range(1_000_000))
+    numbers = itertools.count()
     kind: Any = message_type("std_msgs/msg/Float64")
 
     def say() -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -121,7 +122,7 @@ def test_rules_of_the_graph(graph: Graph, robot: Node) -> None:
 def test_contention_about_a_frame_is_an_error(graph: Graph, robot: Node, pump: Any) -> None:
     other = graph.create_node("other", rosout=False)
     talkers = [node.create_publisher("/tf", "tf2_msgs/TFMessage") for node in (robot, other)]
-    stamps = iter(range(1, 1_000_000))
+    stamps = itertools.count(1)
 
     def send() -> None:
         for one in talkers:

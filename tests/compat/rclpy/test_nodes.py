@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -55,7 +56,7 @@ print('fine')
         publisher.publish(message)
 
     # Each message is one period later than the one before.
-    now = iter(range(10_000, 60_000, 500))
+    now = itertools.count(10_000, 500)
     running.eventually(lambda: (tell(next(now)), running.popen.poll() is not None)[1])
     assert running.lines[-1] == "fine", running.text
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import signal
 from collections.abc import Callable
 from typing import Any
@@ -310,7 +311,7 @@ if __name__ == '__main__':
 @pytest.fixture
 def run(gazelle: Callable[..., Any], graph: Graph, tmp_path: Any) -> Callable[..., Any]:
     """Runs a program's text as `python` would in a shell of `gazelle env`."""
-    numbers = iter(range(99))
+    numbers = itertools.count()
 
     def start(text: str, *words: str, **environ: str) -> Any:
         file = tmp_path / f"program{next(numbers)}.py"

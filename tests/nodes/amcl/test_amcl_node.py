@@ -212,9 +212,14 @@ def test_bad_input_is_told_and_the_robot_is_found_afterwards(bench: Any, capfd: 
     robot.look(bench)
     robot.jump(bench, 40.0)
     told("odometry jumped by 40.00 m", lambda: robot.jump(bench, 40.0))
-    robot.place_odometry("base_footprint")
+
+    def look_in_a_loop() -> None:
+        # Each time: amcl may just be sending where odometry is, because of an earlier scan.
+        robot.place_odometry("base_footprint")
+        robot.look(bench)
+
     told("its place is not known: The tf tree is invalid because it contains a loop",
-         lambda: robot.look(bench))  # fmt: skip
+         look_in_a_loop)  # fmt: skip
     robot.place_odometry("map")
     given.publish(_initial())
 
