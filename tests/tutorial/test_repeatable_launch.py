@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from tests.patience import eventually
 
 from gazelle.graph import Graph
 
@@ -60,7 +61,7 @@ def launch_in_lockstep(run: Callable, port: int) -> tuple[str, dict[str, list[by
         )  # fmt: skip
         state_hash = robot.wait_for_line("state hash").partition("state hash ")[2]
         assert robot.wait() == 0, robot.text
-        robot.eventually(lambda: record.counts() == _EXPECTED)
+        eventually(lambda: record.counts() == _EXPECTED, why=lambda: str(record.counts()))
         return state_hash, record.messages
 
 

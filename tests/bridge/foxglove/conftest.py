@@ -103,6 +103,7 @@ class Viewer:
                 subprotocols=["foxglove.sdk.v1"],
                 max_size=None,
                 close_timeout=0.2,
+                ping_interval=None,
             )
         )
         self._numbers = itertools.count(1)

@@ -184,9 +184,13 @@ def test_stalled_viewer_holds_up_nobody(graph: Graph, make_served: Make, connect
     out = graph.create_node("camera", rosout=False).create_publisher("/image", STRING)
     bridge = make_served()
     stalled, other = connect(bridge), connect(bridge)
-    stalled.subscribe("/image")
-    other.subscribe("/image")
-    other.wait_for(lambda: out.matched)
+    for viewer in (stalled, other):
+        # That one of them listens does not mean that the other does.
+        viewer.subscribe("/image")
+        viewer.wait_for(lambda: out.publish(String(data="begin")) or viewer.messages)  # noqa: B023
+    out.publish(String(data="all begun"))
+    other.wait_for(lambda: texts(other, "/image")[-1] == "all begun")
+    other.messages.clear()
     big = "x" * 1_000_000
     with at_most(20.0):
         for number in range(100):

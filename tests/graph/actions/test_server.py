@@ -106,6 +106,32 @@ def test_goal_by_topic_is_accepted_and_its_result_carries_status_and_text(world:
     assert statuses[-1].status_list[0].status == 3
 
 
+def test_goal_that_comes_while_the_action_is_offered_is_taken(world: World) -> None:
+    message = GOAL()
+    message.goal_id.id = "one"
+    world.node.create_publisher("/fibonacci/goal", GOAL, latch=True).publish(message)
+    world.serve()
+    assert world.owner.goals[0].status is ActionlibStatus.ACTIVE
+    # Nothing that was told later says that there is no goal.
+    assert world.statuses() == {"one": ActionlibStatus.ACTIVE}
+
+
+def test_request_that_comes_while_the_services_are_offered_is_answered(
+    world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def create_service(name: str, kind: Any, handler: Callable[[Any], Any]) -> Any:
+        if name.endswith("/send_goal"):
+            answers.append(handler(kind.Request()))
+        return offer(name, kind, handler)
+
+    answers: list[Any] = []
+    offer = world.node.create_service
+    monkeypatch.setattr(world.node, "create_service", create_service)
+    world.serve(2)
+    assert [one.accepted for one in answers] == [True]
+    assert len(world.listen("_action/status")[-1].status_list) == 1
+
+
 def test_goal_without_id_and_stamp_gets_both(world: World) -> None:
     world.serve()
     world.now_ns = 12 * S + 345

@@ -22,18 +22,26 @@ class ActionlibWire:
     """The five topics of one server."""
 
     def __init__(self, node: ActionNode, server: ActionServer, *, inline: bool) -> None:
-        """Offer the topics."""
+        """Offer the topics that tell; goals come after `listen`."""
+        self._node = node
         self._server = server
+        self._inline = inline
         self._types = types = server.types
         name = server.name
         self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
         self._result = node.create_publisher(f"{name}/result", types.Envelope["result"])
         self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
-        self._goal = node.create_subscription(
-            f"{name}/goal", types.Envelope["goal"], self._on_goal, inline=inline
-        )
-        self._cancel = node.create_subscription(
-            f"{name}/cancel", types.GoalId, self._on_cancel, inline=inline
+        self._subscriptions: tuple[Any, ...] = ()
+
+    def listen(self) -> None:
+        """Take goals and cancel requests."""
+        name, types = self._server.name, self._types
+        self._subscriptions = tuple(
+            self._node.create_subscription(f"{name}/{part}", kind, take, inline=self._inline)
+            for part, kind, take in (
+                ("goal", types.Envelope["goal"], self._on_goal),
+                ("cancel", types.GoalId, self._on_cancel),
+            )
         )
 
     @property
@@ -63,7 +71,7 @@ class ActionlibWire:
 
     def close(self) -> None:
         """Take the topics off the graph."""
-        for one in (self._goal, self._cancel, self._status, self._result, self._feedback):
+        for one in (*self._subscriptions, self._status, self._result, self._feedback):
             one.unregister()
 
     def _publish(self, publisher: Any, part: str, goal: ServerGoal, content: Any) -> None:

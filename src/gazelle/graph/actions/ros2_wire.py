@@ -28,19 +28,24 @@ class Ros2Wire:
     """The three services and two topics of one server."""
 
     def __init__(self, node: ActionNode, server: ActionServer) -> None:
-        """Offer services and topics."""
+        """Offer the topics; the services come with `listen`."""
+        self._node = node
         self._server = server
         self._types = types = server.types
         self._blocks = getattr(node, "clock", None) is not None
-        name = f"{server.name}/_action"
-        with node.announced_together():
-            self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
-            self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
-            self._services = (
-                node.create_service(f"{name}/send_goal", types.SendGoal, InTurn(self._on_goal)),
-                node.create_service(f"{name}/cancel_goal", types.CancelGoal, self._on_cancel),
-                node.create_service(f"{name}/get_result", types.GetResult, self._on_result),
-            )
+        self._name = name = f"{server.name}/_action"
+        self._feedback = node.create_publisher(f"{name}/feedback", types.Envelope["feedback"])
+        self._status = node.create_publisher(f"{name}/status", types.StatusArray, latch=True)
+        self._services: tuple[Any, ...] = ()
+
+    def listen(self) -> None:
+        """Take goals, cancel requests and questions for results."""
+        name, node, types = self._name, self._node, self._types
+        self._services = (
+            node.create_service(f"{name}/send_goal", types.SendGoal, InTurn(self._on_goal)),
+            node.create_service(f"{name}/cancel_goal", types.CancelGoal, self._on_cancel),
+            node.create_service(f"{name}/get_result", types.GetResult, self._on_result),
+        )
 
     @property
     def wants_feedback(self) -> bool:

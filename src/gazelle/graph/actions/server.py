@@ -49,6 +49,10 @@ class Wire(Protocol):
         """True when somebody listens to the status."""
         ...
 
+    def listen(self) -> None:
+        """Take goals and cancel requests."""
+        ...
+
     def send_status(self, goals: list[ServerGoal]) -> None:
         """Tell the status of all goals."""
         ...
@@ -132,14 +136,17 @@ class ActionServer:
         self._is_silent = False
         self._clock: Any = getattr(node, "clock", None)
         self.now_ns: Callable[[], int] = now_ns or (self._clock.now_ns if self._clock else _zero)
-        self._wire = self._offer(inline=run is not None)
         period_ns = int(_NANO / status_hz) if status_hz > 0 and generation == 1 else 0
         self._timer = StatusTimer(period_ns, self.now_ns, self._periodic_status)
+        with node.announced_together():
+            self._wire = self._offer(inline=run is not None)
+            self._wire.send_status([])
+            # The last thing: goals come at once.
+            self._wire.listen()
         if self._clock is not None:
             self._clock.on_jump(self._on_jump)
             if run is None:
                 self._timer.start(self._clock, self.name)
-        self._wire.send_status([])
         # A stand-in for a node has no end of its own.
         if on_shutdown := getattr(node, "on_shutdown", None):
             on_shutdown(self._fall_silent)

@@ -24,8 +24,9 @@ class SpawnHint:
         """Listen to the simulator, if there is one."""
         self._node, self._begins = node, begins
         shown, hidden = world_names("/gazebo/model_states")
+        self._subscriptions: list[Any] = []
         # Who listens to a name shows it, too.
-        self._subscriptions: list[Any] = [
+        self._subscriptions = [
             node.create_subscription(
                 topic, "gazebo_msgs/msg/ModelStates", self._on_states, queue_size=1
             )

@@ -66,13 +66,11 @@ class _DepthToScan:
         self._frames = Frames(node)
         self._info: Any = None
         self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
-        image = node.create_subscription(
-            _depth_topic(node), "sensor_msgs/msg/Image", self._on_image, queue_size=2
-        )
-        space = image.topic.rpartition("/")[0]
-        self._info_topic = _info_topic(node, space)
+        depth = _depth_topic(node)
+        self._info_topic = _info_topic(node, node.resolve_name(depth).rpartition("/")[0])
         kind = "sensor_msgs/msg/CameraInfo"
         node.create_subscription(self._info_topic, kind, self._on_info, queue_size=2)
+        node.create_subscription(depth, "sensor_msgs/msg/Image", self._on_image, queue_size=2)
 
     def _on_info(self, message: Any) -> None:
         self._info = message

@@ -30,10 +30,10 @@ class Services:
         below = f"~/explore_costmap/{area.layer}"
         self._update = service_type("frontier_exploration/UpdateBoundaryPolygon")
         self._next = service_type("frontier_exploration/GetNextFrontier")
-        node.create_service(f"{below}/update_boundary_polygon", self._update, self._on_update)
-        node.create_service(f"{below}/get_next_frontier", self._next, self._on_next)
         self._cloud: Any = message_type("sensor_msgs/msg/PointCloud2")
         self._out = node.create_publisher(f"{below}/frontiers", self._cloud, queue_size=5)
+        node.create_service(f"{below}/update_boundary_polygon", self._update, self._on_update)
+        node.create_service(f"{below}/get_next_frontier", self._next, self._on_next)
 
     def corners(self, boundary: Any) -> Corners | str:
         """Return a ``PolygonStamped`` in the costmap's frame, or why it is not known."""

@@ -37,6 +37,7 @@ class OneAtATime:
         """
         self._work = work
         self._node = context.node
+        self._name = context.node.resolve_name(name)
         self._turn = threading.Lock()
         self._stops: dict[str, threading.Event] = {}
         self.server = ActionServer(
@@ -67,7 +68,7 @@ class OneAtATime:
             try:
                 self._work(goal, stop)
             except Exception as error:
-                self._node.log("error", f"{self.server.name}: {type(error).__name__}: {error}")
+                self._node.log("error", f"{self._name}: {type(error).__name__}: {error}")
                 raise
             finally:
                 self._stops.pop(goal.goal_id, None)

@@ -52,7 +52,6 @@ class _Monitor:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._settings = Settings(COLLISION_MONITOR, tree, node.name, Diagnostics())
-        self._parameters = offer_parameters(node, tree, self._change)
         self._frames = Frames(node)
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._base = self._settings.text("base_frame_id").removeprefix("/")
@@ -66,6 +65,7 @@ class _Monitor:
         self._last, self._stopped_ns = Verdict(_STAND, Action.NONE, ""), 0
         self._lock = threading.Lock()
         node.create_service("~/toggle", service_type("nav2_msgs/srv/Toggle"), self._toggle)
+        self._parameters = offer_parameters(node, tree, self._change)
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()

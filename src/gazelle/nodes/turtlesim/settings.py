@@ -91,19 +91,21 @@ class _Ros2Settings:
         descriptors["holonomic"] = Descriptor("If true, then turtles will be holonomic")
         self._node = node
         self._on_background = on_background
+        self._values = dict(values)
         self._use_sim_time(values)
-        self._parameters = node_parameters(node, values, self._on_set, descriptors=descriptors)
+        node_parameters(node, values, self._on_set, descriptors=descriptors)
 
     def background(self) -> Color:
-        return _color(self._parameters.values)
+        return _color(self._values)
 
     def is_holonomic(self) -> bool:
-        return bool(self._parameters.values["holonomic"])
+        return bool(self._values["holonomic"])
 
     def _on_set(self, changes: Mapping[str, Any]) -> str:
         self._use_sim_time(changes)
+        self._values.update(changes)
         if not _DEFAULTS.keys().isdisjoint(changes):
-            self._on_background(_color({**self._parameters.values, **changes}))
+            self._on_background(_color(self._values))
         return ""
 
     def _use_sim_time(self, values: Mapping[str, Any]) -> None:
