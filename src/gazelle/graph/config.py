@@ -23,7 +23,7 @@ __all__ = ["DEFAULT_PORT", "client_config", "domain_of", "hub_config", "peer_con
 DEFAULT_PORT = 7447
 _DEFAULT_MASTER_PORT = 11311
 _HIGHEST_DOMAIN = 232
-_BLOCKED_LINK_CLOSES_US = 1_000_000
+_BLOCKED_LINK_CLOSES_US = 5_000_000
 
 
 def domain_of(environ: Mapping[str, str]) -> int:
@@ -124,7 +124,8 @@ def _config(
         # start at once, two seconds left some without one.
         "transport/unicast/open_timeout": 30_000,
         "transport/unicast/accept_timeout": 30_000,
-        # A process that was stopped must not stall reliable publishers for long.
+        # A process that was stopped must not stall reliable publishers for ever. All that waits in
+        # a link goes with it, so a machine with much to do has to have time to read.
         "transport/link/tx/queue/congestion_control/block/wait_before_close": (
             _BLOCKED_LINK_CLOSES_US
         ),
