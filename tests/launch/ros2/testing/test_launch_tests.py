@@ -378,3 +378,16 @@ def test_drop_in_has_the_paths_of_ros() -> None:
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )
     assert ran.stdout == "130 True\n", ran.stderr
+
+
+def test_drop_in_is_there_without_pytest() -> None:
+    code = (
+        "import sys; sys.modules['pytest'] = None\n"
+        "import launch_testing.actions\n"
+        "print(launch_testing.actions.ReadyToTest.__name__)"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(drop_in_folder())}
+    ran = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
+    )
+    assert ran.stdout == "ReadyToTest\n", ran.stderr

@@ -19,7 +19,6 @@ from gazelle.launch.ros2.testing import (
     runner,
     tools,
 )
-from gazelle.testing import launch_test_plugin as _hooks
 
 _MODULES = {
     "actions": actions,
@@ -41,8 +40,6 @@ _MODULES = {
     "markers": markers,
     "parse_arguments": runner,
     "proc_info_handler": handlers,
-    "pytest": _hooks,
-    "pytest.hooks": _hooks,
     "ready_aggregator": ready_aggregator,
     "test_result": results,
     "test_runner": runner,
@@ -53,6 +50,14 @@ _MODULES = {
     "util": lookup,
     "util.proc_lookup": lookup,
 }
+try:
+    from gazelle.testing import launch_test_plugin as _hooks
+except ModuleNotFoundError as _error:
+    # Launch tests of unittest run without pytest.
+    if _error.name != "pytest":
+        raise
+else:
+    _MODULES |= {"pytest": _hooks, "pytest.hooks": _hooks}
 for _name, _module in _MODULES.items():
     _sys.modules[f"{__name__}.{_name}"] = _module
     if "." not in _name:
