@@ -226,13 +226,10 @@ def test_a_launch_that_ends_too_soon_fails(launch_test: Callable[..., Finished])
 
 
 _ENDED_BY_A_TEST = """
-import pathlib, time
-END = '''
-import pathlib, sys, time
-while not pathlib.Path("over").exists():
-    time.sleep(0.01)
-raise SystemExit(int(sys.argv[1]))
-'''
+import os, pathlib, threading
+from tests.patience import eventually
+END = "import sys; open('over').read(); sys.exit(int(sys.argv[1]))"
+os.mkfifo("over")
 def generate_test_description():
     process = ExecuteProcess(cmd=[sys.executable, "-c", END, "{code}"])
     return launch.LaunchDescription([process, ReadyToTest()]), {{"process": process}}
@@ -242,7 +239,7 @@ class Beside(unittest.TestCase):
     def test_b(self, proc_info, process, launch_service):
         # Its end is not told before the test waits for it.
         with proc_info.proc_event:
-            pathlib.Path("over").touch()
+            pathlib.Path("over").write_text("now")
             {wait}
 """
 
@@ -250,7 +247,9 @@ class Beside(unittest.TestCase):
 def test_a_launch_that_ends_behind_the_first_of_two_tests_fails(
     launch_test: Callable[..., Finished],
 ) -> None:
-    ran = launch_test(_ENDED_BY_A_TEST.format(code=3, wait="pass\n        time.sleep(PATIENCE_S)"))
+    ran = launch_test(
+        _ENDED_BY_A_TEST.format(code=3, wait="pass\n        threading.Event().wait(PATIENCE_S)")
+    )
     assert ran.returncode == 1, ran.stderr
     assert "exited with 3" in ran.stdout
 
@@ -259,7 +258,7 @@ def test_a_test_that_waits_for_the_last_end_may_end_after_it(
     launch_test: Callable[..., Finished],
 ) -> None:
     wait = """proc_info.assertWaitForShutdown(process, timeout=PATIENCE_S)
-        while launch_service.event_loop is not None: time.sleep(0.01)"""
+        eventually(lambda: launch_service.event_loop is None)"""
     ran = launch_test(_ENDED_BY_A_TEST.format(code=0, wait=wait))
     assert ran.returncode == 0, ran.stdout + ran.stderr
 
