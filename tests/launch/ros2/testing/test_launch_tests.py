@@ -309,6 +309,12 @@ def test_wrong_files(text: str, message: str, launch_test: Callable[..., Finishe
     assert message in ran.stderr
 
 
+def test_the_line_of_an_error_is_told(launch_test: Callable[..., Finished]) -> None:
+    ran = launch_test("raise ValueError('mine')")
+    line = _head().count("\n") + 1
+    assert f"check.py:{line}: mine" in ran.stderr
+
+
 _KEPT = """
 @launch_testing.markers.keep_alive
 def generate_test_description(ready_fn):

@@ -11,6 +11,7 @@ from types import ModuleType
 
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2.description import LaunchDescription
+from gazelle.launch.ros2.place import raising_place
 from gazelle.launch.ros2.testing.loader import LoadTestsFromPythonModule
 from gazelle.launch.ros2.testing.results import unittestResultsToXml
 from gazelle.launch.ros2.testing.runner import LaunchTestRunner
@@ -89,7 +90,8 @@ def main(words: Sequence[str] | None = None) -> int:
     try:
         return run(parser, args)
     except Exception as error:  # noqa: BLE001 - a test file may raise anything when it is loaded
-        parser.error(str(error))
+        place = raising_place(error)
+        parser.error(f"{place.file}:{place.line}: {error}" if place else str(error))
 
 
 def _module(name: str, file: Path) -> ModuleType:
