@@ -47,7 +47,7 @@ def test_arm_is_held_from_the_start_and_follows_a_goal_of_another_process(
     ]
     world = arm.call("/gazebo/get_world_properties", "gazebo_msgs/srv/GetWorldProperties")
     assert world.sim_time == 0.0
-    assert "control.idle-gains" in arm.text
+    arm.wait_for_line(r"control\.idle-gains")
 
     arm.call("/gazebo/unpause_physics", "std_srvs/srv/Empty")
     state = arm.messages({"/joint_states": 1})["/joint_states"][-1]

@@ -119,7 +119,7 @@ def test_fibonacci_server_and_client_run_unmodified(
         "3 counted True",
         "cancelled PREEMPTED",
     ]
-    assert "executing /fibonacci of order 8" in server.lines
+    server.wait_for_line("^executing /fibonacci of order 8$")
     assert graph.actions()[0].type_name == "my_actions/action/Fibonacci"
     server.stop()
 

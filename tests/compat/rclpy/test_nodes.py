@@ -58,6 +58,7 @@ print('fine')
     # Each message is one period later than the one before.
     now = itertools.count(10_000, 500)
     running.eventually(lambda: (tell(next(now)), running.popen.poll() is not None)[1])
+    assert running.wait() == 0, running.text
     assert running.lines[-1] == "fine", running.text
 
 
