@@ -8,18 +8,20 @@ import sys
 import pytest
 
 _FREED_AFTER_LARGER_ONES = """
+import sys
 import psutil
 from gazelle.graph.allocator import return_large_blocks
 
 def held_mb():
     # From the largest to the smallest, so that none fits where another one was.
-    blocks = [bytearray(900_000 - 1_000 * number) for number in range(60)]
+    blocks = [bytearray(largest - 64 * number) for number in range(60_000_000 // largest)]
     full = psutil.Process().memory_info().rss
     # Small blocks between them and the end of the heap.
     small = [bytes(5_000) for _ in range(200)]
     del blocks
     return (full - psutil.Process().memory_info().rss) / 1e6
 
+largest = int(sys.argv[1])
 held_mb()
 return_large_blocks()
 print(held_mb())
@@ -27,8 +29,9 @@ print(held_mb())
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks glibc")
-def test_large_blocks_go_back_to_the_system() -> None:
-    words = [sys.executable, "-c", _FREED_AFTER_LARGER_ONES]
+@pytest.mark.parametrize("largest", [900_000, 230_400])
+def test_large_blocks_go_back_to_the_system(largest: int) -> None:
+    words = [sys.executable, "-c", _FREED_AFTER_LARGER_ONES, str(largest)]
     ended = subprocess.run(words, capture_output=True, text=True, check=True)
-    # 52 MB of blocks.
+    # 52 and 58 MB of blocks.
     assert float(ended.stdout) > 45.0
