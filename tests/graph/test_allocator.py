@@ -27,6 +27,33 @@ return_large_blocks()
 print(held_mb())
 """
 
+_FULL_OF_HOLES = """
+import psutil
+from gazelle.graph.allocator import HeapTrim
+
+blocks = [bytearray(60_000) for _ in range(1_000)]
+kept = blocks[::10]
+del blocks
+trim, held = HeapTrim(), []
+for _ in range(2):
+    held.append(psutil.Process().memory_info().rss / 1e6)
+    # A picture of 4 MiB; small messages do not count.
+    for _ in range(16):
+        trim.took(4 << 20)
+    trim.took(1_000)
+held.append(psutil.Process().memory_info().rss / 1e6)
+print(held[0] - held[1], held[1] - held[2])
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks glibc")
+def test_holes_of_a_heap_go_back_to_the_system_after_many_large_messages() -> None:
+    words = [sys.executable, "-c", _FULL_OF_HOLES]
+    ended = subprocess.run(words, capture_output=True, text=True, check=True)
+    after_half, after_all = map(float, ended.stdout.split())
+    # 54 MB of holes.
+    assert after_half < 1.0 and after_all > 45.0
+
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks glibc")
 @pytest.mark.parametrize("largest", [900_000, 230_400])

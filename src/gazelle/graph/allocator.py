@@ -5,12 +5,16 @@ from __future__ import annotations
 import ctypes
 import sys
 from contextlib import suppress
+from functools import cache
+from typing import Any, NamedTuple
 
-__all__ = ["return_large_blocks"]
+__all__ = ["HeapTrim", "return_large_blocks"]
 
 # M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of glibc's malloc.h.
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
 _LARGE_BYTES = 64 << 10
+# A trim takes 0.1 ms where there is little to give back, so many bytes some 50 ms.
+_TRIM_EVERY_BYTES = 128 << 20
 
 
 def return_large_blocks() -> None:
@@ -20,9 +24,48 @@ def return_large_blocks() -> None:
     in heaps; where pictures come and go among small blocks these have more and more holes. A
     picture of 320 x 240 takes 0.4 ms longer to come and go then: only for who has many waiting.
     """
-    if sys.platform.startswith("linux"):
-        # Other C libraries of Linux have no such function.
-        with suppress(AttributeError, OSError):
-            library = ctypes.CDLL(None)
-            library.mallopt(_MMAP_THRESHOLD, _LARGE_BYTES)
-            library.mallopt(_TRIM_THRESHOLD, _LARGE_BYTES)
+    library = _glibc()
+    if library is not None:
+        library.mallopt(_MMAP_THRESHOLD, _LARGE_BYTES)
+        library.mallopt(_TRIM_THRESHOLD, _LARGE_BYTES)
+
+
+class HeapTrim:
+    """Gives back what is free in heaps each time that many bytes of large messages have come.
+
+    Each thread of the transport has a heap, and of those in which pictures come and go none ever
+    gets smaller by itself: with time there is a free place for a picture in all of them.
+    """
+
+    def __init__(self) -> None:
+        """Begin to count."""
+        self._taken = 0
+
+    def took(self, size: int) -> None:
+        """Take in that a message of so many bytes came; cheap for small ones."""
+        if size < _LARGE_BYTES:
+            return
+        # Threads that count at the same time may lose some bytes: it is no matter when exactly.
+        self._taken += size
+        if self._taken >= _TRIM_EVERY_BYTES:
+            self._taken = 0
+            library = _glibc()
+            if library is not None:
+                library.malloc_trim(0)
+
+
+class _Glibc(NamedTuple):
+    mallopt: Any
+    malloc_trim: Any
+
+
+@cache
+def _glibc() -> _Glibc | None:
+    """Return what is asked of glibc here; None elsewhere and with other C libraries of Linux."""
+    if not sys.platform.startswith("linux"):
+        return None
+    with suppress(AttributeError, OSError):
+        library = ctypes.CDLL(None)
+        library.malloc_trim.argtypes = [ctypes.c_size_t]
+        return _Glibc(library.mallopt, library.malloc_trim)
+    return None

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import introspection
+from gazelle.graph.allocator import HeapTrim
 from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
@@ -64,6 +65,7 @@ class Graph:
         parameters: the parameter store, by global names.
         local: topics' ends in this process.
         stamps: finds messages of the wrong clock.
+        heap: gives memory back that large messages leave free.
         console: writes what nodes log, taken over by nodes when they are made.
         calls: of services, that have no answer yet.
     """
@@ -90,6 +92,7 @@ class Graph:
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
         self.clock = Clock(lambda: self.parameters.get_cached(_USE_SIM_TIME, False))
         self.stamps = StampWatch(self.clock)
+        self.heap = HeapTrim()
         self.console: Callable[..., None] = print_record
         self._environ = environ
         self._keeper = keeper

@@ -184,6 +184,7 @@ class Subscription:
         if type_name != self.entity.type_name and not self._accepts(type_name):
             return
         data = sample.payload.to_bytes()
+        self._graph.heap.took(len(data))
         attachment = _attachment_of(sample) if self._with_info or self._count_seq else None
         if self._raw:
             self._deliver(RawMessage(data, type_name), attachment, type_name)
