@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from gazelle.graph import Graph
+import pytest
+
+from gazelle.graph import Graph, config, locators
 from gazelle.interfaces import message_type
 
 String = message_type("std_msgs/msg/String")
@@ -32,6 +36,39 @@ def test_hub_is_taken_over_and_messages_flow_on(
     eventually(lambda: publisher.subscription_count == 2)
     client = join(role="client")
     eventually(lambda: client.node_names() == ("/late", "/listener", "/talker"))
+
+
+def test_who_comes_while_the_hub_closes_waits_for_its_place(
+    port: int,
+    join: Callable[..., Graph],
+    eventually: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    import zenoh
+
+    monkeypatch.setattr("gazelle.graph.parameters._NO_OWNER_S", 0.0)
+    release = locators.claim_hub(port)
+    assert release is not None
+    hub: Any = zenoh.open(config.hub_config(port))
+    closed = threading.Event()
+    refused: list[int] = []
+
+    def claim(number: int) -> Callable[[], None] | None:
+        found = locators.claim_hub(number)
+        if found is None and closed.is_set():
+            refused.append(number)
+            if len(refused) == 2:
+                release()
+        return found
+
+    monkeypatch.setattr("gazelle.graph.hub.claim_hub", claim)
+    with ThreadPoolExecutor() as pool:
+        opening = pool.submit(join)
+        eventually(hub.info.peers_zid)
+        hub.close()
+        closed.set()
+        assert opening.result().is_hub
+    assert len(refused) == 2
 
 
 def test_a_session_that_ends_takes_no_hub_over(

@@ -15,12 +15,13 @@ from gazelle.graph import introspection
 from gazelle.graph.allocator import HeapTrim
 from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
+from gazelle.graph.closing import close_session
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
 from gazelle.graph.control import Control, ask_process, shut_down_node
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
-from gazelle.graph.hub import HubKeeper, close_session
+from gazelle.graph.hub import HubKeeper
 from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
@@ -88,7 +89,7 @@ class Graph:
         self.zid = str(session.zid())
         self.announcements = Announcements(session)
         self.local = LocalTopics()
-        self.parameter_share = ParameterShare(session)
+        self.parameter_share = ParameterShare(session, may_own=keeper is not None)
         self.parameters: ParameterStore = global_parameters(self.parameter_share)
         self.clock = Clock(lambda: self.parameters.get_cached(_USE_SIM_TIME, False))
         self.stamps = StampWatch(self.clock)

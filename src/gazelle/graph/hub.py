@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.ending import called_by_library
 from gazelle.errors import GraphError
+from gazelle.graph.closing import close_session
 from gazelle.graph.config import hub_config
 from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
 from gazelle.graph.relink import Relinker
@@ -18,12 +19,11 @@ from gazelle.graph.relink import Relinker
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["HubKeeper", "close_session"]
+__all__ = ["HubKeeper"]
 
 _PAUSE_S = 0.05
 _RETRY_S = 0.2
 _CHECK_S = 0.5
-_CLOSE_S = 2.0
 
 
 class HubKeeper:
@@ -165,35 +165,6 @@ class HubKeeper:
                     self.carry()
             if self._connected.wait(_CHECK_S):
                 self._lost.clear()
-
-
-def close_session(session: Any, then: Callable[[], None] | None = None) -> None:
-    """Leave; what the session declared disappears for all others.
-
-    The transport waits up to ten seconds for its threads, which may be in the middle of a link
-    that just broke. They get two here; the process' end takes the rest.
-
-    Args:
-        session: the one to close.
-        then: called when it is closed, however long that takes.
-    """
-    words = (session, then or _do_nothing)
-    closing = threading.Thread(target=_close, args=words, name="gazelle-close", daemon=True)
-    try:
-        closing.start()
-    except RuntimeError:
-        # Python 3.12 and later start no thread at the process' very end.
-        _close(*words)
-    else:
-        closing.join(_CLOSE_S)
-
-
-def _close(session: Any, then: Callable[[], None]) -> None:
-    import zenoh
-
-    with contextlib.suppress(zenoh.ZError):
-        session.close()
-    then()
 
 
 def _do_nothing() -> None:

@@ -27,6 +27,8 @@ __all__ = ["ParameterShare", "ParameterStore", "global_parameters"]
 
 _REQUIRED: Any = object()
 _NO_OWNER_S = 3.0
+# A hub that closes keeps its place until the transport has ended, which takes ten seconds at most.
+_TAKING_OVER_S = 15.0
 # Longer than a machine needs on which sixty processes start at once.
 _SLOW_OWNER_S = 120.0
 _RETRY_S = 0.02
@@ -44,9 +46,15 @@ Listener = Callable[[str], None]
 class ParameterShare:
     """One process' part in the store: the owner, a copy of it, or neither."""
 
-    def __init__(self, session: zenoh.Session) -> None:
-        """Hold nothing yet."""
+    def __init__(self, session: zenoh.Session, *, may_own: bool = False) -> None:
+        """Hold nothing yet.
+
+        Args:
+            session: the process' own.
+            may_own: this process takes over the hub when it is lost, and the parameters with it.
+        """
         self._session = session
+        self._no_owner_s = _TAKING_OVER_S if may_own else _NO_OWNER_S
         self._key = parameter_key("store")
         self._update_key = parameter_key("update")
         self._tree = ParameterTree()
@@ -136,11 +144,12 @@ class ParameterShare:
         """Ask until the owner answers.
 
         The hub owns the parameters, a moment after it can be reached. While there is a hub, it
-        may have much to do; without one, another process takes it over within a second.
+        may have much to do; without one, another process takes it over within a second, or this
+        one as soon as it can.
         """
         payload = to_json(request)
         longest = time.monotonic() + _SLOW_OWNER_S
-        deadline = time.monotonic() + _NO_OWNER_S
+        deadline = time.monotonic() + self._no_owner_s
         while True:
             for reply in self._session.get(self._key, payload=payload, timeout=_ASK_S):
                 answer = answer_in(reply)
@@ -151,7 +160,7 @@ class ParameterShare:
                 return self._handle(request)
             now = time.monotonic()
             if self._session.info.routers_zid():
-                deadline = now + _NO_OWNER_S
+                deadline = now + self._no_owner_s
             if now > min(deadline, longest):
                 raise GraphError(
                     "no process holds the parameters (Unable to communicate with master!)\n"

@@ -15,6 +15,7 @@ import threading
 from contextlib import suppress
 from typing import Any
 
+from gazelle.graph.closing import close_session
 from gazelle.graph.config import client_config
 from gazelle.graph.locators import is_hub
 
@@ -79,9 +80,7 @@ def hub_knows(port: int, selector: str) -> bool:
     replies = session.liveliness().get(selector, timeout=_ASK_S)
     # All of them are taken: one that finds the channel full would hold up the close.
     lives = sum(reply.ok is not None for reply in replies) > 0
-    with suppress(zenoh.ZError):
-        # A machine with much to do is too slow for it; the answer is known all the same.
-        session.close()
+    close_session(session)
     return lives
 
 
