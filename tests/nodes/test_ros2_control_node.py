@@ -44,6 +44,12 @@ def _publish(bench: Any, plugin: str) -> Any:
     return publisher
 
 
+def _states_of(bench: Any) -> dict[str, str]:
+    kind = "controller_manager_msgs/srv/ListControllers"
+    listed = bench.call("/controller_manager/list_controllers", kind).controller
+    return {one.name: one.state for one in listed}
+
+
 def test_mock_arm_follows_a_trajectory(
     bench: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -62,6 +68,8 @@ def test_mock_arm_follows_a_trajectory(
     kind = action_type("control_msgs/FollowJointTrajectory")
     client = ActionClient(bench.node, "/arm/follow_joint_trajectory", kind)
     assert client.wait_for_server(stretched(30.0))
+    # The server is there from configuring on, and refuses goals until the controller is active.
+    bench.eventually(lambda: _states_of(bench)["arm"] == "active")
     point = {"positions": [1.0], "time_from_start": {"sec": 0, "nanosec": 200_000_000}}
     goal = client.send_goal({"trajectory": {"joint_names": ["j"], "points": [point]}})
     assert goal.wait(stretched(30.0))

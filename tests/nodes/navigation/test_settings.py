@@ -49,6 +49,7 @@ def test_values_and_defaults() -> None:
     [
         ("rate", "fast", 5.0, "'rate' is 'fast', not a number; 5.0 is used"),
         ("rate", 11, 10.0, "'rate' is 11.0, not a number of 0 to 10; 10 is used"),
+        ("rate", 10**400, 5.0, "'rate' is 1000000"),
         ("rate", float("nan"), 5.0, "'rate' is nan, not a number of 0 to 10; 5.0 is used"),
         ("rate", True, 5.0, "'rate' is True, not a number"),
         ("count", 2.5, 3, "'count' is 2.5, not a whole number; 3 is used"),

@@ -137,5 +137,5 @@ def _gains(tree: Mapping[str, Any], joints: tuple[str, ...], type_name: str) -> 
 def _number(value: Any) -> float:
     try:
         return float(value)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         return 0.0

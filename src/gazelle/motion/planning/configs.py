@@ -227,7 +227,7 @@ class _Reader:
     def _number(self, key: str, value: Any, low: float, high: float) -> float | None:
         try:
             number = float(value)
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             number = math.nan
         if low <= number <= high and math.isfinite(number):
             return number

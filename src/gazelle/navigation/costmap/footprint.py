@@ -94,7 +94,7 @@ def _corner(item: Any) -> tuple[float, float]:
     try:
         x, y = item
         corner = float(x), float(y)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         raise ValueError(f"a corner of a footprint is [x, y], not {item!r}") from None
     if not all(map(math.isfinite, corner)):
         raise ValueError(f"a corner of a footprint is finite, not {item!r}")
