@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 
 import pytest
@@ -64,13 +63,6 @@ def test_values_that_are_none_are_errors_of_the_yaml(text: str) -> None:
     except yaml.YAMLError:
         return
     assert text == "="
-
-
-def test_whole_numbers_of_more_than_64_bits_are_floating_point_ones() -> None:
-    value = load_yaml(f"[{2**64 - 1}, {-(2**63)}, {2**64}, {-(2**63) - 1}, 1{'0' * 400}, true]")
-    assert value == [2**64 - 1, -(2**63), 2.0**64, -(2.0**63), math.inf, True]
-    assert [type(one) for one in value] == [int, int, float, float, float, bool]
-    assert load_yaml(f"a: &b -1{'0' * 400}\nc: *b") == {"a": -math.inf, "c": -math.inf}
 
 
 def test_a_tab_is_called_a_tab() -> None:

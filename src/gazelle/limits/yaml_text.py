@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import yaml
@@ -18,7 +17,6 @@ _DEEPEST = 64
 _UNREADABLE: tuple[type[Exception], ...]
 _UNREADABLE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, SyntaxError)
 _UNREADABLE += (LimitError, NameError)
-_WHOLE = range(-(1 << 63), 1 << 64)
 
 
 class YamlLimitError(yaml.MarkedYAMLError):
@@ -69,13 +67,9 @@ class LimitedLoader(yaml.SafeLoader):
         return root
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
-        """Construct a value; numbers and dates that are none are errors of the YAML.
-
-        Whole numbers of more than 64 bits are floating-point ones, as ROS 2 reads them.
-        """
+        """Construct a value; numbers and dates that are none are errors of the YAML."""
         try:
-            value = super().construct_object(node, deep=deep)
-            return _as_float(value) if type(value) is int and value not in _WHOLE else value
+            return super().construct_object(node, deep=deep)
         except _UNREADABLE as error:
             text = f"this value cannot be read: {error}"
             raise yaml.constructor.ConstructorError(None, None, text, node.start_mark) from error
@@ -97,13 +91,6 @@ def load_yaml_documents(text: str) -> list[Any]:
         yaml.YAMLError: it is not YAML, or above a limit.
     """
     return list(yaml.load_all(text, Loader=LimitedLoader))
-
-
-def _as_float(value: int) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        return -math.inf if value < 0 else math.inf
 
 
 def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:
