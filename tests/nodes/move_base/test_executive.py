@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -170,6 +171,64 @@ def test_staying_in_one_place_is_oscillation(drive) -> None:
     drive.now_s = 19.6
     executive.cycle(PlanPose(0.4, 0.0, 0.0))
     assert (executive.state, executive.trigger) == (State.CLEARING, Trigger.OSCILLATION)
+
+
+def _drive_on(drive: _Drive, executive: Executive, poses: list[PlanPose]) -> float:
+    """Cycle once a second; return when a recovery began, infinite for never."""
+    for pose in poses:
+        drive.now_s += 1.0
+        executive.cycle(pose)
+        if executive.state is State.CLEARING:
+            return drive.now_s
+    return math.inf
+
+
+def test_a_robot_that_gets_nowhere_with_commands_clears_after_its_patience(drive) -> None:
+    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive.begin()
+    drive.now_s = 100.0
+    executive.planned(_PLAN)
+    # Patience begins with the first command. Swinging to and fro is getting nowhere.
+    swing = [PlanPose(0.05 * (i % 2), 0.0, 0.2 * (-1) ** i) for i in range(60)]
+    assert _drive_on(drive, executive, swing) == 117.0
+    assert executive.trigger is Trigger.OSCILLATION
+    text = "The robot got nowhere for 15 s, though the controller has commands"
+    assert any(str(one).startswith(text) for one in drive.done)
+    ended = None
+    while ended is None:
+        drive.now_s += 1.0
+        executive.planned(_PLAN)
+        ended = executive.cycle(_HERE)
+    assert [index for index, _ in _recoveries(drive)] == [0, 1, 2, 3]
+    assert ended.outcome is Outcome.ABORTED
+    assert ended.text.startswith("Robot is oscillating. Even after executing recovery behaviors.")
+    assert "got nowhere for 15 s" in ended.text
+
+
+def test_a_robot_that_creeps_or_turns_gets_on(drive) -> None:
+    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive.begin()
+    executive.planned(_PLAN)
+    creeping = [PlanPose(0.01 * i, 0.0, 0.0) for i in range(60)]
+    assert _drive_on(drive, executive, creeping) == math.inf
+    turning = [PlanPose(0.7, 0.0, 0.06 * i) for i in range(100)]
+    assert _drive_on(drive, executive, turning) == math.inf
+    # Once around on the spot is enough.
+    begin_s = drive.now_s
+    spinning = [PlanPose(0.7, 0.0, 6.0 + 0.5 * i) for i in range(100)]
+    assert _drive_on(drive, executive, spinning) < begin_s + 20.0
+
+
+def test_time_without_sensors_is_not_time_without_getting_on(drive) -> None:
+    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive.begin()
+    executive.planned(_PLAN)
+    assert _drive_on(drive, executive, [_HERE] * 10) == math.inf
+    drive.current = False
+    assert _drive_on(drive, executive, [_HERE] * 30) == math.inf
+    drive.current = True
+    assert _drive_on(drive, executive, [_HERE] * 15) == math.inf
+    assert _drive_on(drive, executive, [_HERE] * 5) < math.inf
 
 
 def test_stale_sensors_stop_the_robot(drive) -> None:

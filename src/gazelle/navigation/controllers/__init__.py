@@ -1,4 +1,4 @@
-"""Following paths: DWA, DWB, MPPI, Regulated Pure Pursuit, under the names of ROS's controllers."""
+"""Following paths, under the names of ROS's controllers: DWA, DWB, MPPI, pure pursuit, rollout."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from gazelle.navigation.controllers.state import (
     RobotState,
     Velocity,
 )
+from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = [
     "CONTROLLERS",
@@ -42,6 +43,7 @@ __all__ = [
     "PursuitOptions",
     "RobotState",
     "SamplingController",
+    "TrajectoryPlanner",
     "TrajectoryPlannerOptions",
     "Velocity",
 ]

@@ -13,6 +13,7 @@ from gazelle.navigation.costmap.kernels import outline_cost
 
 __all__ = ["BLOCKED", "distance_field", "score_samples", "simulate"]
 
+_MOST_STEPS = 4096
 BLOCKED = 1e6
 """Distance of cells that are obstacles or that nothing leads to."""
 
@@ -120,7 +121,10 @@ def score_samples(
     n = samples.shape[0]
     scores = np.empty(n)
     count = corners.shape[0]
-    poses = np.empty((4096, 3))
+    poses = np.empty((_MOST_STEPS + 1, 3))
+    reach = 0.0
+    for k in range(count):
+        reach = max(reach, math.hypot(corners[k, 0], corners[k, 1]))
     for k in range(n):
         vx = samples[k, 0]
         vy = samples[k, 1]
@@ -132,21 +136,44 @@ def score_samples(
             steps = math.ceil(
                 max(speed * timing[0] / timing[1], abs(w) * timing[0] / timing[2]) - 1e-9
             )
-        steps = min(steps, 4096)
+        steps = min(steps, _MOST_STEPS)
         if steps <= 0:
             scores[k] = -10.0
             continue
+        # Between the points that are scored nothing of the outline may pass over a cell unseen.
+        between = math.ceil((speed + abs(w) * reach) * timing[0] / steps * inverse)
+        between = max(min(between, _MOST_STEPS // steps), 1)
+        steps *= between
         dt = timing[0] / steps
-        simulate(
-            state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits, steps,
-            dt, accelerate, poses,
-        )  # fmt: skip
         scale = 1.0
         if speed > scaling[0] and scaling[1] > scaling[0]:
             scale += scaling[2] * (speed - scaling[0]) / (scaling[1] - scaling[0])
         worst = 0.0
         refused = 0.0
-        for j in range(steps):
+        if outlined and not accelerate:
+            # The robot will not have the velocity at once, and cuts its corners.
+            simulate(
+                state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
+                steps + 1, dt, True, poses,
+            )  # fmt: skip
+            for j in range(steps + 1):
+                cost = outline_cost(
+                    costs, corners, count, ox, oy, inverse, poses[j, 0], poses[j, 1],
+                    math.cos(poses[j, 2]), math.sin(poses[j, 2]), scale,
+                )  # fmt: skip
+                if cost < 0:
+                    refused = -6.0 if cost > -3 else -7.0
+                    break
+        if refused < 0:
+            scores[k] = refused
+            continue
+        simulate(
+            state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
+            steps + 1, dt, accelerate, poses,
+        )  # fmt: skip
+        for j in range(steps + 1):
+            if not outlined and (j == steps or j % between):
+                continue
             c = math.cos(poses[j, 2])
             s = math.sin(poses[j, 2])
             if outlined:
@@ -164,6 +191,8 @@ def score_samples(
             if cost < 0:
                 refused = -6.0 if cost > -3 else -7.0
                 break
+            if j == steps or j % between:
+                continue
             worst = worst + cost if total else max(worst, float(cost))
             u = math.floor((poses[j, 0] - ox) * inverse)
             v = math.floor((poses[j, 1] - oy) * inverse)
@@ -173,7 +202,7 @@ def score_samples(
         if refused < 0:
             scores[k] = refused
             continue
-        end = steps - 1
+        end = steps - between
         u = math.floor((poses[end, 0] - ox) * inverse)
         v = math.floor((poses[end, 1] - oy) * inverse)
         score = weights[4] * worst + weights[5] * abs(w)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,18 +13,17 @@ from gazelle.navigation.controllers.options import (
     DwbOptions,
     TrajectoryPlannerOptions,
 )
-from gazelle.navigation.controllers.profile import (
-    dwa_profile,
-    dwb_profile,
-    trajectory_planner_profile,
-)
+from gazelle.navigation.controllers.profile import dwa_profile, dwb_profile
 from gazelle.navigation.controllers.pursuit import PursuitController
 from gazelle.navigation.controllers.pursuit_options import PursuitOptions
 from gazelle.navigation.controllers.sampling import SamplingController
 from gazelle.navigation.controllers.state import Controller
+from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]
 
+# TrajectoryPlannerROS had these up to ROS Lunar.
+_OLD_NAMES = frozenset({"gdist_scale", "pdist_scale"})
 ControllerOptions = (
     DwaOptions | DwbOptions | MppiOptions | PursuitOptions | TrajectoryPlannerOptions
 )
@@ -39,12 +38,14 @@ class ControllerSetting:
         critics: parameters of critics by name (Nav2).
         tolerance: of the goal, m and rad; a goal checker's (Nav2).
         seed: of whatever is random.
+        given: names of the parameters that were set.
     """
 
     period_s: float
     critics: Mapping[str, Mapping[str, Any]]
     tolerance: tuple[float, float] = (0.25, 0.25)
     seed: int = 0
+    given: Collection[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,8 @@ def _dwa(options: DwaOptions, setting: ControllerSetting) -> Controller:
 
 
 def _trajectory(options: TrajectoryPlannerOptions, setting: ControllerSetting) -> Controller:
-    return SamplingController(trajectory_planner_profile(options), setting.period_s)
+    is_old = not _OLD_NAMES.isdisjoint(setting.given)
+    return TrajectoryPlanner(options, setting.period_s, scales_obstacles=is_old)
 
 
 def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
@@ -101,7 +103,7 @@ _TEB = (
 CONTROLLERS: Mapping[str, ControllerKind] = {
     "dwa_local_planner/DWAPlannerROS": ControllerKind(DwaOptions, _dwa),
     "base_local_planner/TrajectoryPlannerROS": ControllerKind(
-        TrajectoryPlannerOptions, _trajectory, "trajectories are scored as DWAPlannerROS does"
+        TrajectoryPlannerOptions, _trajectory
     ),
     **{
         f"{package}{separator}{name}": kind

@@ -74,19 +74,25 @@ class DwaOptions:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryPlannerOptions:
-    """``base_local_planner/TrajectoryPlannerROS`` (ROS 1), scored as DWA does."""
+    """``base_local_planner/TrajectoryPlannerROS`` (ROS 1).
 
-    max_vel_x: float = number(0.5, "highest velocity along x", "m/s", 0)
-    min_vel_x: float = number(0.1, "lowest velocity along x", "m/s", 0)
+    Defaults are those of ``BaseLocalPlanner.cfg``, which its node sets where a file says nothing.
+    """
+
+    max_vel_x: float = number(0.55, "highest velocity along x", "m/s", 0)
+    min_vel_x: float = number(0.0, "lowest velocity along x", "m/s")
     max_vel_theta: float = number(1.0, "fastest turn", "rad/s", 0,
                                   names=("max_rotational_vel",))  # fmt: skip
-    min_vel_theta: float = number(-1.0, "fastest turn to the right", "rad/s")
+    min_vel_theta: float = number(-1.0, "fastest turn to the right", "rad/s", high=0)
     min_in_place_vel_theta: float = number(0.4, "slowest turn on the spot", "rad/s", 0,
                                            names=("min_in_place_rotational_vel",))  # fmt: skip
     acc_lim_x: float = number(2.5, "acceleration along x", "m/s²", 0)
     acc_lim_y: float = number(2.5, "acceleration along y", "m/s²", 0)
     acc_lim_theta: float = number(3.2, "angular acceleration", "rad/s²", 0, names=("acc_lim_th",))
-    escape_vel: float = number(-0.1, "velocity of backing up when nothing else is left", "m/s")
+    escape_vel: float = number(-0.1, "velocity of backing up when nothing else is left", "m/s",
+                               names=("backup_vel",))  # fmt: skip
+    escape_reset_dist: float = number(0.1, "distance after which it drives ahead again", "m", 0)
+    escape_reset_theta: float = number(1.5708, "turn after which it drives ahead again", "rad", 0)
     holonomic_robot: bool = flag(True, "the robot can drive sideways")
     y_vels: tuple[str, ...] = texts(
         ("-0.3", "-0.1", "0.1", "0.3"), "velocities along y that are tried, m/s"
@@ -97,32 +103,37 @@ class TrajectoryPlannerOptions:
     rot_stopped_velocity: float = number(1e-2, "below it the robot does not turn", "rad/s", 0)
     latch_xy_goal_tolerance: bool = flag(False, "once in the goal the robot only turns")
     prune_plan: bool = flag(True, "what was passed by a metre is forgotten")
-    sim_time: float = number(1.0, _TRAJECTORY, "s", 0.01)
+    sim_time: float = number(1.7, _TRAJECTORY, "s", 0.01)
     sim_granularity: float = number(0.025, _STEP, "m", 1e-3)
     angular_sim_granularity: float = number(0.025, _TURN, "rad", 1e-3)
-    vx_samples: int = integer(3, "velocities along x", 1)
+    vx_samples: int = integer(20, "velocities along x", 1)
     vtheta_samples: int = integer(20, "turning velocities", 1)
     path_distance_bias: float = number(0.6, "weight of keeping to the path", "", 0,
                                        names=("pdist_scale",))  # fmt: skip
     goal_distance_bias: float = number(0.8, "weight of getting to the local goal", "", 0,
                                        names=("gdist_scale",))  # fmt: skip
     occdist_scale: float = number(0.01, "weight of keeping away from obstacles", "", 0)
-    oscillation_reset_dist: float = number(0.05, "distance after which it may reverse", "m", 0)
-    heading_lookahead: float = number(0.325, "how far ahead the nose is that is scored", "m", 0)
-    dwa: bool = flag(True, "only velocities that are reached within one period")
-    meter_scoring: bool = flag(False, "weights are per metre, else per cell")
+    oscillation_reset_dist: float = number(0.05, "distance after which it may turn back", "m", 0)
+    heading_lookahead: float = number(0.325, "how far ahead turns on the spot are told apart", "m",
+                                      0)  # fmt: skip
+    heading_scoring: bool = flag(False, "trajectories are scored by where they look, and at one "
+                                 "time instead of their end")  # fmt: skip
+    heading_scoring_timestep: float = number(0.1, "that time", "s", 0)
+    simple_attractor: bool = flag(False, "the goal attracts in a straight line, whatever the plan "
+                                  "says")  # fmt: skip
+    dwa: bool = flag(False, "only velocities that are reached within one period, else within "
+                     "sim_time")  # fmt: skip
+    meter_scoring: bool = flag(False, "weights of distances are per metre, else per cell; that of "
+                               "obstacles, too, with pdist_scale and gdist_scale, as up to ROS "
+                               "Lunar")  # fmt: skip
 
     IDLE: ClassVar[Mapping[str, str]] = {
-        "heading_scoring": "headings are scored by the nose on the path",
-        "heading_scoring_timestep": "headings are scored by the nose on the path",
-        "simple_attractor": "distances along the path are always propagated",
-        "escape_reset_dist": "backing up ends as soon as a trajectory is free",
-        "escape_reset_theta": "backing up ends as soon as a trajectory is free",
         "publish_cost_grid_pc": _PICTURE,
         "global_frame_id": _PICTURE,
         "controller_frequency": "move_base's counts",
         "world_model": "the costmap is the world",
         "restore_defaults": "set the parameters themselves",
+        "stop_time_buffer": "the original reads it and does not use it",
         "inscribed_radius": "the footprint says it",
         "circumscribed_radius": "the footprint says it",
     }

@@ -7,13 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.navigation.controllers.options import (
-    DwaOptions,
-    DwbOptions,
-    TrajectoryPlannerOptions,
-)
+from gazelle.navigation.controllers.options import DwaOptions, DwbOptions
 
-__all__ = ["Profile", "dwa_profile", "dwb_profile", "trajectory_planner_profile"]
+__all__ = ["Profile", "dwa_profile", "dwb_profile"]
 
 Triple = tuple[float, float, float]
 
@@ -28,15 +24,13 @@ class Profile:
         acceleration, deceleration: their limits, both positive.
         slowest_m_s, slowest_rad_s: a velocity below both is not tried, negative for any.
         fastest_m_s: highest speed, negative for any.
-        slowest_in_place_rad_s: of turns on the spot.
         counts: samples along x, y, around z.
-        side_m_s: velocities along y that are tried without moving along x.
         sim_time_s: duration of trajectories.
         step_m, step_rad: between points of a trajectory; with step_m 0 step_rad is seconds.
         holds: trajectories hold a velocity that is reached within one period.
         arrives: trajectories that do not are no faster than what gets to the goal in their time.
         path, goal, nose_goal, nose_path: weights of distances.
-        per_resolution: these weights are multiplied by so many times the resolution; 0 for not.
+        per_resolution: these weights are multiplied by so many times the resolution.
         obstacles, turning, backwards: weights.
         nose_m: how far ahead the nose is.
         free_nose_m2: squared distance to the goal below which the nose need not be on the path.
@@ -48,7 +42,6 @@ class Profile:
         latches: once in the goal the robot only turns.
         behind_m, ahead_m: how much of the path is looked at.
         reset_m, reset_rad, slow_m_s: of `Oscillation`; infinite reset_m for none.
-        escape_m_s: velocity of backing up when nothing is left, 0 for none.
     """
 
     name: str
@@ -90,9 +83,6 @@ class Profile:
     reset_rad: float = 0.2
     slow_m_s: float = 0.0
     oscillates: bool = False
-    slowest_in_place_rad_s: float = 0.0
-    side_m_s: tuple[float, ...] = ()
-    escape_m_s: float = 0.0
 
 
 def dwa_profile(o: DwaOptions) -> Profile:
@@ -133,46 +123,6 @@ def dwa_profile(o: DwaOptions) -> Profile:
         reset_m=o.oscillation_reset_dist,
         reset_rad=o.oscillation_reset_angle,
         slow_m_s=o.min_vel_trans,
-    )
-
-
-def trajectory_planner_profile(o: TrajectoryPlannerOptions) -> Profile:
-    """Return how ``TrajectoryPlannerROS`` drives, with DWA's scores in place of its own."""
-    acceleration = (o.acc_lim_x, o.acc_lim_y, o.acc_lim_theta)
-    side = tuple(float(value.strip(" ,")) for value in o.y_vels) if o.holonomic_robot else ()
-    return Profile(
-        name="Trajectory planner",
-        low=(min(o.min_vel_x, 0.0), 0.0, o.min_vel_theta),
-        high=(o.max_vel_x, 0.0, o.max_vel_theta),
-        acceleration=acceleration,
-        deceleration=acceleration,
-        slowest_m_s=o.min_vel_x,
-        slowest_rad_s=o.min_in_place_vel_theta,
-        fastest_m_s=-1.0,
-        counts=(max(o.vx_samples, 1), 1, max(o.vtheta_samples, 1)),
-        side_m_s=side,
-        sim_time_s=o.sim_time,
-        step_m=o.sim_granularity,
-        step_rad=o.angular_sim_granularity,
-        holds=o.dwa,
-        path=o.path_distance_bias,
-        goal=o.goal_distance_bias,
-        nose_goal=o.goal_distance_bias,
-        nose_path=o.path_distance_bias,
-        per_resolution=1.0 if o.meter_scoring else 0.0,
-        obstacles=o.occdist_scale,
-        nose_m=o.heading_lookahead,
-        free_nose_m2=o.heading_lookahead**2,
-        tolerance_m=o.xy_goal_tolerance,
-        tolerance_rad=o.yaw_goal_tolerance,
-        stopped_m_s=o.trans_stopped_velocity,
-        stopped_rad_s=o.rot_stopped_velocity,
-        latches=o.latch_xy_goal_tolerance,
-        behind_m=1.0 if o.prune_plan else math.inf,
-        reset_m=o.oscillation_reset_dist,
-        slow_m_s=o.min_vel_x,
-        slowest_in_place_rad_s=o.min_in_place_vel_theta,
-        escape_m_s=o.escape_vel,
     )
 
 

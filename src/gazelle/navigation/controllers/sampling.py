@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.controllers.following import FollowedPlan, angle_between
+from gazelle.navigation.controllers.arrival import Arrival
+from gazelle.navigation.controllers.following import FollowedPlan
 from gazelle.navigation.controllers.oscillation import Oscillation
 from gazelle.navigation.controllers.profile import Profile
 from gazelle.navigation.controllers.samples import grid_of_samples
@@ -29,7 +30,7 @@ _REFUSALS = {
 
 
 class SamplingController:
-    """Scores trajectories of sampled velocities; DWA, DWB and TrajectoryPlanner by its profile."""
+    """Scores trajectories of sampled velocities; DWA and DWB by its profile."""
 
     def __init__(self, profile: Profile, period_s: float) -> None:
         """Begin without a path.
@@ -42,14 +43,17 @@ class SamplingController:
         self._period_s = period_s
         self._plan: FollowedPlan | None = None
         self._oscillation = Oscillation(profile.reset_m, profile.reset_rad)
-        self._latched = False
-        self._turning = False
+        p = profile
+        self._arrival = Arrival(
+            p.tolerance_m, p.tolerance_rad, p.stopped_m_s, p.stopped_rad_s, p.latches,
+            p.deceleration, p.acceleration[2], max(p.slowest_rad_s, 0.0), p.high[2], period_s,
+        )  # fmt: skip
 
     def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
         """Take a path; see `Controller`."""
         held = FollowedPlan(plan, before=self._plan if has_moved else None)
         if self._plan is None or (self._plan.goal != held.goal and not has_moved):
-            self._latched = self._turning = False
+            self._arrival.reset()
         self._plan = held
         if not has_moved:
             self._oscillation.reset()
@@ -57,7 +61,7 @@ class SamplingController:
     def reset(self) -> None:
         """Forget the path and what was driven."""
         self._plan = None
-        self._latched = self._turning = False
+        self._arrival.reset()
         self._oscillation.reset()
 
     def limit_speed(self, m_s: float | None) -> None:
@@ -74,10 +78,7 @@ class SamplingController:
 
     def goal_reached(self, state: RobotState) -> bool:
         """Tell whether the robot stands in the goal, looking the right way."""
-        if self._plan is None or not self._in_place(state):
-            return False
-        turn = angle_between(state.pose[2], self._plan.goal[2])
-        return bool(abs(turn) <= self._profile.tolerance_rad and self._stands(state))
+        return self._plan is not None and self._arrival.is_reached(state, self._plan.goal)
 
     def compute(
         self, state: RobotState, grid: CostGrid, footprint: Footprint
@@ -88,9 +89,9 @@ class SamplingController:
         p = self._profile
         local = self._plan.local(state.pose, grid, p.behind_m, p.ahead_m)
         fields = self._fields(state, grid, local)
-        if self._in_place(state):
+        if self._arrival.is_in_place(state, self._plan.goal):
             return self._stop_and_turn(state, grid, footprint, fields)
-        self._turning = False
+        self._arrival.leave()
         return self._best(state, grid, footprint, fields)
 
     def _best(
@@ -106,7 +107,7 @@ class SamplingController:
             scores = np.where((scores >= 0) & ~self._oscillation.allowed(samples), -5.0, scores)
         legal = np.nonzero(scores >= 0)[0]
         if not len(legal):
-            return self._escape(state, grid, footprint, fields, scores)
+            return self._refusal(scores)
         best = int(legal[scores[legal].argmin()])
         return self._command(state, samples[best], float(scores[best]))
 
@@ -115,19 +116,8 @@ class SamplingController:
         self._oscillation.remember(state.pose, velocity, max(self._profile.slow_m_s, 0.0))
         return Command(velocity, self._trajectory(state, sample), cost)
 
-    def _escape(
-        self,
-        state: RobotState,
-        grid: CostGrid,
-        footprint: Footprint,
-        fields: tuple[NDArray[np.float32], ...],
-        scores: NDArray[np.float64],
-    ) -> Command | NoCommand:
-        """Back up where the options say so, else tell why nothing is left."""
-        if self._profile.escape_m_s < 0:
-            sample = np.array([[self._profile.escape_m_s, 0.0, 0.0]])
-            if self._scores(sample, state, grid, footprint, fields)[0] >= 0:
-                return self._command(state, sample[0], 0.0)
+    def _refusal(self, scores: NDArray[np.float64]) -> NoCommand:
+        """Tell why nothing is left."""
         counts = {
             text: int(sum((scores == code).sum() for code, own in _REFUSALS.items() if own == text))
             for text in dict.fromkeys(_REFUSALS.values())
@@ -149,14 +139,7 @@ class SamplingController:
             left = math.hypot(goal[0] - state.pose[0], goal[1] - state.pose[1]) / p.sim_time_s
             high[:2] = np.maximum(np.minimum(high[:2], left), low[:2])
         samples = grid_of_samples(low, np.maximum(high, low), p.counts)
-        if p.side_m_s:
-            side = np.array([[0.0, y, 0.0] for y in p.side_m_s])
-            samples = np.vstack([samples, side])
         speed = np.hypot(samples[:, 0], samples[:, 1])
-        # Turns on the spot are made fast enough to happen, as base_local_planner does.
-        spot = (speed < 1e-4) & (np.abs(samples[:, 2]) > 1e-4)
-        least = np.maximum(np.abs(samples[:, 2]), p.slowest_in_place_rad_s)
-        samples[:, 2] = np.where(spot, np.copysign(least, samples[:, 2]), samples[:, 2])
         turn = np.abs(samples[:, 2])
         slow = (p.slowest_m_s >= 0) & (speed + 1e-4 < p.slowest_m_s)
         slow &= (p.slowest_rad_s >= 0) & (turn + 1e-4 < p.slowest_rad_s)
@@ -175,7 +158,7 @@ class SamplingController:
         from gazelle.navigation.controllers.kernels import score_samples
 
         p = self._profile
-        unit = p.per_resolution * grid.resolution_m if p.per_resolution else 1.0
+        unit = p.per_resolution * grid.resolution_m
         distances = np.array([p.path, p.goal, p.nose_goal, p.nose_path]) * unit
         scores = score_samples(
             grid.costs, float(grid.origin[0]), float(grid.origin[1]), 1.0 / grid.resolution_m,
@@ -202,24 +185,11 @@ class SamplingController:
         end = local[-1, :2]
         bearing = math.atan2(end[1] - state.pose[1], end[0] - state.pose[0])
         ahead = end + self._profile.nose_m * np.array([math.cos(bearing), math.sin(bearing)])
-        targets = _cells(grid, local[:, :2])
-        front = np.vstack([targets, _cells(grid, np.linspace(end, ahead, 20))])
+        targets = grid.cells_of(local[:, :2])
+        front = np.vstack([targets, grid.cells_of(np.linspace(end, ahead, 20))])
         path = distance_field(grid.costs, targets, False)
         goal = distance_field(grid.costs, targets, True)
         return path, goal, distance_field(grid.costs, front, True)
-
-    def _in_place(self, state: RobotState) -> bool:
-        """Tell whether the robot's place is the goal's."""
-        assert self._plan is not None
-        goal, p = self._plan.goal, self._profile
-        near = math.hypot(goal[0] - state.pose[0], goal[1] - state.pose[1]) <= p.tolerance_m
-        self._latched = p.latches and (near or self._latched)
-        return bool(near or self._latched)
-
-    def _stands(self, state: RobotState) -> bool:
-        p = self._profile
-        speed = math.hypot(state.velocity[0], state.velocity[1])
-        return speed <= p.stopped_m_s and abs(state.velocity[2]) <= p.stopped_rad_s
 
     def _stop_and_turn(
         self,
@@ -228,42 +198,16 @@ class SamplingController:
         footprint: Footprint,
         fields: tuple[NDArray[np.float32], ...],
     ) -> Command | NoCommand:
-        """Stand still, then turn into the goal's direction, as LatchedStopRotateController."""
         assert self._plan is not None
-        turn = angle_between(state.pose[2], self._plan.goal[2])
-        if abs(turn) <= self._profile.tolerance_rad:
-            self._turning = False
-            return Command((0.0, 0.0, 0.0), np.array([state.pose]))
-        if not self._turning and not self._stands(state):
-            velocity, what = self._slower(state), "Stopping cmd in collision"
-        else:
-            self._turning = True
-            velocity, what = (0.0, 0.0, self._turn(state, turn)), "Rotation cmd in collision"
-        sample = np.array([velocity])
-        score = self._scores(sample, state, grid, footprint, fields)[0]
-        # A velocity of 0 has no trajectory and hits nothing.
-        if score < 0 and any(velocity) and score in (-6.0, -7.0):
-            return NoCommand(what)
-        return Command(velocity, self._trajectory(state, sample[0]))
 
-    def _slower(self, state: RobotState) -> Velocity:
-        p = self._profile
-        values = [
-            math.copysign(max(0.0, abs(v) - p.deceleration[k] * self._period_s), v)
-            for k, v in enumerate(state.velocity)
-        ]
-        return values[0], values[1], values[2]
+        def hits(velocity: Velocity) -> bool:
+            score = self._scores(np.array([velocity]), state, grid, footprint, fields)[0]
+            return bool(score in (-6.0, -7.0))
 
-    def _turn(self, state: RobotState, turn: float) -> float:
-        """Return the turning velocity towards a direction, slow enough to stop there."""
-        p = self._profile
-        limit, fastest = p.acceleration[2], p.high[2]
-        now = abs(state.velocity[2])
-        slowest = max(p.slowest_rad_s, 0.0)
-        speed = min(fastest, max(slowest, abs(turn)))
-        speed = min(max(speed, now - limit * self._period_s), now + limit * self._period_s)
-        speed = min(speed, math.sqrt(2 * limit * abs(turn)))
-        return math.copysign(min(fastest, max(slowest, speed)), turn)
+        velocity = self._arrival.velocity(state, self._plan.goal, hits)
+        if isinstance(velocity, NoCommand):
+            return velocity
+        return Command(velocity, self._trajectory(state, np.array(velocity)))
 
     def _trajectory(self, state: RobotState, sample: NDArray[np.float64]) -> NDArray[np.float64]:
         from gazelle.navigation.controllers.kernels import simulate
@@ -273,8 +217,3 @@ class SamplingController:
         limits, pace = np.array(p.acceleration), p.sim_time_s / steps
         simulate(*state.pose, *state.velocity, sample, limits, steps, pace, not p.holds, out)
         return out
-
-
-def _cells(grid: CostGrid, points: NDArray[np.float64]) -> NDArray[np.int64]:
-    cells = np.floor((points - np.array(grid.origin)) / grid.resolution_m)
-    return np.asarray(cells, np.int64)

@@ -109,6 +109,11 @@ class CostGrid:
             int(np.floor((y_m - self.origin[1]) / self.resolution_m)),
         )
 
+    def cells_of(self, points_m: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return columns and rows, (n, 2), of the cells of points, (n, 2)."""
+        cells = np.floor((points_m - np.array(self.origin)) / self.resolution_m)
+        return np.asarray(cells, np.int64)
+
     def cell_to_world(
         self, column: ArrayLike, row: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

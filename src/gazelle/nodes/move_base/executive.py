@@ -1,7 +1,9 @@
 """What move_base does when: planning, controlling, clearing, and the end of a goal.
 
 The rules, their order and the words are those of ``move_base.cpp`` (ROS Noetic); threads, topics
-and time are somebody else's. Times are nanoseconds of the node's clock.
+and time are somebody else's. Times are nanoseconds of the node's clock. One rule is our own: a
+robot that gets nowhere for ``controller_patience`` though the controller has commands is
+oscillating, too. There ``oscillation_timeout`` 0 lets it swing or stand for ever.
 """
 
 from __future__ import annotations
@@ -16,6 +18,8 @@ from typing import NamedTuple, Protocol
 __all__ = ["Drive", "End", "Executive", "Outcome", "Plan", "PlanPose", "State", "Timing", "Trigger"]
 
 _NANO = 1_000_000_000
+# What counts as getting on: so far away, or so far round; not more than once around on the spot.
+_WAY_M, _WAY_RAD = 0.1, 0.5
 
 
 class PlanPose(NamedTuple):
@@ -121,6 +125,29 @@ class Drive(Protocol):
         ...
 
 
+class _Way:
+    """When a robot that has commands last got on."""
+
+    def __init__(self, now_ns: int, pose: PlanPose) -> None:
+        self.last_ns = now_ns
+        self._pose = pose
+        self._turned_rad = 0.0
+
+    def look(self, now_ns: int, pose: PlanPose) -> None:
+        """Take in where the robot is."""
+        last = self._pose
+        turned_rad = abs(math.remainder(pose.yaw_rad - last.yaw_rad, math.tau))
+        if math.hypot(pose.x_m - last.x_m, pose.y_m - last.y_m) >= _WAY_M:
+            self._turned_rad = 0.0
+        elif turned_rad < _WAY_RAD or self._turned_rad + turned_rad > math.tau:
+            return
+        else:
+            self._turned_rad += turned_rad
+            # It has not left the place that it turns on.
+            pose = pose._replace(x_m=last.x_m, y_m=last.y_m)
+        self.last_ns, self._pose = now_ns, pose
+
+
 class Executive:
     """One goal after another: what comes next.
 
@@ -146,6 +173,7 @@ class Executive:
         self._retries = 0
         self._last_plan_ns = self._last_control_ns = self._last_reset_ns = 0
         self._rest_pose: PlanPose | None = None
+        self._way: _Way | None = None
 
     @property
     def wants_plan(self) -> bool:
@@ -161,6 +189,7 @@ class Executive:
             self.trigger, self._new_plan, self._rest_pose = None, None, None
             self._runs_planner = True
             self._last_plan_ns = self._last_control_ns = self._last_reset_ns = now_ns
+            self._way = None
 
     def end(self) -> None:
         """Be without a goal: the planner rests and the robot stands."""
@@ -204,6 +233,7 @@ class Executive:
                 " safety",
             )
             self._drive.stop()
+            self._way = None
             return None
         with self._lock:
             plan, self._new_plan = self._new_plan, None
@@ -215,7 +245,7 @@ class Executive:
         if self.state is State.PLANNING:
             self._runs_planner = True
             return None
-        return self._control(now_ns) if self.state is State.CONTROLLING else self._recover()
+        return self._control(now_ns, pose) if self.state is State.CONTROLLING else self._recover()
 
     def _watch_oscillation(self, now_ns: int, pose: PlanPose) -> None:
         rest = self._rest_pose
@@ -225,7 +255,7 @@ class Executive:
             if self.trigger is Trigger.OSCILLATION and rest is not None:
                 self._recovery_index = 0
 
-    def _control(self, now_ns: int) -> End | None:
+    def _control(self, now_ns: int, pose: PlanPose) -> End | None:
         if self._drive.is_goal_reached():
             self.end()
             return End(Outcome.SUCCEEDED, "Goal reached.")
@@ -238,6 +268,7 @@ class Executive:
             self._last_control_ns, self.why = now_ns, ""
             if self.trigger is Trigger.CONTROLLING:
                 self._recovery_index = 0
+            self._watch_way(now_ns, pose)
             return None
         self.why = why
         if now_ns > self._last_control_ns + int(self.timing.controller_patience_s * _NANO):
@@ -248,6 +279,17 @@ class Executive:
             self.state, self._runs_planner = State.PLANNING, True
         self._drive.stop()
         return None
+
+    def _watch_way(self, now_ns: int, pose: PlanPose) -> None:
+        if self._way is None:
+            self._way = _Way(now_ns, pose)
+        self._way.look(now_ns, pose)
+        patience_s = self.timing.controller_patience_s
+        if now_ns > self._way.last_ns + int(patience_s * _NANO):
+            text = f"got nowhere for {patience_s:g} s, though the controller has commands"
+            self.why = f"the robot {text}"
+            self._drive.log("warn", f"The robot {text}: clearing what may be in its way")
+            self._clear(Trigger.OSCILLATION)
 
     def _clear(self, trigger: Trigger) -> None:
         with self._lock:
@@ -262,6 +304,7 @@ class Executive:
             now_ns = self._drive.now_ns()
             with self._lock:
                 self._last_reset_ns = self._last_plan_ns = now_ns
+                self._way = None
                 self._retries, self.state = 0, State.PLANNING
                 self._recovery_index += 1
             return None

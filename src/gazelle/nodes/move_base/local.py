@@ -129,7 +129,8 @@ class LocalPlanner:
 
     def _made(self) -> Controller:
         options = self.settings.fill(self._kind.options)
-        return self._kind.make(options, ControllerSetting(self._period_s, {}))
+        given = tuple(self.settings.tree)
+        return self._kind.make(options, ControllerSetting(self._period_s, {}, given=given))
 
     def _state(self) -> RobotState | None:
         pose = self._costmap.pose()

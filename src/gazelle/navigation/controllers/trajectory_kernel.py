@@ -1,0 +1,150 @@
+# mypy: ignore-errors
+# ruff: noqa: ANN001, ANN201, ANN202, C901, D417, PLR0915, PLR0917
+"""The compiled loop of ``TrajectoryPlannerROS``; see `gazelle.navigation.costmap.kernels`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.compiling import njit
+from gazelle.navigation.controllers.kernels import BLOCKED, simulate
+from gazelle.navigation.costmap.kernels import outline_cost
+
+__all__ = ["HIT", "NO_WAY", "roll_out"]
+
+HIT, NO_WAY = -1.0, -2.0
+"""Costs of trajectories on which the robot hits something or leaves the costmap, and of those
+that lead where no way leads to the goal."""
+_MOST_STEPS = 4096
+
+
+@njit(cache=True, nogil=True)
+def roll_out(
+    costs, ox, oy, inverse, path, goal, corners, state, samples, limits, weights, timing, heading,
+    plan, attracts,
+):  # fmt: skip
+    """Return costs of velocity samples and where they end, (n, 4): cost, x, y, yaw.
+
+    Args:
+        costs, ox, oy, inverse: the costmap, its origin (m) and cells per metre.
+        path, goal: fields of `distance_field` for path and goal.
+        corners: outline of the robot, (n, 2).
+        state: x, y, yaw, vx, vy, w.
+        samples: (n, 3).
+        limits: accelerations along x, y (m/s²) and around z (rad/s²).
+        weights: of path, goal, obstacles, heading.
+        timing: duration (s), steps of it (m, rad).
+        heading: at which time (s) path, goal and heading count; negative for the end, and no
+            heading.
+        plan: the path within the costmap, (n, 2), m.
+        attracts: the goal's squared distance (m²) counts, and no path.
+    """
+    n = samples.shape[0]
+    found = np.empty((n, 4))
+    poses = np.empty((_MOST_STEPS + 1, 3))
+    last = plan.shape[0] - 1
+    reach = 0.0
+    for k in range(corners.shape[0]):
+        reach = max(reach, math.hypot(corners[k, 0], corners[k, 1]))
+    for k in range(n):
+        speed = math.hypot(samples[k, 0], samples[k, 1])
+        steps = speed * timing[0] / timing[1]
+        if heading >= 0.0:
+            steps = timing[0] / timing[1]
+        elif abs(samples[k, 2]) / timing[2] > steps:
+            steps = abs(samples[k, 2]) / timing[2]
+        steps = min(max(int(steps + 0.5), 1), _MOST_STEPS)
+        # Between the points that are scored nothing of the outline may pass over a cell unseen.
+        between = (speed + abs(samples[k, 2]) * reach) * timing[0] / steps * inverse
+        between = max(min(math.ceil(between), _MOST_STEPS // steps), 1)
+        steps *= between
+        dt = timing[0] / steps
+        simulate(
+            state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
+            steps + 1, dt, True, poses,
+        )  # fmt: skip
+        cost = 0.0
+        worst = 0.0
+        path_cells = 0.0
+        goal_cells = 0.0
+        astray = 0.0
+        # The original does not look at where a trajectory ends: a slow one has but the pose now.
+        for j in range(steps + 1):
+            x = poses[j, 0]
+            y = poses[j, 1]
+            c = math.cos(poses[j, 2])
+            s = math.sin(poses[j, 2])
+            under = outline_cost(costs, corners, corners.shape[0], ox, oy, inverse, x, y, c, s, 1.0)
+            if under < 0:
+                cost = HIT
+                break
+            if j == steps or j % between:
+                continue
+            worst = max(worst, float(under))
+            if attracts:
+                goal_cells = (x - plan[last, 0]) ** 2 + (y - plan[last, 1]) ** 2
+                continue
+            if heading >= 0.0 and not (heading <= j * dt < heading + between * dt):
+                continue
+            u = math.floor((x - ox) * inverse)
+            v = math.floor((y - oy) * inverse)
+            path_cells = path[v, u]
+            goal_cells = goal[v, u]
+            if path_cells >= BLOCKED or goal_cells >= BLOCKED:
+                cost = NO_WAY
+                break
+            if heading >= 0.0:
+                astray = _turn_to_what_is_seen(costs, ox, oy, inverse, plan, u, v, poses[j])
+        if cost >= 0.0:
+            cost = weights[0] * path_cells + weights[1] * goal_cells + weights[2] * worst
+            cost += weights[3] * astray
+        found[k, 0] = cost
+        found[k, 1] = poses[steps - between, 0]
+        found[k, 2] = poses[steps - between, 1]
+        found[k, 3] = poses[steps - between, 2]
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _turn_to_what_is_seen(costs, ox, oy, inverse, plan, u, v, pose):
+    """Return how far a pose looks away from the farthest point of the path in sight of it, rad."""
+    height, width = costs.shape
+    for i in range(plan.shape[0] - 1, -1, -1):
+        a = math.floor((plan[i, 0] - ox) * inverse)
+        b = math.floor((plan[i, 1] - oy) * inverse)
+        if a < 0 or b < 0 or a >= width or b >= height or not _sees(costs, u, v, a, b):
+            continue
+        bearing = math.atan2(oy + (b + 0.5) / inverse - pose[1], ox + (a + 0.5) / inverse - pose[0])
+        turn = (bearing - pose[2]) % (2 * math.pi)
+        return min(turn, 2 * math.pi - turn)
+    # The original's is infinite: such a trajectory is taken where there is no other.
+    return BLOCKED
+
+
+@njit(cache=True, nogil=True)
+def _sees(costs, x, y, end_x, end_y):
+    """Tell whether no cell of a line between two cells is an obstacle or unknown."""
+    dx = abs(end_x - x)
+    dy = abs(end_y - y)
+    sx = 1 if end_x > x else -1
+    sy = 1 if end_y > y else -1
+    steps = max(dx, dy)
+    error = steps // 2
+    for _step in range(steps + 1):
+        if costs[y, x] >= 253:
+            return False
+        if dx >= dy:
+            x += sx
+            error += dy
+        else:
+            y += sy
+            error += dx
+        if error >= steps:
+            error -= steps
+            if dx >= dy:
+                y += sy
+            else:
+                x += sx
+    return True
