@@ -15,7 +15,7 @@ _LAUNCH = """
   <param name="/use_sim_time" value="true"/>
   <node pkg="rosbag" type="record" name="recorder" args="-O {folder}/out /word"/>
   <node pkg="rosbag" type="play" name="player" required="true"
-        args="--clock -d 3 {folder}/in.bag"/>
+        args="--clock --wait-for-subscribers {folder}/in.bag"/>
 </launch>
 """
 

@@ -87,6 +87,18 @@ class FollowedPlan:
         self.begin += first + int(away[first:end].argmin())
         return self.begin
 
+    def ahead(self, length_m: float) -> Pose:
+        """Return the pose so far along the path from the nearest point, at most the goal.
+
+        Its direction is the path's there, in the goal that which is wanted.
+        """
+        index = int(np.searchsorted(self._along, self._along[self.begin] + length_m))
+        if index >= len(self.poses) - 1:
+            return self.goal
+        step = self.poses[index + 1, :2] - self.poses[index, :2]
+        x, y = map(float, self.poses[index, :2])
+        return x, y, math.atan2(step[1], step[0])
+
     def remaining_m(self) -> float:
         """Return the length from the nearest point to the goal."""
         return float(self._along[-1] - self._along[self.begin])

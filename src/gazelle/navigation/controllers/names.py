@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from gazelle.navigation.controllers.maneuver import Maneuvering, Pace
 from gazelle.navigation.controllers.mppi import MppiController
 from gazelle.navigation.controllers.mppi_options import MppiOptions
 from gazelle.navigation.controllers.options import (
@@ -22,6 +23,7 @@ from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]
 
+_MANEUVER_M_S, _MANEUVER_RAD_S, _SLOWEST_RAD_S = 0.2, 0.6, 0.1
 # TrajectoryPlannerROS had these up to ROS Lunar.
 _OLD_NAMES = frozenset({"gdist_scale", "pdist_scale"})
 ControllerOptions = (
@@ -64,12 +66,15 @@ class ControllerKind:
 
 
 def _dwa(options: DwaOptions, setting: ControllerSetting) -> Controller:
-    return SamplingController(dwa_profile(options), setting.period_s)
+    controller = SamplingController(dwa_profile(options), setting.period_s)
+    return _maneuvering(controller, setting, options.max_vel_trans, options.max_vel_theta)
 
 
 def _trajectory(options: TrajectoryPlannerOptions, setting: ControllerSetting) -> Controller:
     is_old = not _OLD_NAMES.isdisjoint(setting.given)
-    return TrajectoryPlanner(options, setting.period_s, scales_obstacles=is_old)
+    controller = TrajectoryPlanner(options, setting.period_s, scales_obstacles=is_old)
+    slowest = options.min_in_place_vel_theta
+    return _maneuvering(controller, setting, options.max_vel_x, options.max_vel_theta, slowest)
 
 
 def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
@@ -82,17 +87,40 @@ def _dwb(options: DwbOptions, setting: ControllerSetting) -> Controller:
     # LimitedAccelGenerator tries what one period reaches, the standard one what sim_time does.
     holds = "LimitedAccel" in options.trajectory_generator_name
     profile = replace(dwb_profile(options, critics), holds=holds, arrives=False)
-    return SamplingController(profile, setting.period_s)
+    controller = SamplingController(profile, setting.period_s)
+    return _maneuvering(controller, setting, options.max_vel_x, options.max_vel_theta)
 
 
 def _mppi(options: MppiOptions, setting: ControllerSetting) -> Controller:
-    return MppiController(
+    controller = MppiController(
         options, setting.period_s, setting.critics, setting.tolerance, setting.seed
     )
+    if options.motion_model == "Ackermann":
+        return controller
+    return _maneuvering(controller, setting, options.vx_max, options.wz_max)
 
 
 def _pursuit(options: PursuitOptions, setting: ControllerSetting) -> Controller:
-    return PursuitController(options, setting.period_s, setting.tolerance)
+    controller = PursuitController(options, setting.period_s, setting.tolerance)
+    if not options.use_rotate_to_heading:
+        return controller
+    turn = options.rotate_to_heading_angular_vel
+    return _maneuvering(controller, setting, options.desired_linear_vel, turn)
+
+
+def _maneuvering(
+    controller: Controller,
+    setting: ControllerSetting,
+    m_s: float,
+    rad_s: float,
+    slowest_rad_s: float = 0.0,
+) -> Controller:
+    """Let a robot that turns on the spot do so where the controller finds no way on."""
+    if m_s <= 0 or rad_s <= 0:
+        return controller
+    fastest, turn = min(m_s, _MANEUVER_M_S), min(rad_s, _MANEUVER_RAD_S)
+    slowest = min(max(slowest_rad_s, _SLOWEST_RAD_S), turn)
+    return Maneuvering(controller, Pace(fastest, turn, slowest), setting.period_s)
 
 
 _TEB = (

@@ -39,11 +39,13 @@ class Command:
         velocity: along x and y of the robot (m/s) and around z (rad/s).
         trajectory: where that leads, (n, 3) poses.
         cost: of the controller's own measure.
+        note: what is to be said about it, mostly nothing.
     """
 
     velocity: Velocity
     trajectory: NDArray[np.float64]
     cost: float = 0.0
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,6 +109,8 @@ class LocalPlanner:
             found = self._controller.compute(state, self._costmap.grid, self._costmap.footprint)
         if not isinstance(found, Command):
             return found.reason
+        if found.note:
+            self._node.log("warn", found.note)
         self._tell(found)
         return found
 

@@ -282,6 +282,8 @@ class _ControllerServer:
             state = RobotState(pose, self._odometry.velocity)
             found = drive.controller.compute(state, live.grid, live.footprint)
         if isinstance(found, Command):
+            if found.note:
+                live.frames.say("warn", found.note, key="maneuver")
             x, y, turn = found.velocity
             self._out.send(x, y, turn, live.base_frame)
             if self._local_out.matched:
