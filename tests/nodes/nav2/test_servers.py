@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -174,8 +175,9 @@ navigator.goToPose(pose(2.0, 1.0))
 seen = 0
 while not navigator.isTaskComplete():
     seen += navigator.getFeedback() is not None
-print("drive", navigator.getResult() is TaskResult.SUCCEEDED, seen > 0)
-navigator.spin(1.57)
+print("drive", navigator.getResult() is TaskResult.SUCCEEDED, seen > 0, flush=True)
+input()
+navigator.spin(500.0, time_allowance=1000)
 navigator.cancelTask()
 while not navigator.isTaskComplete():
     pass
@@ -195,10 +197,15 @@ def test_simple_commander_drives(bench, world, start, gazelle, tmp_path: Path) -
     start()
     script = tmp_path / "commander.py"
     script.write_text(_SCRIPT)
-    run = gazelle(str(script), module="gazelle.compat.runner", ROS_VERSION="2")
-    assert run.wait(stretched(120.0)) == 0, run.text
+    words = {"module": "gazelle.compat.runner", "ROS_VERSION": "2"}
+    run = gazelle(str(script), stdin=subprocess.PIPE, **words)
+    run.wait_for_line("^drive True True$")
     assert "path True None" in run.text
-    assert "drive True True" in run.text
+    # What is to be cancelled must not be over before.
+    world.factor = 2.0
+    run.popen.stdin.write("\n")
+    run.popen.stdin.close()
+    assert run.wait(stretched(120.0)) == 0, run.text
     assert "spin TaskResult.CANCELED" in run.text
     assert "costmap 120" in run.text
     assert "left TaskResult.CANCELED" in run.text
