@@ -151,7 +151,10 @@ def test_nodes_come_back_to_a_real_roscore_that_was_killed(
     ros1 = Ros1(uri, tmp_path)
 
     def here() -> list[str]:
-        return ros1("/usr/bin/rosnode", "list").split()
+        # Who asks a master that is coming up may find none, one time in ten.
+        with contextlib.suppress(AssertionError):
+            return ros1("/usr/bin/rosnode", "list").split()
+        return []
 
     with _real_core(ros1, other_port) as core:
         run = launch(node("n", "node=n"), ROS_MASTER_URI=uri)

@@ -62,7 +62,8 @@ def test_both_directions_do_not_go_round_in_circles(bench: Any, tmp_path: Path) 
     _send(bench, "/gz", _STRING(data="from gz"))
     bench.eventually(lambda: ros)
     _send(bench, "/ros", _STRING(data="from ros"))
-    bench.eventually(lambda: len(gz) == 2)
+    # Each of the two topics has a thread of its own here.
+    bench.eventually(lambda: len(gz) == 2 and len(ros) == 2)
     assert [one.data for one in ros] == ["from gz", "from ros"]
     assert [one.data for one in gz] == ["from gz", "from ros"]
 
