@@ -16,6 +16,8 @@ from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
+from gazelle.errors import GazelleError
+
 __all__ = ["PATIENCE_S", "at_most", "eventually", "scale", "stretched", "undisturbed"]
 
 PATIENCE_S = 60.0
@@ -50,20 +52,24 @@ def eventually(
     """Return what a condition gives as soon as that is true.
 
     Args:
-        condition: asked again and again.
+        condition: asked again and again; what Gazelle refuses is asked for again, too.
         limit_s: how long, on an idle, ordinary machine.
         why: asked for more to say when it never becomes true.
     """
     begin = time.monotonic()
     pause = threading.Event()
-    while not (found := condition()):
+    while True:
+        refusal: GazelleError | None = None
+        try:
+            if found := condition():
+                return found
+        except GazelleError as error:
+            refusal = error
         waited_s = time.monotonic() - begin
         # The load may have grown since the wait began.
-        assert waited_s < limit_s or waited_s < stretched(limit_s), (
-            f"did not happen in {waited_s:.0f} s\n{why()}"
-        )
+        if waited_s >= limit_s and waited_s >= stretched(limit_s):
+            raise AssertionError(f"did not happen in {waited_s:.0f} s\n{why()}") from refusal
         pause.wait(_PAUSE_S)
-    return found
 
 
 @contextmanager
