@@ -13,8 +13,8 @@ __all__ = ["HeapTrim", "return_large_blocks"]
 # M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of glibc's malloc.h.
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
 _LARGE_BYTES = 64 << 10
-# A trim takes 0.1 ms where there is little to give back, so many bytes some 50 ms.
-_TRIM_EVERY_BYTES = 128 << 20
+# A trim takes 0.1 ms where there is little to give back, the bytes some 12 ms to come.
+_TRIM_EVERY_BYTES = 32 << 20
 
 
 def return_large_blocks() -> None:
