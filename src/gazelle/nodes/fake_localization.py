@@ -14,12 +14,11 @@ robot's odometry at its time is known.
 from __future__ import annotations
 
 import threading
-from collections import deque
 from typing import Any
 
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
-from gazelle.graph.tf import StampedPose, TransformBroadcaster
+from gazelle.graph.tf import MessageFilter, StampedPose, TransformBroadcaster, TransformError
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames, fill_pose, pose_of_message, stamp_ns_of
@@ -62,7 +61,7 @@ class _FakeLocalization:
         self._frames = Frames(node)
         self._tf = TransformBroadcaster(node)
         self._lock = threading.Lock()
-        self._waiting: deque[Any] = deque(maxlen=_WAITING)
+        self._waiting = MessageFilter(self._placed, self._tell, size=_WAITING)
         self._poses = node.create_publisher("amcl_pose", message_type(_POSE), latch=True)
         cloud = message_type("geometry_msgs/msg/PoseArray")
         self._cloud = node.create_publisher("particlecloud", cloud, latch=True)
@@ -74,23 +73,16 @@ class _FakeLocalization:
 
     def _on_truth(self, message: Any) -> None:
         with self._lock:
-            self._waiting.append(message)
-            found = [(one, self._odometry_at(stamp_ns_of(one))) for one in self._waiting]
-            self._waiting.clear()
-            for one, T_odom_base in found:
-                if isinstance(T_odom_base, str):
-                    self._waiting.append(one)
-                    self._tell_of_waiting(T_odom_base)
-                else:
-                    self._publish(one, T_odom_base)
+            for one, T_odom_base in self._waiting.add(message):
+                self._publish(one, T_odom_base)
 
-    def _odometry_at(self, stamp_ns: int) -> Pose | str:
-        return self._frames.between(self._odom, self._base, stamp_ns)
+    def _placed(self, message: Any) -> tuple[Any, Pose]:
+        buffer, stamp_ns = self._frames.buffer, stamp_ns_of(message)
+        return message, buffer.lookup_transform(self._odom, self._base, stamp_ns).pose
 
-    def _tell_of_waiting(self, why: str) -> None:
-        if len(self._waiting) == _WAITING:
-            text = f"Failed to transform to {self._odom} from {self._base}: {why}"
-            self._frames.say("error", text, key="odometry")
+    def _tell(self, _message: Any, why: TransformError) -> None:
+        text = f"Failed to transform to {self._odom} from {self._base}: {why}"
+        self._frames.say("error", text, key="odometry")
 
     def _publish(self, message: Any, T_odom_base: Pose) -> None:
         T_map_base = self._T_map_world @ pose_of_message(message.pose.pose)

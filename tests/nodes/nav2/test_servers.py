@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -151,6 +152,21 @@ def test_navigate_to_pose_through_poses_and_waypoints(bench, world, start) -> No
     assert goal.status.name == "SUCCEEDED"
     assert [int(one.index) for one in goal.result.missed_waypoints] == [1]
     assert not world.touched
+
+
+def test_late_tf_is_told_and_driven_by(bench, world, start) -> None:
+    world.late_steps = 14
+    # Half of the room's height, not on the map.
+    world.boxes[:40, 58:62] = True
+    said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
+    start()
+    goal = _send(bench, "navigate_to_pose", "NavigateToPose", pose=_pose(4.0, 1.5))
+    assert (goal.status.name, goal.result.error_msg) == ("SUCCEEDED", "")
+    assert not world.touched
+    texts = [one.msg for one in said]
+    late = re.compile(r"the transform from base_footprint to map is 0\.\d+ s old, .*all the same")
+    assert any(late.match(text) for text in texts), texts
+    assert not [text for text in texts if "cannot be used" in text]
 
 
 _SCRIPT = """

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections import deque
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ class PlaneWorld:
         touched: where the robot's centre was in a wall.
         drift: of odometry against the map, x and y.
         factor: how many times faster than real time it runs.
+        late_steps: so many steps of 50 ms tf of the robot comes after what it is of.
     """
 
     def __init__(self, node: Any, walls: np.ndarray, pose=(1.0, 1.0, 0.0), factor: float = 8.0):
@@ -47,6 +49,8 @@ class PlaneWorld:
         self.drift = (0.3, -0.2)
         self.now_ns = 1_000_000_000
         self.factor = factor
+        self.late_steps = 0
+        self._on_their_way: deque[StampedPose] = deque()
         self._stop = threading.Event()
         node.parameters.set("/use_sim_time", True)
         self._clock = node.create_publisher("/clock", "rosgraph_msgs/msg/Clock")
@@ -132,7 +136,9 @@ class PlaneWorld:
             (x - self.drift[0], y - self.drift[1], 0.0),
             (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)),
         )
-        self._tf.send(StampedPose("odom", "base_footprint", self.now_ns, at))
+        self._on_their_way.append(StampedPose("odom", "base_footprint", self.now_ns, at))
+        while len(self._on_their_way) > self.late_steps:
+            self._tf.send(self._on_their_way.popleft())
         odometry = self._stamp(self._odom.message_class(), "odom")
         odometry.twist.twist.linear.x, odometry.twist.twist.angular.z = self.twist
         self._odom.publish(odometry)

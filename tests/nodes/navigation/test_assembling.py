@@ -68,7 +68,7 @@ def test_plugins_of_ros_1_name_layers_and_types() -> None:
             "obstacle_range": 1.5,
         }
     )
-    assert said[0].startswith("warning: /costmap: parameter 'obstacle_range' is not one of costmap")
+    assert said == []
     assert [layer.name for layer in made.costmap.layers] == ["walls", "seen"]
     seen = made.costmap.layers[1].options
     assert isinstance(seen, VoxelOptions)
@@ -159,3 +159,19 @@ def test_a_costmap_of_more_cells_than_can_be_held_has_the_usual_size(
     assert (made.costmap.grid.width, made.costmap.grid.height) == (200, 200)
     (text,) = said
     assert f"are {cells} cells of 0.05 m, 2.68e+08 can be held; 10 m and 10 m are used" in text
+
+
+def test_ranges_of_the_costmap_or_above_are_those_of_sensors_that_have_none() -> None:
+    tree = {
+        "plugins": [{"name": "seen", "type": "costmap_2d::ObstacleLayer"}],
+        "obstacle_range": 4.0,
+        "seen": {"observation_sources": "scan", "scan": {"data_type": "LaserScan"}},
+    }
+    made, said = _made(tree, above={"obstacle_range": 1.0, "raytrace_range": 5.0})
+    assert said == []
+    (source,) = made.sources.values()
+    assert (source.obstacle_range, source.raytrace_range) == (4.0, 5.0)
+    # Nav2 looks for them with the sensor only.
+    nav2 = {"plugins": ["obstacle_layer"], "obstacle_max_range": 4.0}
+    _made_of_nav2, said = _made(nav2, generation=2)
+    assert "'obstacle_max_range' is not one of costmap; it has no effect" in said[0]

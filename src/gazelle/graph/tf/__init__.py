@@ -13,12 +13,14 @@ from gazelle.graph.tf.errors import (
 )
 from gazelle.graph.tf.listener import TransformListener
 from gazelle.graph.tf.listing import frames_as_dot, frames_as_string, frames_as_yaml
+from gazelle.graph.tf.message_filter import MessageFilter
 
 __all__ = [
     "ConnectivityError",
     "ExtrapolationError",
     "FrameInfo",
     "InvalidFrameError",
+    "MessageFilter",
     "StampedPose",
     "StaticTransformBroadcaster",
     "TransformBroadcaster",

@@ -303,7 +303,8 @@ class TransformBuffer:
         if failure is None:
             raise self._unconnected(target, source)
         raise ExtrapolationError(
-            f"{failure}, when looking up transform from frame [{source}] to frame [{target}]"
+            f"{failure}, when looking up transform from frame [{source}] to frame [{target}]",
+            is_past=failure.is_past,
         )
 
     def _common_time(self, target: str, source: str) -> int:

@@ -26,7 +26,16 @@ class ConnectivityError(TransformError):
 
 
 class ExtrapolationError(TransformError):
-    """The time asked for is outside what is known."""
+    """The time asked for is outside what is known.
+
+    Attributes:
+        is_past: it lies before everything that is known, so waiting does not help.
+    """
+
+    def __init__(self, text: str, *, is_past: bool = False) -> None:
+        """Say why."""
+        super().__init__(text)
+        self.is_past = is_past
 
 
 class InvalidFrameError(TransformError):

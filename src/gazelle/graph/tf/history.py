@@ -110,7 +110,7 @@ class History:
         if place < len(stamps) and stamps[place] == stamp_ns:
             return self._samples[place]
         if place == 0 or place == len(stamps):
-            raise ExtrapolationError(self._outside(stamp_ns))
+            raise ExtrapolationError(self._outside(stamp_ns), is_past=place == 0)
         before, after = self._samples[place - 1], self._samples[place]
         if before.parent != after.parent:
             return before

@@ -61,8 +61,21 @@ class LayeredCostmap:
             if layer.options.subscribe_to_updates:
                 layer.update_map(column, row, cells)
 
-    def observe(self, source: str, observation: Observation, layer: str | None = None) -> None:
+    def observe(
+        self,
+        source: str,
+        observation: Observation,
+        layer: str | None = None,
+        *,
+        heard_ns: int | None = None,
+    ) -> None:
         """Give what a sensor saw to the layers that have it as a source.
+
+        Args:
+            source: name of the sensor.
+            observation: what it saw.
+            layer: give it to this one only.
+            heard_ns: when it came, by which sensors are silent; when it was seen if None.
 
         Raises:
             KeyError: no layer has such a source.
@@ -75,7 +88,9 @@ class LayeredCostmap:
         if not found:
             raise KeyError(f"no layer of the costmap has a source '{source}'")
         for item in found:
-            item.observe(source, observation)
+            item.observe(
+                source, observation, observation.stamp_ns if heard_ns is None else heard_ns
+            )
 
     def update(
         self, pose: Pose, now_ns: int, T_map_global: Pose = (0.0, 0.0, 0.0)

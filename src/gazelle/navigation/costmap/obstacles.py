@@ -36,7 +36,7 @@ class ObstacleLayer:
         """Begin without anything seen."""
         self._grid: CostGrid | None = None
         self._seen: dict[str, list[Observation]] = {source: [] for source in self.sources}
-        self._stamps: dict[str, int] = {}
+        self._heard_ns: dict[str, int] = {}
         self._extra = Window(0, 0, 0, 0)
         self._footprint: NDArray[np.float64] | None = None
 
@@ -45,26 +45,27 @@ class ObstacleLayer:
         """What the layer itself knows; None before the costmap has a size."""
         return self._grid
 
-    def observe(self, source: str, observation: Observation) -> None:
-        """Take what a sensor saw.
+    def observe(self, source: str, observation: Observation, heard_ns: int) -> None:
+        """Take what a sensor saw; what has expired by now is forgotten.
 
         Raises:
             KeyError: there is no such source.
         """
         self._seen[source].append(observation)
-        self._stamps[source] = observation.stamp_ns
+        self._heard_ns[source] = heard_ns
+        self._forget(source, heard_ns)
 
     def stale(self, now_ns: int) -> list[str]:
         """Return which sensors are silent for too long, in words."""
         found = []
         for name, options in self.sources.items():
             wanted = options.expected_update_rate
-            age_s = (now_ns - self._stamps.get(name, 0)) * 1e-9
-            if wanted > 0 and (name not in self._stamps or age_s > wanted):
+            age_s = (now_ns - self._heard_ns.get(name, 0)) * 1e-9
+            if wanted > 0 and (name not in self._heard_ns or age_s > wanted):
                 topic = options.topic or name
                 text = (
                     f"has not been updated for {age_s:.2f} seconds"
-                    if name in self._stamps
+                    if name in self._heard_ns
                     else "has never been updated"
                 )
                 found.append(
@@ -119,7 +120,8 @@ class ObstacleLayer:
         self.match(master)
         assert self._grid is not None
         bounds = np.array(_NOTHING, np.int64)
-        self._forget(now_ns)
+        for name in self.sources:
+            self._forget(name, now_ns)
         for clearing in (True, False):
             for name, options in self.sources.items():
                 for observation in self._seen[name]:
@@ -150,14 +152,13 @@ class ObstacleLayer:
     def _default(self) -> int:
         return UNKNOWN if self.options.track_unknown_space else FREE
 
-    def _forget(self, now_ns: int) -> None:
-        for name, options in self.sources.items():
-            held = self._seen[name]
-            if options.observation_persistence == 0:
-                del held[:-1]
-            else:
-                oldest = now_ns - int(options.observation_persistence * 1e9)
-                held[:] = [item for item in held if item.stamp_ns >= oldest]
+    def _forget(self, source: str, now_ns: int) -> None:
+        held, persistence_s = self._seen[source], self.sources[source].observation_persistence
+        if persistence_s == 0:
+            del held[:-1]
+        else:
+            oldest = now_ns - int(persistence_s * 1e9)
+            held[:] = [item for item in held if item.stamp_ns >= oldest]
 
     def _apply(
         self,

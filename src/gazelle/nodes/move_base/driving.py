@@ -74,7 +74,7 @@ class Driver:
         """Tell whether the local costmap is up to date; why not is said."""
         stale = self._near.stale()
         for text in stale:
-            self._near.frames.say("warn", f"{self._near.name}: {text}")
+            self._near.frames.say("warn", f"{self._near.name}: {text}", every_s=1.0)
         return not stale
 
     def set_plan(self, plan: Plan) -> bool:
@@ -89,7 +89,7 @@ class Driver:
         """Send the next velocity; return why there is none."""
         found = self._local.compute()
         if isinstance(found, str):
-            self._near.frames.say("warn", found, key="no velocity")
+            self._near.frames.say("warn", found, key="no velocity", every_s=1.0)
             return found
         x, y, turn = found.velocity
         self._send(x, y, turn)
@@ -111,8 +111,8 @@ class Driver:
         self._node.log("debug", f"{trigger.name.lower()} recovery {behaviour.name} is over")
 
     def log(self, level: str, text: str) -> None:
-        """Say something, the same thing at most every five seconds."""
-        self._near.frames.say(level, text)
+        """Say something, the same thing at most once a second."""
+        self._near.frames.say(level, text, every_s=1.0)
 
     def now_ns(self) -> int:
         """Tell the time."""

@@ -222,10 +222,15 @@ class Executive:
             self._runs_planner = False
             self._clear(Trigger.PLANNING)
 
-    def cycle(self, pose: PlanPose) -> End | None:
-        """Do one round of the control loop; returns the goal's end when this is it."""
+    def cycle(self, pose: PlanPose | None) -> End | None:
+        """Do one round of the control loop; returns the goal's end when this is it.
+
+        Args:
+            pose: where the robot is in the global costmap's frame, None while that is not known.
+        """
         now_ns = self._drive.now_ns()
-        self._watch_oscillation(now_ns, pose)
+        if pose is not None:
+            self._watch_oscillation(now_ns, pose)
         if not self._drive.is_current():
             self._drive.log(
                 "warn",
@@ -255,7 +260,7 @@ class Executive:
             if self.trigger is Trigger.OSCILLATION and rest is not None:
                 self._recovery_index = 0
 
-    def _control(self, now_ns: int, pose: PlanPose) -> End | None:
+    def _control(self, now_ns: int, pose: PlanPose | None) -> End | None:
         if self._drive.is_goal_reached():
             self.end()
             return End(Outcome.SUCCEEDED, "Goal reached.")
@@ -268,7 +273,8 @@ class Executive:
             self._last_control_ns, self.why = now_ns, ""
             if self.trigger is Trigger.CONTROLLING:
                 self._recovery_index = 0
-            self._watch_way(now_ns, pose)
+            if pose is not None:
+                self._watch_way(now_ns, pose)
             return None
         self.why = why
         if now_ns > self._last_control_ns + int(self.timing.controller_patience_s * _NANO):

@@ -90,21 +90,20 @@ class LocalPlanner:
 
     def goal_reached(self) -> bool:
         """Ask the controller."""
-        state = self._state()
-        return (
-            state is not None
-            and self._place_plan() == ""
-            and (self._controller.goal_reached(state))
-        )
+        pose = self._costmap.pose()
+        if pose is None or self._place_plan():
+            return False
+        return self._controller.goal_reached(RobotState(pose, self.odometry.velocity))
 
     def compute(self) -> Command | str:
         """Return the next velocity, or why there is none."""
         why = self._place_plan()
         if why:
             return why
-        state = self._state()
-        if state is None:
-            return "the robot's pose in the local costmap is not known"
+        pose = self._costmap.pose_or_why()
+        if isinstance(pose, str):
+            return f"Could not get robot pose: {pose}"
+        state = RobotState(pose, self.odometry.velocity)
         with self._costmap.lock:
             found = self._controller.compute(state, self._costmap.grid, self._costmap.footprint)
         if not isinstance(found, Command):
@@ -133,10 +132,6 @@ class LocalPlanner:
         options = self.settings.fill(self._kind.options)
         given = tuple(self.settings.tree)
         return self._kind.make(options, ControllerSetting(self._period_s, {}, given=given))
-
-    def _state(self) -> RobotState | None:
-        pose = self._costmap.pose()
-        return None if pose is None else RobotState(pose, self.odometry.velocity)
 
     def _place_plan(self) -> str:
         """Give the plan to the controller where its frame has moved; returns why it cannot be."""

@@ -23,7 +23,7 @@ from gazelle.nodes.move_base.planner import GlobalPlanner
 from gazelle.nodes.move_base.recoveries import make_behaviours
 from gazelle.nodes.move_base.services import Services
 from gazelle.nodes.move_base.tables import MOVE_BASE
-from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.assembling import INHERITED, assemble
 from gazelle.nodes.navigation.frames import Frames, PlanePose, fill_pose, plane_of, set_stamp
 from gazelle.nodes.navigation.frames import pose_of_message as pose_of
 from gazelle.nodes.navigation.live import LiveCostmap
@@ -145,12 +145,12 @@ class MoveBase:
         if self.goals.current is None or self._goal is None:
             return
         pose = self.whole.pose()
-        if pose is None:
-            self.driver.stop()
+        if pose is None and not self._has_begun:
             return
-        self.driver.watch_distance(pose)
-        self._feedback(pose)
-        end = self.executive.cycle(PlanPose(*pose))
+        if pose is not None:
+            self.driver.watch_distance(pose)
+            self._feedback(pose)
+        end = self.executive.cycle(None if pose is None else PlanPose(*pose))
         with self._wake:
             self._wake.notify_all()
         if end is None:
@@ -162,6 +162,11 @@ class MoveBase:
         else:
             self.node.log("error", f"Aborting because {_lowered(end.text)}")
             self.goals.abort(text=end.text)
+
+    @property
+    def _has_begun(self) -> bool:
+        """True once tf and maps were there; the original waits for them before it takes goals."""
+        return all(costmap.has_begun for costmap in self.costmaps.values())
 
     def _begin(self) -> None:
         """Take the newest goal, in the global costmap's frame."""
@@ -198,8 +203,14 @@ class MoveBase:
         """Plan whenever a plan is wanted; runs in the planner's thread."""
         for _ in self._wanted_plans(stop):
             goal = self._goal
-            pose = self.whole.pose()
-            if goal is None or pose is None:
+            pose = self.whole.pose_or_why()
+            if goal is None or (isinstance(pose, str) and not self._has_begun):
+                continue
+            if isinstance(pose, str):
+                text = "Unable to get starting pose of robot, unable to create global plan"
+                self.executive.planned(None, f"{text}: {pose}")
+                continue
+            if not self.whole.is_ready:
                 continue
             found = self.planner.plan(pose, goal)
             if self._goal is not goal:
@@ -272,7 +283,8 @@ class MoveBase:
             text = f"the parameters '{key}' are read by nobody: the planners are "
             text += f"{self.planner.name} and {self.local.name}"
             self.settings.report("navigation.idle-parameter", text)
-        self.settings.report_unknown(*names, *idle, "TrajectoryPlannerROS", "recovery_behaviors")
+        known = (*names, *idle, *INHERITED, "TrajectoryPlannerROS", "recovery_behaviors")
+        self.settings.report_unknown(*known)
 
     def _offer_changes(self) -> None:
         """Offer what dynamic_reconfigure may change."""

@@ -231,7 +231,8 @@ class _BehaviorServer:
     def _pose(self) -> PlanePose:
         text = self._settings.text
         frames = text("local_frame"), text("robot_base_frame")
-        found = self._frames.robot(*frames, max(self._settings.number("transform_tolerance"), 0.5))
+        tolerance_s = self._settings.number("transform_tolerance")
+        found = self._frames.robot(*frames, tolerance_s, refuses_late=False)
         if isinstance(found, str):
             raise _EndError("TF_ERROR", found)
         return found.pose

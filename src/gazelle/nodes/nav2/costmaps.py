@@ -49,8 +49,9 @@ class Nav2Costmap:
             self.node, space, frame, raw=True, footprint="published_footprint"
         )
         self.live = LiveCostmap(
-            self.node, Frames(self.node), made, publisher, topics_in=arguments.namespace
-        )
+            self.node, Frames(self.node), made, publisher,
+            topics_in=arguments.namespace, refuses_late=False,
+        )  # fmt: skip
         self._parameters = offer_parameters(self.node, tree)
         with self.node.announced_together():
             self._offer(name, space)

@@ -52,7 +52,7 @@ class GraphWorld:
     def pose(self, global_frame: str = "", base_frame: str = "") -> Pose2 | None:
         """Return where the robot is."""
         names = (global_frame or self._names[0], base_frame or self._names[1])
-        found = self._frames.robot(*names, self._tolerance_s)
+        found = self._frames.robot(*names, self._tolerance_s, refuses_late=False)
         if isinstance(found, str):
             self._frames.say("warn", found, key=f"pose {names}")
             return None

@@ -26,7 +26,7 @@ from gazelle.navigation.costmap import (
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.table import Table, table_of
 
-__all__ = ["COSTMAP_TABLES", "Assembly", "assemble", "costmap_table", "layer_table"]
+__all__ = ["COSTMAP_TABLES", "INHERITED", "Assembly", "assemble", "costmap_table", "layer_table"]
 
 Generation = Literal[1, 2]
 
@@ -51,7 +51,11 @@ _FAMILIES = {
 }
 # 256 MiB: 800 m × 800 m at 5 cm.
 _MOST_CELLS = 1 << 28
-_INHERITED = ("obstacle_range", "raytrace_range")
+_OUTLINE = ("footprint", "robot_radius")
+_RANGES = ("obstacle_range", "raytrace_range")
+INHERITED = (*_OUTLINE, *_RANGES)
+"""Parameters that costmaps of ROS 1 look for in the namespaces above theirs, too."""
+
 # What of a costmap without plugins belongs to which layer (costmap_2d, resetOldParameters).
 _OLD_STATIC = ("map_topic", "unknown_cost_value", "lethal_cost_threshold", "track_unknown_space")
 _OLD_INFLATION = ("cost_scaling_factor", "inflation_radius")
@@ -128,7 +132,7 @@ def assemble(
         else _rows(tree, generation, name, diagnostics)
     )
     own = {key: value for key, value in tree.items() if key not in {row.name for row in rows}}
-    for key in ("footprint", "robot_radius"):
+    for key in _OUTLINE:
         if key not in own and key in above:
             own[key] = above[key]
     outline = own.get("footprint")
@@ -139,7 +143,8 @@ def assemble(
         settings, settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
     )
     settings.tree.pop("plugins", None)
-    settings.report_unknown("filters", *_left_out(settings))
+    inherited = _RANGES if generation == 1 else ()
+    settings.report_unknown("filters", *inherited, *_left_out(settings))
     footprint = _footprint(settings, options)
     made = Assembly(
         LayeredCostmap(options, (), footprint.padded(options.footprint_padding)),
@@ -290,7 +295,7 @@ def _source(
 ) -> SourceOptions:
     """Return a sensor; ranges that it does not say are those of the layer or above."""
     settings = layer.below(source, _table(SourceOptions, generation))
-    for key in _INHERITED if generation == 1 else ():
+    for key in _RANGES if generation == 1 else ():
         above = next((tree[key] for tree in trees if key in tree), None)
         if above is not None:
             settings.tree.setdefault(key, above)

@@ -29,7 +29,6 @@ PlanePose = tuple[float, float, float]
 """x (m), y (m), yaw (rad)."""
 
 _NANO = 1_000_000_000
-_SILENCE_NS = 5 * _NANO
 
 
 class RobotPose(NamedTuple):
@@ -59,8 +58,18 @@ class Frames:
         self._said: dict[str, int] = {}
         self._lock = threading.Lock()
 
-    def robot(self, global_frame: str, base_frame: str, tolerance_s: float) -> RobotPose | str:
-        """Return the robot's newest pose, or why it is not known."""
+    def robot(
+        self, global_frame: str, base_frame: str, tolerance_s: float, *, refuses_late: bool = True
+    ) -> RobotPose | str:
+        """Return the robot's newest pose, or why it is not known.
+
+        Args:
+            global_frame: which the pose is in.
+            base_frame: of the robot.
+            tolerance_s: a pose may be so old, 0 for any age.
+            refuses_late: an older one is not known, as in ROS 1; else it is used and told, as Nav2
+                uses it.
+        """
         try:
             found = self.buffer.lookup_transform(global_frame, base_frame)
         except TransformError as error:
@@ -68,10 +77,12 @@ class Frames:
         now_ns = self._node.clock.now_ns()
         late_s = (now_ns - found.stamp_ns) / _NANO
         if tolerance_s > 0 and found.stamp_ns and late_s > tolerance_s:
-            return (
-                f"the transform from {base_frame} to {global_frame} is {late_s:.3f} s old, "
-                f"transform_tolerance is {tolerance_s:g} s"
-            )
+            text = f"the transform from {base_frame} to {global_frame} is {late_s:.3f} s old, "
+            text += f"transform_tolerance is {tolerance_s:g} s"
+            if refuses_late:
+                return text
+            self.say("warn", f"{text}; it is used all the same", key=f"late {global_frame}",
+                     every_s=1.0)  # fmt: skip
         return RobotPose(plane_of(found.pose), found.stamp_ns)
 
     def between(self, target: str, source: str, stamp_ns: int = 0) -> Pose | str:
@@ -99,12 +110,12 @@ class Frames:
         fill_pose(made.pose, at)
         return made
 
-    def say(self, level: str, text: str, key: str = "") -> None:
-        """Log something, the same thing at most every five seconds."""
+    def say(self, level: str, text: str, key: str = "", *, every_s: float = 5.0) -> None:
+        """Log something, the same thing at most so often."""
         now_ns = self._node.clock.now_ns()
         with self._lock:
             last_ns = self._said.get(key or text)
-            if last_ns is not None and 0 <= now_ns - last_ns < _SILENCE_NS:
+            if last_ns is not None and 0 <= now_ns - last_ns < every_s * _NANO:
                 return
             self._said[key or text] = now_ns
         self._node.log(level, text)

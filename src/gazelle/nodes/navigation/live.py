@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import threading
-from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.navigation.costmap import CostGrid, Footprint, SourceOptions, StaticLayer, Window
+from gazelle.graph.tf import MessageFilter, TransformError
+from gazelle.navigation.costmap import (
+    CostGrid,
+    Footprint,
+    Observation,
+    SourceOptions,
+    StaticLayer,
+    Window,
+)
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.assembling import Assembly
 from gazelle.nodes.navigation.frames import Frames, PlanePose, plane_of, stamp_ns_of
@@ -24,8 +32,10 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveCostmap"]
 
-_WAITING = 20
+# As many wait for a lock, and, as in the originals, for tf.
+_WAITING, _WAIT_FOR_TF = 20, 50
 _NANO = 1_000_000_000
+_LONG_WAIT_NS = _NANO
 _LAST_UPDATE_S = 2.0
 
 
@@ -47,6 +57,7 @@ class LiveCostmap:
         publisher: CostmapPublisher,
         *,
         topics_in: str = "",
+        refuses_late: bool = True,
     ) -> None:
         """Listen; nothing is updated before `start` or `update`.
 
@@ -56,6 +67,7 @@ class LiveCostmap:
             assembly: layers and parameters.
             publisher: topics of the costmap itself.
             topics_in: namespace of maps and sensors, the node's own when empty.
+            refuses_late: the robot's pose counts as not known where tf is late; see `Frames.robot`.
         """
         self.assembly = assembly
         self.frames = frames
@@ -65,8 +77,9 @@ class LiveCostmap:
         self._node = node
         self._topics_in = topics_in.rstrip("/")
         self._within = bool(topics_in)
+        self._refuses_late = refuses_late
         self._publisher = publisher
-        self._waiting: dict[tuple[str, str], deque[Any]] = {}
+        self._waiting: dict[tuple[str, str], MessageFilter[Observation | None]] = {}
         self._map_frame = ""
         self._subscriptions: list[Subscription] = []
         self._updated_ns: int | None = None
@@ -114,11 +127,18 @@ class LiveCostmap:
 
     def pose(self) -> PlanePose | None:
         """Return where the robot is in the costmap's frame; why not is said."""
+        found = self.pose_or_why()
+        return None if isinstance(found, str) else found
+
+    def pose_or_why(self) -> PlanePose | str:
+        """Return where the robot is in the costmap's frame, or why not; that is said."""
         tolerance = self.assembly.costmap.options.transform_tolerance
-        found = self.frames.robot(self.global_frame, self.base_frame, tolerance)
+        found = self.frames.robot(
+            self.global_frame, self.base_frame, tolerance, refuses_late=self._refuses_late
+        )
         if isinstance(found, str):
-            self.frames.say("warn", f"{self.name}: {found}", key=f"{self.name} pose")
-            return None
+            self.frames.say("warn", f"{self.name}: {found}", key=f"{self.name} pose", every_s=1.0)
+            return found
         return found.pose
 
     def stale(self) -> list[str]:
@@ -126,7 +146,8 @@ class LiveCostmap:
         now_ns = self._node.clock.now_ns()
         with self.lock:
             found = self.assembly.costmap.stale(now_ns)
-        if self._updated_ns is None:
+        # Without a pose it never will be; that is told by who asks for the pose.
+        if not self.is_ready and self.pose() is not None:
             found.append("it was not updated yet")
         return found
 
@@ -134,6 +155,14 @@ class LiveCostmap:
     def is_ready(self) -> bool:
         """True once it was updated with everything that its layers need."""
         return self._updated_ns is not None
+
+    @property
+    def has_begun(self) -> bool:
+        """True once tf has the robot, however late, and the map came where one is needed."""
+        if self.is_ready:
+            return True
+        T_global_base = self.frames.between(self.global_frame, self.base_frame)
+        return not isinstance(T_global_base, str) and self._map_to_global() is not None
 
     def start(self) -> None:
         """Update at the costmap's rate from now on."""
@@ -166,7 +195,8 @@ class LiveCostmap:
         self.is_updating = True
         try:
             with self.lock:
-                self._take_waiting(now_ns)
+                for source, held in self._waiting.items():
+                    self._observe(source, held.ready())
                 before = self.grid
                 window = self.assembly.costmap.update(pose, now_ns, T_map_global)
                 if window is not None:
@@ -229,8 +259,9 @@ class LiveCostmap:
                 )
                 self._node.log("error", f"{text}; the sensor is left out")
                 continue
-            self._waiting[owner, name] = deque(maxlen=_WAITING)
-            self._subscribe(source.topic, kind, self._keeper((owner, name)))
+            place, drop = partial(self._placed, source), partial(self._drop, source)
+            self._waiting[owner, name] = MessageFilter(place, drop, size=_WAIT_FOR_TF)
+            self._subscribe(source.topic, kind, partial(self._on_seen, (owner, name)))
         for layer in self.assembly.costmap.layers:
             if isinstance(layer, StaticLayer):
                 topic = layer.options.map_topic or "map"
@@ -248,9 +279,6 @@ class LiveCostmap:
         """Return a topic's name; Nav2's costmaps look for relative ones beside their servers."""
         is_relative = self._within and not name.startswith(("/", "~"))
         return f"{self._topics_in}/{name}" if is_relative else name
-
-    def _keeper(self, key: tuple[str, str]) -> Callable[[Any], None]:
-        return self._waiting[key].append
 
     def _on_map(self, message: Any) -> None:
         info = message.info
@@ -293,47 +321,53 @@ class LiveCostmap:
             return None
         return plane_of(found)
 
-    def _take_waiting(self, now_ns: int) -> None:
-        for (layer, name), held in self._waiting.items():
-            source = self.assembly.sources[layer, name]
-            for _ in range(len(held)):
-                message = held.popleft()
-                if not self._take(message, layer, name, source, now_ns):
-                    held.append(message)
+    def _on_seen(self, source: tuple[str, str], message: Any) -> None:
+        """Take a sensor's message in as soon as tf knows where it was taken."""
+        if self.rests:
+            return
+        with self.lock:
+            held = self._waiting[source]
+            self._observe(source, held.add(message))
+            oldest = held.oldest
+        if oldest is not None:
+            waited_ns = self._node.clock.now_ns() - stamp_ns_of(oldest[0])
+            if waited_ns > _LONG_WAIT_NS:
+                self._tell_of_tf(self.assembly.sources[source], *oldest)
 
-    def _take(
-        self, message: Any, layer: str, name: str, source: SourceOptions, now_ns: int
-    ) -> bool:
-        """Give a message to its layer; False to try again when tf knows more."""
+    def _observe(self, source: tuple[str, str], seen: list[Observation | None]) -> None:
+        layer, name = source
+        now_ns = self._node.clock.now_ns()
+        for one in seen:
+            if one is not None:
+                self.assembly.costmap.observe(name, one, layer, heard_ns=now_ns)
+
+    def _placed(self, source: SourceOptions, message: Any) -> Observation | None:
+        """Return what a message shows, None where there is something wrong with it."""
         stamp_ns = stamp_ns_of(message)
         frame = str(message.header.frame_id).removeprefix("/")
-        found = self.frames.between(self.global_frame, frame, stamp_ns)
-        if isinstance(found, str):
-            tolerance = self.assembly.costmap.options.transform_tolerance
-            if 0 <= now_ns - stamp_ns < int(max(tolerance, 0.1) * _NANO):
-                return False
-            self.frames.say(
-                "warn",
-                f"{self.name}: a {source.data_type} of frame '{frame}' on {source.topic} cannot be "
-                f"used: {found}",
-                key=f"{self.name} {name}",
-            )
-            return True
-        origin: Pose | str | None = None
+        lookup = self.frames.buffer.lookup_transform
+        T_global_frame = lookup(self.global_frame, frame, stamp_ns).pose
+        origin: Pose | None = None
         if source.sensor_frame and source.sensor_frame != frame:
-            origin = self.frames.between(self.global_frame, source.sensor_frame, stamp_ns)
+            origin = lookup(self.global_frame, source.sensor_frame, stamp_ns).pose
         try:
-            seen = observation_of(
-                message,
-                found,
-                origin=None if isinstance(origin, str) else origin,
-                inf_is_valid=source.inf_is_valid,
+            return observation_of(
+                message, T_global_frame, origin=origin, inf_is_valid=source.inf_is_valid
             )
         except ValueError as error:
             self.frames.say("error", f"{self.name}: {source.topic}: {error}")
-            return True
-        self.assembly.costmap.observe(name, seen, layer)
-        return True
+            return None
+
+    def _drop(self, source: SourceOptions, message: Any, why: TransformError) -> None:
+        # What was seen before tf began is missed by nobody.
+        if self.is_ready:
+            self._tell_of_tf(source, message, why)
+
+    def _tell_of_tf(self, source: SourceOptions, message: Any, why: TransformError) -> None:
+        frame = str(message.header.frame_id).removeprefix("/")
+        text = f"a {source.data_type} of frame '{frame}' on {source.topic} cannot be used: {why}"
+        key = f"{self.name} {source.topic}"
+        self.frames.say("warn", f"{self.name}: {text}", key=key, every_s=1.0)
 
     def _publish(self, pose: PlanePose, now_ns: int) -> None:
         frequency = self.assembly.costmap.options.publish_frequency

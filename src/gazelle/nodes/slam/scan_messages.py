@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.graph.tf import ExtrapolationError, TransformBuffer, TransformError
+from gazelle.graph.tf import MessageFilter, TransformBuffer, TransformError
 from gazelle.mapping.poses import Poses
 from gazelle.mapping.scans import Scan
 
@@ -106,64 +105,43 @@ class ScanQueue:
         self._odom, self._base = frames
         self._say = say
         self._max_range_m = max_range_m
-        self._size = size
-        self._waiting: deque[Any] = deque()
+        self._filter = MessageFilter(self._place, self._drop, size=size)
 
     def add(self, message: Any) -> list[PlacedScan]:
         """Take a message; return the scans that can be placed now, in order."""
-        self._waiting.append(message)
-        ready = self.ready()
-        while len(self._waiting) > self._size:
-            self._drop(self._waiting.popleft())
-        return ready
+        return [scan for scan in self._filter.add(message) if scan is not None]
 
     def ready(self) -> list[PlacedScan]:
         """Return the scans that can be placed now, in order; others do not stop them."""
-        placed: list[PlacedScan] = []
-        waiting, self._waiting = self._waiting, deque()
-        for message in waiting:
-            try:
-                placed.append(self._place(message))
-            except ExtrapolationError as error:
-                # What lies before all that tf knows never comes.
-                if "past" in str(error):
-                    self._drop(message)
-                else:
-                    self._waiting.append(message)
-            except TransformError:
-                self._waiting.append(message)
-            except ValueError as error:
-                self.dropped += 1
-                self._say(f"a scan is left out: {error}")
-        return placed
+        return [scan for scan in self._filter.ready() if scan is not None]
 
     def give_up(self) -> None:
         """Drop what still waits."""
-        while self._waiting:
-            self._drop(self._waiting.popleft())
+        self._filter.give_up()
 
     def clear(self) -> None:
         """Forget what waits."""
-        self._waiting.clear()
+        self._filter.clear()
 
-    def _place(self, message: Any) -> PlacedScan:
+    def _place(self, message: Any) -> PlacedScan | None:
+        """Return a scan in its place, None where there is something wrong with it."""
         frame, stamp = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
         mount = self._buffer.lookup_transform(self._base, frame, stamp).pose
         robot = self._buffer.lookup_transform(self._odom, self._base, stamp).pose
-        scan = scan_of(message, mount, self._max_range_m)
-        odometry = np.array(plane_pose(robot))
-        if not np.isfinite(odometry).all():
-            raise ValueError(f"tf from {self._odom} to {self._base} is not finite")
+        try:
+            scan = scan_of(message, mount, self._max_range_m)
+            odometry = np.array(plane_pose(robot))
+            if not np.isfinite(odometry).all():
+                raise ValueError(f"tf from {self._odom} to {self._base} is not finite")
+        except ValueError as error:
+            self.dropped += 1
+            self._say(f"a scan is left out: {error}")
+            return None
         return PlacedScan(scan, odometry)
 
-    def _drop(self, message: Any) -> None:
+    def _drop(self, message: Any, why: TransformError) -> None:
         self.dropped += 1
-        frame, stamp = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
-        try:
-            self._buffer.lookup_transform(self._odom, frame, stamp)
-            why = f"no transform from {frame} to {self._base}"
-        except TransformError as error:
-            why = str(error)
+        frame = str(message.header.frame_id).removeprefix("/")
         self._say(
             f"a scan in frame '{frame}' is dropped, as tf does not say where it was taken: {why}\n"
             f"  fix: publish the transforms {self._odom} → {self._base} → {frame}; "
