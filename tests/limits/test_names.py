@@ -10,7 +10,7 @@ from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import UserFileError
 from gazelle.launch.xml1.loader import load_launch_text
-from gazelle.limits.names import exists, is_file, is_folder
+from gazelle.limits.names import exists, is_file, is_folder, names_matching
 from gazelle.workspace import Workspace
 
 _LONG = "a" * 5000
@@ -25,6 +25,18 @@ def test_names_that_cannot_be_are_not_there(tmp_path: Path) -> None:
     assert (exists(tmp_path / "a"), is_file(str(tmp_path / "a"))) == (True, True)
     for name in (_LONG, "a\0b", ""):
         assert not (exists(name) or is_file(name) or is_folder(name))
+
+
+def test_patterns_find_names_in_a_folder_and_those_that_cannot_be_find_none(
+    tmp_path: Path,
+) -> None:
+    for name in ("b.py", "a.py", "in/ner/c.py", ".hidden.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    assert names_matching("*.py", tmp_path) == ["a.py", "b.py"]
+    assert names_matching("**/*.py", tmp_path) == ["a.py", "b.py", "in/ner/c.py"]
+    for pattern in ("a/*" * 5000, "a\0*", "**.pyx", ""):
+        assert names_matching(pattern, tmp_path) == []
 
 
 @pytest.mark.parametrize("address", _ADDRESSES, ids=lambda address: address[:12])

@@ -10,8 +10,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import Followed
 from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.records import Command, RobotSource
+from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
-from gazelle.workspace.building.places import is_file
 
 __all__ = ["check_commands", "robots_of"]
 

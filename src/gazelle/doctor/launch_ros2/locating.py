@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.limits.names import exists
 from gazelle.workspace import Package, Workspace
-from gazelle.workspace.building.places import is_there
 from gazelle.workspace.installed import installed_source
 
 __all__ = ["located", "package_of"]
@@ -19,7 +19,7 @@ def located(name: str) -> Path | None:
     path = Path(name)
     if not path.is_absolute():
         return None
-    if is_there(path):
+    if exists(path):
         return path
     try:
         return installed_source(path)

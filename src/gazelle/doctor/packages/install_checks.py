@@ -7,8 +7,8 @@ from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.source import SourcePackage
+from gazelle.limits.names import exists, is_folder
 from gazelle.workspace.building.install_rules import InstallRule
-from gazelle.workspace.building.places import is_folder, is_there
 
 __all__ = ["check_install", "is_needed"]
 
@@ -131,7 +131,7 @@ def _check_source(source: SourcePackage, rule: InstallRule, diagnostics: Diagnos
     ):
         return
     severity = Severity.ERROR if source.is_ros2 else Severity.WARNING
-    if not is_there(path):
+    if not exists(path):
         text = f"'{rule.source}' is to be installed and does not exist"
         text += f" ({_failure(source, rule)})"
         hint = did_you_mean(rule.source, _siblings(path, rule.is_folder))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from gazelle.limits.names import is_file
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step
 from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.packages import SourcePackage
-from gazelle.workspace.building.places import is_file
 from gazelle.workspace.building.plan import Layout, Plan
 from gazelle.workspace.building.python_plan import add_python_distribution, completed
 from gazelle.workspace.building.setup_file import read_setup

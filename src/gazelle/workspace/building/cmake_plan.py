@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
+from gazelle.limits.names import is_file, is_folder
 from gazelle.workspace.building.catkin_plan import add_catkin
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
 from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
-from gazelle.workspace.building.places import is_file, is_folder
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
 from gazelle.workspace.building.python_plan import add_python_folder
 

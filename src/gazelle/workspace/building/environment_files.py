@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.limits.names import is_file
 from gazelle.workspace.building.cmake_lists import Step
 from gazelle.workspace.building.packages import SourcePackage
-from gazelle.workspace.building.places import is_file
 from gazelle.workspace.building.plan import Plan
 
 __all__ = ["add_environment_file"]

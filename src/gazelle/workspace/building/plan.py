@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.limits.names import exists, is_folder
 from gazelle.workspace.building.install_rules import InstallRule
-from gazelle.workspace.building.places import is_folder, is_there
 
 __all__ = ["EnvironmentHook", "Item", "Layout", "Plan", "add_rules", "site_packages"]
 
@@ -129,7 +129,7 @@ def add_rules(
             plan.diagnostics.report("package.install-unread", text, rule.span)
             continue
         source = folder / rule.source
-        if not is_there(source) or (is_folder(source) and not rule.is_folder):
+        if not exists(source) or (is_folder(source) and not rule.is_folder):
             _report_missing(plan, source, rule, failure)
         elif not rule.is_folder:
             name = rule.renamed or source.name
@@ -162,10 +162,10 @@ def _files_below(top: Path) -> Iterator[Path]:
 def _report_missing(plan: Plan, source: Path, rule: InstallRule, failure: str) -> None:
     if rule.is_optional:
         return
-    exists = "is a folder, and a file is wanted" if is_there(source) else "does not exist"
-    text = f"'{rule.source}' is to be installed and {exists} ({failure.format(path=source)})"
+    state = "is a folder, and a file is wanted" if exists(source) else "does not exist"
+    text = f"'{rule.source}' is to be installed and {state} ({failure.format(path=source)})"
     if rule.is_conditional:
-        text = f"'{rule.source}' {exists}; its rule stands in an if() and is left out"
+        text = f"'{rule.source}' {state}; its rule stands in an if() and is left out"
         plan.diagnostics.report("package.install-unread", text, rule.span)
         return
     beside = [item.name for item in source.parent.iterdir()] if is_folder(source.parent) else []

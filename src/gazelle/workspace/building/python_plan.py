@@ -7,8 +7,8 @@ import sys
 from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
+from gazelle.limits.names import is_file, is_folder, names_matching
 from gazelle.workspace.building.packages import SourcePackage
-from gazelle.workspace.building.places import is_file, is_folder
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
 from gazelle.workspace.building.setup_file import SetupFile, read_setup, with_arguments
 from gazelle.workspace.building.setup_run import SetupRunError, setup_arguments
@@ -131,10 +131,9 @@ def _add_module(
     for file in sorted(folder.glob("*.py")):
         plan.add(Item(f"{base}/{file.name}", file), setup.span)
     for pattern in (*setup.package_data.get(module, ()), *setup.package_data.get("", ())):
-        for file in sorted(folder.glob(pattern.lstrip("/"))):
-            if file.is_file():
-                inside = file.relative_to(folder).as_posix()
-                plan.add(Item(f"{base}/{inside}", file), setup.span)
+        for name in names_matching(pattern.lstrip("/"), folder):
+            if (file := folder / name).is_file():
+                plan.add(Item(f"{base}/{Path(name).as_posix()}", file), setup.span)
 
 
 def _report_no_module(module: str, place: Path, setup: SetupFile, plan: Plan) -> None:

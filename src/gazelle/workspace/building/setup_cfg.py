@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import configparser
 from collections.abc import Callable
-from glob import glob
 from pathlib import Path
 from typing import Any
+
+from gazelle.limits.names import names_matching
 
 __all__ = ["cfg_arguments"]
 
@@ -59,7 +60,7 @@ def cfg_arguments(folder: Path, find: Callable[..., Any]) -> dict[str, Any]:
 def _files(folder: Path, value: str) -> list[str]:
     found = []
     for line in _lines(value):
-        names = sorted(glob(line, root_dir=folder)) if "*" in line else []  # noqa: PTH207
+        names = names_matching(line, folder) if "*" in line else []
         found += names or [line]
     return found
 
