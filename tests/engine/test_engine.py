@@ -281,7 +281,7 @@ def test_divergence_names_link_and_place(build, tmp_path, monkeypatch):
     feather = Inertial(1e-9, inertia_kg_m2=(1e-14, 0, 0, 1e-14, 0, 1e-14))
     span = SourceSpan("robot.urdf", 12, 3)
     links = (Link("a", inertial=Inertial(1.0)), Link("b", inertial=feather, span=span))
-    joint = Joint("j", JointType.CONTINUOUS, "a", "b", axis=JointAxis())
+    joint = Joint("j", JointType.PRISMATIC, "a", "b", axis=JointAxis())
     engine = build.engine(Model("bad", links=links, joints=(joint,)))
     engine.joint("bad::j").set_effort(1e6)
     with pytest.raises(SimulationDivergedError, match=r"link 'bad::b' \(robot.urdf:12:3\)"):

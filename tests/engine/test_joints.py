@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+from dataclasses import replace
 
 import mujoco
 import pytest
@@ -20,6 +21,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
+from gazelle.engine.speed_limits import SpeedLimits
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 
@@ -164,6 +166,43 @@ def test_effort_turns_a_joint_without_a_limit_by_a_quarter_turn_a_step():
         "joint 'spin' of model 'm' turns by more than a quarter turn in a step (2000 rad/s);"
         " its effort does nothing while it is that fast"
     ]
+
+
+def test_light_finger_presses_with_all_its_effort(build):
+    """An effort counts less where it would throw a joint, not where something holds it."""
+    tip = build.ball("tip", mass=0.02, radius=0.05).links[0]
+    axis = JointAxis((1, 0, 0), lower=-1.0, upper=1.0, velocity=0.2)
+    joint = Joint("j", JointType.PRISMATIC, "world", "link", axis=axis)
+    finger = Model("finger", links=(tip,), joints=(joint,))
+    wall = replace(build.block("wall", Pose((0.3, 0.0, 0.0))), static=True)
+    engine = build.engine(finger, wall, gravity_m_s2=(0.0, 0.0, 0.0))
+    handle = engine.joint("finger::j")
+    handle.set_effort(20.0)
+    engine.step(700)
+    assert handle.velocity == pytest.approx(0.2, rel=1e-6)
+    engine.step(800)
+    assert handle.position == pytest.approx(0.15, abs=5e-3)
+    assert handle.effort == 20.0
+    forces_n = []
+    for _ in range(100):
+        engine.step()
+        forces_n += [abs(touch.forces_n[:, 0].sum()) for touch in engine.contacts()]
+    assert sum(forces_n) / 100 == pytest.approx(20.0, rel=0.01)
+
+
+def test_step_that_holds_nothing_back_is_an_ordinary_step(build):
+    """To the bit, so that what is looked at does not change what happens."""
+    hashes = []
+    for looks in (False, True):
+        engine = build.engine(build.ground(), build.arm(name="arm"), build.ball("ball"))
+        joint = engine.joint("arm::joint")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(SpeedLimits, "throws", lambda *_, looks=looks: looks)
+            for step in range(300):
+                joint.set_effort(0.3 * math.sin(0.1 * step))
+                engine.step()
+        hashes.append(engine.state_hash())
+    assert hashes[0] == hashes[1]
 
 
 def test_light_castors_under_efforts_do_not_throw_their_robot_about():

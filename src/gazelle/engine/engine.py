@@ -34,6 +34,8 @@ __all__ = ["Engine", "EngineState"]
 Array = NDArray[np.float64]
 _NS = 1_000_000_000
 _ABSURD_SPEED = 1e9
+# Joints of one chain push each other: what counts of their efforts is found in few rounds.
+_TRIES = 4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -315,12 +317,36 @@ class Engine(EngineCore):
         else:
             mujoco.mj_step(self._compiled.model, self._data, steps)
 
+    def _step_held_back(self, model: Any, data: Any) -> None:
+        """Do what ``mj_step`` does, with less of the efforts that would throw a joint."""
+        mujoco.mj_forward(model, data)
+        asked = self._applied.copy()
+        positions, speeds, _ = self._views
+        for _ in range(_TRIES):
+            dofs, less = self._speed_limits.held_back(
+                positions, speeds, data.qacc, self._applied, self.diagnostics
+            )
+            if not len(dofs):
+                break
+            self._applied[dofs] = less
+            mujoco.mj_forwardSkip(model, data, int(mujoco.mjtStage.mjSTAGE_VEL), 1)
+        if model.opt.integrator == int(mujoco.mjtIntegrator.mjINT_EULER):
+            mujoco.mj_Euler(model, data)
+        else:
+            mujoco.mj_implicit(model, data)
+        self._applied[:] = asked
+
     def _advance_within_limits(self) -> None:
-        """Make one step in which efforts do not push joints beyond their velocity limits."""
+        """Make one step in which efforts do not push joints beyond their limits."""
         idle = self._speed_limits.overrun(self._views[1], self._applied, self.diagnostics)
         asked = self._applied[idle]
         self._applied[idle] = 0.0
-        self._advance(1)
+        if not self._speed_limits.throws(self._applied):
+            self._advance(1)
+        elif self.locks.steps_left:
+            self.locks.advance(self._step_held_back, 1)
+        else:
+            self._step_held_back(self._compiled.model, self._data)
         self._applied[idle] = asked
 
     def _raise_diverged(self, culprit: Culprit, first: int) -> None:

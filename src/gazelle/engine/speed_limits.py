@@ -6,6 +6,9 @@ locks know no such limit, neither here nor there.
 
 Efforts turn a joint at most a quarter turn in a step, whatever its limit: steps do not resolve how
 faster turning acts on the other links, and it would throw its robot about.
+
+Of an effort on a joint so light that it would pass its velocity limit or its stop within one step,
+only so much counts as brings it there: ODE would throw it through.
 """
 
 from __future__ import annotations
@@ -25,7 +28,10 @@ from gazelle.engine.names import joint_part, scoped
 __all__ = ["SpeedLimits"]
 
 Array = NDArray[np.float64]
+_INTO_STOP = 0.005
+"""So far, rad or m, an effort may carry a joint into its stop within a step."""
 _CODE = "engine.quarter-turn"
+_LEAST_WEIGHT, _ROUNDING = 1e-12, 1e-9
 _HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
 _SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
 
@@ -34,28 +40,42 @@ class SpeedLimits:
     """The speeds at which efforts end, by MuJoCo's degrees of freedom."""
 
     def __init__(self) -> None:
+        self._step_s = 0.0
         self._dofs: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+        self._qpos: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         self._limits: Array = np.zeros(0)
+        self._range: Array = np.zeros((0, 2))
+        self._weights: Array = np.zeros(0)
+        self._throwing: Array = np.zeros(0)
         self._unlimited: dict[int, tuple[str, Joint]] = {}
         self._told: set[str] = set()
 
     def bind(self, model: Any, world: World, step_s: float) -> None:
         """Find the joints in a newly compiled model."""
-        dofs, limits = [], []
-        self._unlimited = {}
+        chosen, limits = [], []
+        self._unlimited, self._step_s = {}, step_s
         joints = dict(_axes(world))
         for index in range(model.njnt):
             name, kind = model.joint(index).name, int(model.jnt_type[index])
             if name not in joints or kind not in (_HINGE, _SLIDE):
                 continue
-            dof, (joint, limit) = int(model.jnt_dofadr[index]), joints[name]
+            joint, limit = joints[name]
             quarter_turn = math.pi / 2 / step_s if kind == _HINGE else math.inf
             if quarter_turn < limit:
-                self._unlimited[dof] = (name, joint)
-            if math.isfinite(end := min(limit, quarter_turn)):
-                dofs.append(dof)
+                self._unlimited[int(model.jnt_dofadr[index])] = (name, joint)
+            end = min(limit, quarter_turn)
+            if math.isfinite(end) or model.jnt_limited[index]:
+                chosen.append(index)
                 limits.append(end)
-        self._dofs, self._limits = np.array(dofs, dtype=np.intp), np.array(limits, dtype=float)
+        places = np.array(chosen, dtype=np.intp)
+        self._dofs = model.jnt_dofadr[places].astype(np.intp)
+        self._qpos = model.jnt_qposadr[places].astype(np.intp)
+        self._limits = np.array(limits, dtype=float)
+        stops = model.jnt_limited[places].astype(bool)
+        self._range = np.where(stops[:, None], model.jnt_range[places], [-math.inf, math.inf])
+        self._weights = np.maximum(model.dof_invweight0[self._dofs], _LEAST_WEIGHT)
+        fastest = np.minimum(self._limits, np.where(stops, _INTO_STOP / step_s, math.inf))
+        self._throwing = fastest / (step_s * self._weights)
 
     def concern(self, applied: Array) -> bool:
         """Whether an effort acts on a joint with a limit, so that each step is to be looked at.
@@ -79,10 +99,54 @@ class SpeedLimits:
         if not is_over.any():
             return self._dofs[:0]
         chosen: NDArray[np.intp] = self._dofs[is_over & (speed * applied[self._dofs] > 0)]
-        for dof in chosen.tolist():
-            if dof in self._unlimited:
-                self._tell(*self._unlimited.pop(dof), float(np.abs(speeds[dof])), diagnostics)
+        self._tell_of(chosen, speeds[chosen], diagnostics)
         return chosen
+
+    def throws(self, applied: Array) -> bool:
+        """Whether an effort could carry a joint past its limits within a step, were it free.
+
+        Args:
+            applied: efforts on the joints (nv,).
+        """
+        return bool((np.abs(applied[self._dofs]) > self._throwing).any())
+
+    def held_back(
+        self,
+        positions: Array,
+        speeds: Array,
+        accelerations: Array,
+        applied: Array,
+        diagnostics: Diagnostics,
+    ) -> tuple[NDArray[np.intp], Array]:
+        """Return the joints whose effort carries them past their limits, and how much counts.
+
+        Args:
+            positions: MuJoCo's (nq,), rad or m, at the start of the step.
+            speeds: MuJoCo's (nv,), rad/s or m/s, at its start.
+            accelerations: MuJoCo's (nv,), in the step.
+            applied: efforts on the joints (nv,).
+            diagnostics: told once of each joint that would turn by a quarter turn in the step.
+        """
+        effort, at = applied[self._dofs], positions[self._qpos]
+        then = speeds[self._dofs] + self._step_s * accelerations[self._dofs]
+        ahead = np.sign(effort)
+        stop = np.where(effort > 0, self._range[:, 1], -self._range[:, 0]) + _INTO_STOP
+        fastest = np.minimum(self._limits, (stop - ahead * at) / self._step_s)
+        excess = ahead * then - np.maximum(fastest, 0.0)
+        passes = (np.abs(effort) > self._throwing) & (excess > _ROUNDING * np.abs(then))
+        if not passes.any():
+            return self._dofs[:0], effort[:0]
+        effort, excess = np.abs(effort[passes]), excess[passes]
+        less = np.maximum(effort - excess / (self._step_s * self._weights[passes]), 0.0)
+        dofs = self._dofs[passes]
+        turns = np.abs(then[passes]) > self._limits[passes]
+        self._tell_of(dofs[turns], then[passes][turns], diagnostics)
+        return dofs, less * ahead[passes]
+
+    def _tell_of(self, dofs: NDArray[np.intp], speeds: Array, diagnostics: Diagnostics) -> None:
+        for dof, speed in zip(dofs.tolist(), speeds.tolist(), strict=True):
+            if dof in self._unlimited:
+                self._tell(*self._unlimited.pop(dof), abs(speed), diagnostics)
 
     def _tell(self, name: str, joint: Joint, speed: float, diagnostics: Diagnostics) -> None:
         if name in self._told:

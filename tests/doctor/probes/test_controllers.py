@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
 from typing import Any
 
 from tests.doctor.probes.worlds import arm, probed
 
-from gazelle.description.model import World
+from gazelle.description.model import JointType, World
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.probes.controllers import probe_controllers
 from gazelle.simulator.simulation import Simulation
@@ -71,7 +73,13 @@ def test_plain_efforts_are_not_expected_to_hold() -> None:
 
 def test_divergence_names_the_link_and_its_line() -> None:
     servo = {"type": POSITION, "joint": "hinge", "pid": {"p": 1e25, "i": 0.0, "d": 0.0}}
-    _, found = probed(arm(1e30), parameters={"arm": {"servo": servo}})
+    model = arm(1e30)
+    (hinge,) = model.joints
+    assert hinge.axis is not None
+    # No speed and no stop ends the efforts on it.
+    free = replace(hinge.axis, xyz=(0.0, 0.0, 1.0), velocity=inf, lower=-inf, upper=inf)
+    slide = replace(hinge, type=JointType.PRISMATIC, axis=free)
+    _, found = probed(replace(model, joints=(slide,)), parameters={"arm": {"servo": servo}})
     (item,) = found
     assert (item.code, item.severity) == ("probe.diverged", Severity.ERROR)
     assert "link 'arm::lever'" in item.message
