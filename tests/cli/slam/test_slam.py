@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import math
 from pathlib import Path
 
@@ -62,6 +63,23 @@ def test_a_log_becomes_map_and_trajectory(
     assert grid is not None
     assert grid.width * 0.05 == pytest.approx(6.2, abs=0.3)
     assert len(Path(f"{stem}.tum").read_text().splitlines()) == 20
+
+
+def test_stamps_that_tell_no_time_are_told_and_no_speed_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "room.log.gz"
+    lines = [
+        f"FLASER 181 {' '.join(['2.0'] * 181)} {k} 0 0 {k} 0 0 {stamp} h {stamp}"
+        for k, stamp in enumerate((9.0, 4e9, 5.0))
+    ]
+    path.write_bytes(gzip.compress("\n".join(lines).encode()))
+    assert main([str(path), "-o", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr()
+    assert "stamps of scans go back, or leap by more than a day, 2 times" in told.err
+    assert "[mapping.stamps]" in told.err
+    assert "3 scans, " in told.out
+    assert "times real time" not in told.out
 
 
 def test_a_bag_is_placed_by_its_transforms(

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import gzip
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.mapping.logs import LogRecord, read_log, write_carmen, write_tum
+from gazelle.mapping.logs import (
+    LogRecord,
+    duration_s,
+    read_log,
+    stamp_problem,
+    write_carmen,
+    write_tum,
+)
 
 OLD = """# CARMEN Logfile
 PARAM laser_front_laser_resolution 1
@@ -43,6 +52,51 @@ def test_flaser_lines_give_scan_odometry_and_mounting(tmp_path: Path) -> None:
     assert scan.angle_increment_rad == pytest.approx(math.pi / 4)
     # 0.1 m ahead in the map, which the robot sees turned by its own heading.
     assert scan.T_base_laser[:2] == pytest.approx((0.1 * math.cos(0.1), -0.1 * math.sin(0.1)))
+
+
+def test_logs_packed_by_gzip_are_read_as_they_are(tmp_path: Path) -> None:
+    plain, _ = _read(_written(tmp_path, OLD))
+    packed = tmp_path / "robot.log.gz"
+    packed.write_bytes(gzip.compress(OLD.encode()))
+    records, diagnostics = _read(packed)
+    assert not len(diagnostics)
+    assert records[0].odometry.tolist() == plain[0].odometry.tolist()
+    assert records[0].scan.ranges_m.tolist() == plain[0].scan.ranges_m.tolist()
+
+
+def test_damaged_and_endless_logs_are_refused(tmp_path: Path, monkeypatch: Any) -> None:
+    packed = tmp_path / "robot.log.gz"
+    # Numbers that do not repeat, so that a half of the bytes is not all of the text.
+    body = OLD + "".join(f"ODOM {math.sin(k)} 0 0 0 0 0 0 h 0\n" for k in range(20_000))
+    packed.write_bytes(gzip.compress(body.encode())[:-20_000])
+    with pytest.raises(OSError, match="the file is damaged"):
+        _read(packed)
+    packed.write_bytes(gzip.compress(OLD.encode() + b"1" * (5 << 20)))
+    with pytest.raises(OSError, match="a line is longer than 4194304 bytes"):
+        _read(packed)
+    monkeypatch.setenv("GAZELLE_LIMITS", "1e-9")
+    with pytest.raises(OSError, match=r"it is longer than 4 bytes; .*GAZELLE_LIMITS=10"):
+        _read(_written(tmp_path, OLD))
+
+
+@pytest.mark.parametrize(
+    ("stamps_s", "problem", "lasted_s"),
+    [
+        ([1.0, 2.0, 4.0], "", 3.0),
+        ([5.0], "", 0.0),
+        ([0.0, 0.0, 0.0], "all 3 scans have the same stamp, 0 s", 0.0),
+        ([9.0, 2.0, 3.0], "stamps of scans go back, or leap by more than a day, 1 times, first "
+                          "from 9 s to 2 s (scan 1)", 0.0),
+        ([1.0, 2.0, 1e9], "stamps of scans go back, or leap by more than a day, 1 times, first "
+                          "from 2 s to 1e+09 s (scan 2)", 0.0),
+    ],
+)  # fmt: skip
+def test_stamps_that_tell_no_time_are_told(
+    stamps_s: list[float], problem: str, lasted_s: float
+) -> None:
+    stamps_ns = [round(stamp * 1e9) for stamp in stamps_s]
+    assert stamp_problem(stamps_ns) == problem
+    assert duration_s(stamps_ns) == lasted_s
 
 
 def test_robotlaser_lines_bring_their_own_angles(tmp_path: Path) -> None:

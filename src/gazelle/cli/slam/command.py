@@ -15,7 +15,14 @@ from gazelle.bag import BagError
 from gazelle.cli.slam.bag_log import read_bag_log
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
 from gazelle.mapping.grids import write_map
-from gazelle.mapping.logs import LogRecord, read_log, write_carmen, write_tum
+from gazelle.mapping.logs import (
+    LogRecord,
+    duration_s,
+    read_log,
+    stamp_problem,
+    write_carmen,
+    write_tum,
+)
 from gazelle.mapping.logs.reading import is_carmen
 from gazelle.mapping.relations import align, read_relations, relation_errors
 from gazelle.mapping.slam import Slam, SlamResult
@@ -46,6 +53,8 @@ def main(argv: list[str]) -> int:
     if diagnostics.errors:
         render(diagnostics)
         return 1
+    if problem := stamp_problem([record.scan.stamp_ns for record in records]):
+        diagnostics.report("mapping.stamps", problem, SourceSpan(options.file))
     engine, took_s = _mapped(records, console)
     result = engine.result(options.resolution)
     _write(options, records, result)
@@ -117,7 +126,7 @@ def _write(options: argparse.Namespace, records: list[LogRecord], result: SlamRe
 
 def _tell(records: list[LogRecord], result: SlamResult, took_s: float) -> None:
     stamps = result.stamps_ns
-    lasted_s = float(stamps[-1] - stamps[0]) / 1e9
+    lasted_s = duration_s(stamps.tolist())
     steps = np.diff(result.trajectory[:, :2], axis=0)
     way_m = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
     speed = f", {lasted_s / took_s:.0f} times real time" if lasted_s > 0 else ""

@@ -39,6 +39,14 @@ ENTRIES = (
         "convert it to a CARMEN log or to a bag",
     ),
     Entry(
+        "mapping.stamps",
+        "warning",
+        "Stamps of a log do not tell the time",
+        "Scans are taken in the order of the file, so the map is none the worse; how long it "
+        "lasted is not known, and relations that are given by time are not found.",
+        "convert the log again, or record it on a machine whose clock is not set on the way",
+    ),
+    Entry(
         "mapping.scan-without-pose",
         "warning",
         "Scans could not be placed by odometry",

@@ -5,6 +5,16 @@ from __future__ import annotations
 from gazelle.mapping.logs.archive import read_archive
 from gazelle.mapping.logs.carmen import read_carmen
 from gazelle.mapping.logs.reading import LogRecord, read_log
+from gazelle.mapping.logs.stamps import duration_s, stamp_problem
 from gazelle.mapping.logs.trajectory import write_carmen, write_tum
 
-__all__ = ["LogRecord", "read_archive", "read_carmen", "read_log", "write_carmen", "write_tum"]
+__all__ = [
+    "LogRecord",
+    "duration_s",
+    "read_archive",
+    "read_carmen",
+    "read_log",
+    "stamp_problem",
+    "write_carmen",
+    "write_tum",
+]

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.mapping.logs.lines import lines_of
 from gazelle.mapping.logs.record import LogRecord
 from gazelle.mapping.poses import between
 from gazelle.mapping.scans import Scan
@@ -32,20 +33,23 @@ def read_carmen(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
     """Yield the scans of the front lidar with their odometry.
 
     The robot's pose is taken from the scan's line itself, which carries it. Lines of other kinds
-    (PARAM, SYNC, RLASER, GPS …) are passed over; broken ones are reported and left out.
+    (PARAM, SYNC, RLASER, GPS …) are passed over; broken ones are reported and left out. The file
+    may be packed by gzip.
+
+    Raises:
+        OSError: the file cannot be read, is damaged, or longer than is read.
     """
-    with path.open(errors="replace") as file:
-        for number, line in enumerate(file, 1):
-            words = line.split()
-            parse = _PARSERS.get(words[0]) if words else None
-            if parse is None:
-                continue
-            try:
-                record = parse(words)
-            except (IndexError, ValueError, OverflowError) as error:
-                _report(diagnostics, SourceSpan(str(path), number), words[0], error)
-                continue
-            yield record
+    for number, line in enumerate(lines_of(path), 1):
+        words = line.split()
+        parse = _PARSERS.get(words[0]) if words else None
+        if parse is None:
+            continue
+        try:
+            record = parse(words)
+        except (IndexError, ValueError, OverflowError) as error:
+            _report(diagnostics, SourceSpan(str(path), number), words[0], error)
+            continue
+        yield record
 
 
 def _flaser(words: list[str]) -> LogRecord:

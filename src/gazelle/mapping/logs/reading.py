@@ -8,6 +8,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.mapping.logs.archive import read_archive
 from gazelle.mapping.logs.carmen import read_carmen
+from gazelle.mapping.logs.lines import opened
 from gazelle.mapping.logs.record import LogRecord
 
 __all__ = ["LogRecord", "is_carmen", "read_log"]
@@ -36,7 +37,11 @@ def read_log(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
 
 
 def is_carmen(path: Path) -> bool:
-    """Return whether a line near a file's start is one of CARMEN's."""
-    with path.open("rb") as file:
+    """Return whether a line near a file's start is one of CARMEN's; gzip may have packed it.
+
+    Raises:
+        OSError: the file cannot be read, or is damaged.
+    """
+    with opened(path) as file:
         start = file.read(_PEEK_BYTES)
     return any(start.startswith(word) or b"\n" + word in start for word in _CARMEN_WORDS)
