@@ -45,6 +45,28 @@ def test_who_waits_for_the_file_loses_no_message(tmp_path: Path, free_port: int)
     assert [counts.count(name) for name in names] == [20, 20]
 
 
+def test_what_is_on_its_way_when_recording_ends_is_recorded(tmp_path: Path, free_port: int) -> None:
+    selection = Selection(("/named",))
+    with Graph.open(port=free_port) as hub, Graph.open(port=free_port, role="client") as own:
+        for turn in range(10):
+            stop = threading.Event()
+            sink = Ros1Files(lambda turn=turn: str(tmp_path / f"{turn}"))
+            recorder = Recorder(own, own.create_node(f"recorder{turn}"), sink)
+            recorder.begin(selection)
+            thread = threading.Thread(target=recorder.run, args=(selection, stop))
+            thread.start()
+            with Graph.open(port=free_port, role="client") as other:
+                out = other.create_node("talker").create_publisher("/named", _INT)
+                eventually(lambda out=out: out.matched)
+                for number in range(50):
+                    out.publish(_INT(data=number))
+            # The hub has all of it, and may not have sent it on yet.
+            eventually(lambda: not any(one.node == "/talker" for one in hub.discovery.known()))
+            stop.set()
+            thread.join()
+            assert len(list(open_bag(tmp_path / f"{turn}.bag").messages())) == 50
+
+
 def test_a_file_that_cannot_be_created_is_told_at_the_beginning(
     tmp_path: Path, free_port: int
 ) -> None:

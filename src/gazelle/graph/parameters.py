@@ -125,6 +125,18 @@ class ParameterShare:
             raise GraphError(answer["error"])
         return answer
 
+    def answers(self, within_s: float) -> bool:
+        """Tell whether the owner answers; what it was sent before has gone on from it by then.
+
+        Args:
+            within_s: to wait at most, in the time of the wall.
+        """
+        if self._owner:
+            return True
+        payload = to_json({"op": "has", "name": "/"})
+        replies = self._session.get(self._key, payload=payload, timeout=within_s)
+        return any(answer_in(reply) is not None for reply in replies)
+
     def close(self) -> None:
         """Stop answering and listening."""
         with self._lock:
@@ -305,6 +317,17 @@ class ParameterStore:
     def has(self, name: str) -> bool:
         """Return whether the parameter or namespace is set."""
         return bool(self._share.ask({"op": "has", "name": self._to_global(name)})["value"])
+
+    def settle(self, within_s: float) -> bool:
+        """Wait for what others sent up to now: it goes through the hub, which is asked something.
+
+        Args:
+            within_s: to wait at most, in the time of the wall.
+
+        Returns:
+            False where no hub answers.
+        """
+        return self._share.answers(within_s)
 
     def delete(self, name: str) -> None:
         """Delete a parameter or a namespace.

@@ -23,6 +23,7 @@ __all__ = ["Limits", "Recorder", "Sink"]
 
 _FLUSH_S = 0.5
 _WARN_S = 5.0
+_ON_ITS_WAY_S, _QUIET_ROUNDS = 1.0, 2
 _NEWS_S = 0.3
 
 
@@ -140,6 +141,7 @@ class Recorder:
         self._warned_s = 0.0
         self._ended = threading.Event()
         self._paused = False
+        self._heard = 0
 
     @property
     def topics(self) -> tuple[str, ...]:
@@ -181,6 +183,8 @@ class Recorder:
     def run(self, selection: Selection, stop: threading.Event) -> None:
         """Record until told to stop or a limit is reached; the sink is closed in any case.
 
+        What was sent before it was told to stop is recorded, though it may be on its way.
+
         Raises:
             BagError: the disk is full, or the file cannot be written otherwise.
         """
@@ -199,12 +203,22 @@ class Recorder:
                     self._sink.flush()
                     self._tell_restored()
                 self._check_limits(self._node.clock.now_ns())
+            self._take_what_is_on_its_way()
         finally:
             for one in self._subscriptions.values():
                 one.unregister()
             self._write_waiting()
             self._sink.close()
             self._tell_restored()
+
+    def _take_what_is_on_its_way(self) -> None:
+        """Wait for what was sent up to now, until nothing more comes."""
+        end_s, quiet = time.monotonic() + _ON_ITS_WAY_S, 0
+        while quiet < _QUIET_ROUNDS and (left_s := end_s - time.monotonic()) > 0:
+            before = self._heard
+            if not self._graph.parameters.settle(left_s):
+                return
+            quiet = quiet + 1 if self._heard == before else 0
 
     def _tell_restored(self) -> None:
         restored, self._restored = self._restored, self._sink.restored
@@ -219,6 +233,7 @@ class Recorder:
         if self._paused:
             return
         with self._changed:
+            self._heard += 1
             self._waiting.append(item)
             self._waiting_bytes += len(item.message.data)
             most = self._limits.buffer
