@@ -30,6 +30,7 @@ _MAKE_PROGRAMS = (
     "qt_add_executable",
 )
 _ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
+_CLOSED_BY = {closing: opening for opening, closing in _ENDS.items()} | {"endif": "if"}
 _TRUE = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 # The build folder is not known, only what lies where below it.
 _BINARY = "${CMAKE_BINARY_DIR}"
@@ -117,6 +118,34 @@ def read_cmake_lists(
     return walker.lists
 
 
+class _Piece(NamedTuple):
+    """Some commands of a file, from one place up to another.
+
+    Attributes:
+        commands: all of the file.
+        ends: see `_ends_of`.
+        first, last: of the piece; `last` does not belong to it.
+        known: branches of its ``if`` commands, as far as they were looked for.
+    """
+
+    commands: Sequence[Command]
+    ends: Sequence[int]
+    first: int
+    last: int
+    known: dict[tuple[int, int], tuple[_Piece, _Piece] | None]
+
+    def body(self, opening: int) -> _Piece:
+        """Return what stands in a block; one that is not closed goes on to the piece's end."""
+        return self._replace(first=opening + 1, last=min(self.ends[opening], self.last))
+
+
+class _Own(NamedTuple):
+    """What a macro or function of the file does."""
+
+    installs: bool
+    compiles: bool
+
+
 class _Walker:
     def __init__(
         self, folder: Path, lists: CMakeLists, name: str, definitions: Mapping[str, str]
@@ -126,7 +155,7 @@ class _Walker:
         self._name = name
         self._given = frozenset(definitions)
         self._variables = {**_known_variables(folder, name), **definitions}
-        self._own: dict[str, list[Command]] = {}
+        self._own: dict[str, _Own] = {}
         self._options: set[str] = set()
         # Set in a branch that may not be taken: what they hold afterwards is a guess.
         self._doubtful: set[str] = set()
@@ -149,36 +178,37 @@ class _Walker:
         self._variables["CMAKE_CURRENT_SOURCE_DIR"] = str(self._root / folder)
         self._variables["CMAKE_CURRENT_BINARY_DIR"] = f"{_BINARY}/{folder}".rstrip("/")
         self._variables["CMAKE_CURRENT_LIST_DIR"] = str(file.parent)
-        self._follow(commands, file, folder)
+        whole = _Piece(commands, _ends_of(commands), 0, len(commands), {})
+        self._follow(whole, file, folder)
         self._variables["CMAKE_CURRENT_SOURCE_DIR"] = here
         self._variables["CMAKE_CURRENT_BINARY_DIR"] = built
         self._depth -= 1
 
-    def _follow(self, commands: Sequence[Command], file: Path, folder: str) -> None:
+    def _follow(self, piece: _Piece, file: Path, folder: str) -> None:
         """Follow commands, unless blocks are nested too deep or loops go on for too long."""
         self._rounds += 1
         if self._blocks >= _DEEPEST_BLOCK or self._rounds > _MOST_ROUNDS:
             return
         self._blocks += 1
-        self._follow_all(commands, file, folder)
+        self._follow_all(piece, file, folder)
         self._blocks -= 1
 
-    def _follow_all(self, commands: Sequence[Command], file: Path, folder: str) -> None:
-        place = 0
-        while place < len(commands) and len(self.lists.steps) < _MOST_STEPS:
-            command = commands[place]
+    def _follow_all(self, piece: _Piece, file: Path, folder: str) -> None:
+        place = piece.first
+        while place < piece.last and len(self.lists.steps) < _MOST_STEPS:
+            command = piece.commands[place]
             if command.name in _ENDS:
-                end = _end_of(commands, place)
-                self._block(command, commands[place + 1 : end], file, folder)
-                place = end + 1
+                body = piece.body(place)
+                self._block(command, body, file, folder)
+                place = body.last + 1
                 continue
             taken = self._is_taken(command)
             if taken is not None:
-                end = _end_of(commands, place)
-                branches = _branches(commands[place + 1 : end])
+                body = piece.body(place)
+                branches = _branches(body)
                 if branches is not None:
                     self._follow(branches[0 if taken else 1], file, folder)
-                    place = end + 1
+                    place = body.last + 1
                     continue
             self._command(command, file, folder)
             place += 1
@@ -193,11 +223,11 @@ class _Walker:
             return None
         return (self._variables[words[-1]].upper() in _TRUE) is not turned
 
-    def _block(self, command: Command, body: Sequence[Command], file: Path, folder: str) -> None:
+    def _block(self, command: Command, body: _Piece, file: Path, folder: str) -> None:
         words = self._words(command.words)
         if command.name != "foreach":
             if words:
-                self._own[words[0].lower()] = list(body)
+                self._own[words[0].lower()] = _own_of(body)
             return
         if not words:
             return
@@ -229,10 +259,10 @@ class _Walker:
         if handler is not None and words:
             handler(self, step)
         elif command.name in self._own:
-            body = self._own[command.name]
-            if _installs(body):
+            own = self._own[command.name]
+            if own.installs:
                 self.lists.hidden.append(step)
-            if any(item.name in {"add_executable", "add_library"} for item in body):
+            if own.compiles:
                 self.lists.compiling.append(step)
 
     def _words(self, words: Iterable[Word]) -> list[str]:
@@ -375,27 +405,46 @@ def _known_variables(folder: Path, name: str) -> dict[str, str]:
     }
 
 
-def _end_of(commands: Sequence[Command], begin: int) -> int:
-    """Return the place of the command that closes a block, the file's end when none does."""
-    opening, depth = commands[begin].name, 0
-    closing = _ENDS.get(opening, f"end{opening}")
-    for place in range(begin, len(commands)):
-        depth += {opening: 1, closing: -1}.get(commands[place].name, 0)
-        if depth == 0:
-            return place
-    return len(commands)
+def _ends_of(commands: Sequence[Command]) -> list[int]:
+    """Return for each command that opens a block the place of the one that closes it.
+
+    Only its own kind counts, so a block that is not closed goes on to the file's end.
+    """
+    ends = [len(commands)] * len(commands)
+    opened: dict[str, list[int]] = {name: [] for name in _CLOSED_BY.values()}
+    for place, command in enumerate(commands):
+        if command.name in opened:
+            opened[command.name].append(place)
+        elif (opening := _CLOSED_BY.get(command.name)) is not None and opened[opening]:
+            ends[opened[opening].pop()] = place
+    return ends
 
 
-def _branches(body: Sequence[Command]) -> tuple[Sequence[Command], Sequence[Command]] | None:
+def _own_of(body: _Piece) -> _Own:
+    commands = body.commands[body.first : body.last]
+    compiles = any(item.name in {"add_executable", "add_library"} for item in commands)
+    return _Own(_installs(commands), compiles)
+
+
+def _branches(body: _Piece) -> tuple[_Piece, _Piece] | None:
     """Return what an ``if`` runs when true and when not; None with an ``elseif`` between."""
+    # In a loop it is asked for again and again.
+    key = body.first, body.last
+    if key not in body.known:
+        body.known[key] = _found_branches(body)
+    return body.known[key]
+
+
+def _found_branches(body: _Piece) -> tuple[_Piece, _Piece] | None:
     depth = 0
-    for place, command in enumerate(body):
-        depth += {"if": 1, "endif": -1}.get(command.name, 0)
-        if depth == 0 and command.name == "elseif":
+    for place in range(body.first, body.last):
+        name = body.commands[place].name
+        depth += {"if": 1, "endif": -1}.get(name, 0)
+        if depth == 0 and name == "elseif":
             return None
-        if depth == 0 and command.name == "else":
-            return body[:place], body[place + 1 :]
-    return body, ()
+        if depth == 0 and name == "else":
+            return body._replace(last=place), body._replace(first=place + 1)
+    return body, body._replace(first=body.last)
 
 
 def _installs(body: Iterable[Command]) -> bool:
