@@ -94,6 +94,18 @@ def test_numbers_too_big_for_xmlrpc_become_floats(graph: Graph, peer: Peer) -> N
     assert peer.call("getParam", "/big") == float(1 << 40)
 
 
+@pytest.mark.parametrize("method", ["setParam", "getParam", "registerPublisher", "lookupNode"])
+def test_names_that_are_no_texts_are_refused_without_a_traceback(
+    bridge: Bridge, method: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    rest = {"setParam": (1,), "registerPublisher": ("std_msgs/Int32", "http://here:1/")}
+    master: Any = xmlrpc.client.ServerProxy(bridge.master.uri)
+    code, text, _ = getattr(master, method)("/peer", 3.5, *rest.get(method, ()))
+    assert code == -1
+    assert "must be a string" in text or "is not a legal name" in text
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
 def test_several_calls_in_one_as_roslaunch_sends_them(bridge: Bridge) -> None:
     calls: Any = xmlrpc.client.MultiCall(xmlrpc.client.ServerProxy(bridge.master.uri))
     calls.setParam("/roslaunch", "/one", 1)

@@ -21,6 +21,7 @@ _IDLE_S = 60.0
 _LONGEST_REASON = 200
 _ERROR = -1
 _MOST_DIGITS = 20
+_TEXT = ("str", str)
 _MULTICALL = "system.multicall"
 
 
@@ -96,10 +97,14 @@ class _Calls(http.server.BaseHTTPRequestHandler):
         found = self._terms.methods.get(method)
         if found is None:
             return xmlrpc.client.Fault(1, f'method "{method}" is not supported')
+        taken = signature(found)
         try:
-            signature(found).bind(*arguments)
+            bound = taken.bind(*arguments)
         except TypeError as error:
             return [_ERROR, f"wrong arguments of {method}: {error}", 0]
+        for name, value in bound.arguments.items():
+            if taken.parameters[name].annotation in _TEXT and not isinstance(value, str):
+                return [_ERROR, f"ERROR: parameter [{name.lstrip('_')}] must be a string", 0]
         try:
             return found(*arguments)
         except Exception as error:  # noqa: BLE001 - the caller is told, and the other calls go on
