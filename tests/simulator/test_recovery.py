@@ -14,10 +14,10 @@ from gazelle.simulator.messages import service_class
 from gazelle.simulator.recovery import OnDivergence
 from gazelle.simulator.world_server import WorldServer
 
-# A rim of a milligram, without a limit: what is far too light for its efforts.
+# A milligram on a rail without an end: what is far too light for its efforts.
 FEATHER = """<robot name="feather"><link name="world"/>
-  <joint name="spin" type="continuous"><parent link="world"/><child link="rim"/>
-    <axis xyz="0 0 1"/></joint>
+  <joint name="spin" type="prismatic"><parent link="world"/><child link="rim"/>
+    <axis xyz="0 0 1"/><limit lower="-1e16" upper="1e16" effort="1e30" velocity="1e16"/></joint>
   <link name="rim"><inertial><mass value="1e-6"/>
     <inertia ixx="1e-9" ixy="0" ixz="0" iyy="1e-9" iyz="0" izz="1e-9"/></inertial></link></robot>"""
 STONE = FEATHER.replace("feather", "stone").replace("1e-6", "1").replace("1e-9", "0.1")

@@ -7,8 +7,9 @@ locks know no such limit, neither here nor there.
 Efforts turn a joint at most a quarter turn in a step, whatever its limit: steps do not resolve how
 faster turning acts on the other links, and it would throw its robot about.
 
-Of an effort on a joint so light that it would pass its velocity limit or its stop within one step,
-only so much counts as brings it there: ODE would throw it through.
+Of an effort on a joint so light that within one step it would pass its stop, go by more than 0.1
+rad or m though it has stops, or turn by a quarter turn, only so much counts as brings it there: ODE
+would throw it through. Velocity limits do not count here: Gazebo lets a step pass them.
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ from gazelle.engine.names import joint_part, scoped
 __all__ = ["SpeedLimits"]
 
 Array = NDArray[np.float64]
-_INTO_STOP = 0.005
-"""So far, rad or m, an effort may carry a joint into its stop within a step."""
+_INTO_STOP, _WITH_STOPS = 0.005, 0.1
+"""So far, rad or m, an effort may carry a joint into its stop within a step, and at all if it has
+stops."""
 _CODE = "engine.quarter-turn"
 _LEAST_WEIGHT, _ROUNDING = 1e-12, 1e-9
 _HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
@@ -44,6 +46,7 @@ class SpeedLimits:
         self._dofs: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         self._qpos: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         self._limits: Array = np.zeros(0)
+        self._fastest: Array = np.zeros(0)
         self._range: Array = np.zeros((0, 2))
         self._weights: Array = np.zeros(0)
         self._throwing: Array = np.zeros(0)
@@ -52,7 +55,7 @@ class SpeedLimits:
 
     def bind(self, model: Any, world: World, step_s: float) -> None:
         """Find the joints in a newly compiled model."""
-        chosen, limits = [], []
+        chosen, limits, fastest = [], [], []
         self._unlimited, self._step_s = {}, step_s
         joints = dict(_axes(world))
         for index in range(model.njnt):
@@ -67,6 +70,7 @@ class SpeedLimits:
             if math.isfinite(end) or model.jnt_limited[index]:
                 chosen.append(index)
                 limits.append(end)
+                fastest.append(quarter_turn)
         places = np.array(chosen, dtype=np.intp)
         self._dofs = model.jnt_dofadr[places].astype(np.intp)
         self._qpos = model.jnt_qposadr[places].astype(np.intp)
@@ -74,8 +78,11 @@ class SpeedLimits:
         stops = model.jnt_limited[places].astype(bool)
         self._range = np.where(stops[:, None], model.jnt_range[places], [-math.inf, math.inf])
         self._weights = np.maximum(model.dof_invweight0[self._dofs], _LEAST_WEIGHT)
-        fastest = np.minimum(self._limits, np.where(stops, _INTO_STOP / step_s, math.inf))
-        self._throwing = fastest / (step_s * self._weights)
+        # Stops are felt once they are passed.
+        within = np.where(stops, _WITH_STOPS / step_s, math.inf)
+        self._fastest = np.minimum(np.array(fastest, dtype=float), within)
+        much = np.minimum(self._fastest, np.where(stops, _INTO_STOP / step_s, math.inf))
+        self._throwing = much / (step_s * self._weights)
 
     def concern(self, applied: Array) -> bool:
         """Whether an effort acts on a joint with a limit, so that each step is to be looked at.
@@ -103,7 +110,7 @@ class SpeedLimits:
         return chosen
 
     def throws(self, applied: Array) -> bool:
-        """Whether an effort could carry a joint past its limits within a step, were it free.
+        """Whether an effort could carry a joint past its stops within a step, were it free.
 
         Args:
             applied: efforts on the joints (nv,).
@@ -118,7 +125,7 @@ class SpeedLimits:
         applied: Array,
         diagnostics: Diagnostics,
     ) -> tuple[NDArray[np.intp], Array]:
-        """Return the joints whose effort carries them past their limits, and how much counts.
+        """Return the joints whose effort carries them past their stops, and how much counts.
 
         Args:
             positions: MuJoCo's (nq,), rad or m, at the start of the step.
@@ -131,7 +138,7 @@ class SpeedLimits:
         then = speeds[self._dofs] + self._step_s * accelerations[self._dofs]
         ahead = np.sign(effort)
         stop = np.where(effort > 0, self._range[:, 1], -self._range[:, 0]) + _INTO_STOP
-        fastest = np.minimum(self._limits, (stop - ahead * at) / self._step_s)
+        fastest = np.minimum(self._fastest, (stop - ahead * at) / self._step_s)
         excess = ahead * then - np.maximum(fastest, 0.0)
         passes = (np.abs(effort) > self._throwing) & (excess > _ROUNDING * np.abs(then))
         if not passes.any():
@@ -139,7 +146,7 @@ class SpeedLimits:
         effort, excess = np.abs(effort[passes]), excess[passes]
         less = np.maximum(effort - excess / (self._step_s * self._weights[passes]), 0.0)
         dofs = self._dofs[passes]
-        turns = np.abs(then[passes]) > self._limits[passes]
+        turns = np.abs(then[passes]) > self._fastest[passes]
         self._tell_of(dofs[turns], then[passes][turns], diagnostics)
         return dofs, less * ahead[passes]
 
