@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -46,10 +46,14 @@ class Wheels:
 
 @dataclass(frozen=True)
 class Building:
-    """Walls, shape (n, 4), and a tour through it, shape (m, 2)."""
+    """Walls, shape (n, 4), a tour through it, shape (m, 2), and walls of glass.
+
+    Of the beams that meet glass one in four comes back.
+    """
 
     walls: Segments
     tour: NDArray[np.float64]
+    glass: Segments = field(default_factory=lambda: np.zeros((0, 4)))
 
 
 def box(x0: float, y0: float, x1: float, y1: float) -> list[tuple[float, ...]]:
@@ -232,6 +236,10 @@ def _records(
     for k, (pose, odo) in enumerate(zip(truth, odometry, strict=True)):
         place = compose(pose, lidar.mount)
         ranges = cast(building.walls, place, place[2] + angles)
+        if len(building.glass):
+            panes = cast(building.glass, place, place[2] + angles)
+            panes[rng.random(len(panes)) > 0.25] = np.inf
+            ranges = np.minimum(ranges, panes)
         ranges = ranges + rng.normal(0, lidar.sigma_m, len(ranges))
         ranges[ranges > lidar.range_m] = np.inf
         scan = Scan(
@@ -239,6 +247,18 @@ def _records(
             lidar.mount,
         )  # fmt: skip
         yield scan, odo
+
+
+def in_the_open(building: Building, way_m: float) -> Building:
+    """The robot starts so far from the building, on open ground, and comes in by a gap."""
+    start, wall_x = building.tour[0], building.walls[:, [0, 2]].min()
+    gate = box(wall_x, start[1] - 0.7, wall_x, start[1] + 0.7)[1]
+    on_wall = (building.walls[:, [0, 2]] == wall_x).all(axis=1)
+    bottom, top = building.walls[on_wall][:, [1, 3]].min(), building.walls[on_wall][:, [1, 3]].max()
+    sides = [(wall_x, bottom, wall_x, gate[1]), (wall_x, gate[3], wall_x, top)]
+    walls = np.concatenate([building.walls[~on_wall], np.array(sides)])
+    tour = np.concatenate([[start - (way_m, 0.0)], building.tour])
+    return replace(building, walls=walls, tour=tour)
 
 
 def with_people(log: Log, seed: int, share: float = 0.05) -> Log:
@@ -251,3 +271,64 @@ def with_people(log: Log, seed: int, share: float = 0.05) -> Log:
         ranges[at : at + count] = np.minimum(ranges[at : at + count], rng.uniform(0.5, 3.0))
         records.append((replace(scan, ranges_m=ranges), odometry))
     return Log(records, log.truth)
+
+
+def with_noise(log: Log, seed: int, share: float = 0.1) -> Log:
+    """Of every scan some beams say anything."""
+    rng = np.random.default_rng(seed)
+    records = []
+    for scan, odometry in log.records:
+        ranges = scan.ranges_m.copy()
+        hit = rng.random(len(ranges)) < share
+        farthest = np.minimum(np.where(np.isfinite(ranges), ranges, scan.range_max_m), 10.0)
+        ranges[hit] = rng.uniform(0.3, np.maximum(farthest[hit], 0.31))
+        records.append((replace(scan, ranges_m=ranges), odometry))
+    return Log(records, log.truth)
+
+
+def without(log: Log, first: int, count: int) -> Log:
+    """Scans are lost on the way."""
+    return _of(log, [k for k in range(len(log.records)) if not first <= k < first + count])
+
+
+def carried(log: Log, first: int, count: int) -> Log:
+    """From one scan to another the robot is carried: wheels stand, and nothing is seen."""
+    steps = _steps(log)
+    steps[first : first + count] = 0.0
+    seen = [k for k in range(len(log.records)) if not first < k <= first + count]
+    return _of(_driven(log, steps), seen)
+
+
+def slipping(log: Log, first: int, length_m: float, share: float) -> Log:
+    """Wheels count another way than the robot goes, for so many metres of its own."""
+    steps = _steps(log)
+    ways_m = np.cumsum(np.hypot(steps[first:, 0], steps[first:, 1]))
+    last = first + int(np.searchsorted(ways_m, length_m))
+    steps[first:last, :2] *= share
+    return _driven(log, steps)
+
+
+def early(log: Log, share: float) -> Log:
+    """Odometry's clock is ahead of the lidar's, by a share of the time between two scans."""
+    odometry = np.array([pose for _, pose in log.records])
+    ahead = compose(odometry[:-1], share * _steps(log))
+    records = [(scan, pose) for (scan, _), pose in zip(log.records[:-1], ahead, strict=True)]
+    return Log([*records, log.records[-1]], log.truth)
+
+
+def _steps(log: Log) -> NDArray[np.float64]:
+    odometry = np.array([pose for _, pose in log.records])
+    return np.asarray(between(odometry[:-1], odometry[1:]), dtype=float)
+
+
+def _driven(log: Log, steps: NDArray[np.float64]) -> Log:
+    poses = [log.records[0][1]]
+    for step in steps:
+        poses.append(compose(poses[-1], step))
+    return Log(
+        [(scan, pose) for (scan, _), pose in zip(log.records, poses, strict=True)], log.truth
+    )
+
+
+def _of(log: Log, chosen: list[int]) -> Log:
+    return Log([log.records[k] for k in chosen], log.truth[chosen])

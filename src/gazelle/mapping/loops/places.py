@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.loops.way_kernels import shortest_ways
 from gazelle.mapping.pose_graph.edges import Edges
-from gazelle.mapping.pose_graph.information import DOUBTFUL_M, DOUBTFUL_RAD, doubtful
+from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.poses import Poses
 
 __all__ = ["Place", "places_near"]
@@ -25,6 +25,7 @@ _SAME_PASS = 3
 _DRIFT_RAD = 0.1
 _DRIFT_RAD_PER_M = 0.003
 _MOST_WAY_M = 150.0
+_NO_DOUBT = 0.1
 
 
 class Place(NamedTuple):
@@ -55,11 +56,12 @@ def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> 
     """
     last = len(poses) - 1
     far = np.hypot(*(poses[:, :2] - poses[last, :2]).T)
-    ways, doubts = _ways(edges, len(poses)), np.sqrt(_doubts(edges, len(poses)))
-    reach = _SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways) + _DOUBTS * DOUBTFUL_M * doubts
+    ways = _ways(edges, len(poses))
+    doubts_m, doubts_rad = (_doubts(edges, len(poses), axis) for axis in (0, 2))
+    reach = _SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways) + _DOUBTS * doubts_m
     reach = np.clip(reach, 0.3, reach_m)
     turn = _DRIFT_RAD + _DRIFT_RAD_PER_M * np.minimum(ways, _MOST_WAY_M)
-    turn = np.minimum(turn + _DOUBTS * DOUBTFUL_RAD * doubts, np.pi)
+    turn = np.minimum(turn + _DOUBTS * doubts_rad, np.pi)
     wanted = np.flatnonzero((far < _NEAREST_M + reach) & (ways > gap_m))
     if not len(wanted):
         return []
@@ -75,10 +77,12 @@ def _ways(edges: Edges, count: int) -> NDArray[np.float64]:
     return _shortest(edges, np.where(edges.is_loop, _LOOP_LENGTH_M, lengths), count)
 
 
-def _doubts(edges: Edges, count: int) -> NDArray[np.float64]:
-    """Return over how many doubtful relations, at least, one must go to the last pose."""
+def _doubts(edges: Edges, count: int, axis: int) -> NDArray[np.float64]:
+    """Return the deviation, m or rad, of doubtful relations on the surest way to the last pose."""
     is_doubt = doubtful(edges.information) & ~edges.is_loop
-    return np.round(_shortest(edges, np.where(is_doubt, 1.0, 1e-6), count))
+    variance = 1.0 / edges.information[:, axis, axis]
+    squared = _shortest(edges, np.where(is_doubt, variance, 1e-6), count)
+    return np.sqrt(np.where(squared < _NO_DOUBT, 0.0, squared))
 
 
 def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray[np.float64]:

@@ -7,12 +7,13 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.poses import Poses
 
-__all__ = ["DOUBTFUL", "DOUBTFUL_M", "DOUBTFUL_RAD", "bounded", "doubtful", "seen_from"]
+__all__ = ["DOUBTFUL", "UNKNOWN", "bounded", "doubtful", "seen_from"]
 
-DOUBTFUL_M = 0.5
-DOUBTFUL_RAD = 0.5
-DOUBTFUL = np.diag([DOUBTFUL_M**-2, DOUBTFUL_M**-2, DOUBTFUL_RAD**-2])
+DOUBTFUL = np.diag([0.5**-2, 0.5**-2, 0.5**-2])
 """Of relations that may be wrong, such as those of matches that are not the only ones."""
+
+UNKNOWN = np.diag([4.0**-2, 4.0**-2, 2.0**-2])
+"""Of what happened while nothing fitted: a robot may have been carried away."""
 
 _LEAST_SIGMA = np.diag([0.02**2, 0.02**2, 0.006**2])
 _FAINT = np.diag([1e-2, 1e-2, 1e-1])

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.pose_graph.pattern import Pattern, pattern_of
 from gazelle.mapping.poses import Poses, wrap_angle
 
@@ -25,6 +26,7 @@ _CONVERGED = 1e-4
 # off (squared standard deviations) lose their influence.
 _SETTLED = 10
 _TORN_SQUARED = 30.0
+_DOUBT_SQUARED = 2.0
 
 
 class Residuals(NamedTuple):
@@ -72,6 +74,10 @@ def _step(poses: Poses, edges: Edges, pattern: Pattern, huber: float, *, tears: 
     found = residuals(poses, edges)
     far = edges.is_loop & (found.squared > huber**2)
     weight = np.where(far, huber / np.sqrt(np.maximum(found.squared, 1e-12)), 1.0)
+    # What may be wrong anyway gives way before what is sure is bent.
+    doubts = ~edges.is_loop & doubtful(edges.information)
+    yields = 2 * _DOUBT_SQUARED / (_DOUBT_SQUARED + found.squared)
+    weight = np.where(doubts, np.minimum(1.0, yields) ** 2, weight)
     if tears:
         scaled = 2 * _TORN_SQUARED / (_TORN_SQUARED + found.squared)
         weight = np.where(edges.is_loop, weight * np.minimum(1.0, scaled) ** 2, weight)

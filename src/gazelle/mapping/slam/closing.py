@@ -6,6 +6,7 @@ from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
 from gazelle.mapping.loops.places import places_near
 from gazelle.mapping.loops.recognise import recognise
 from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.pose_graph.optimise import optimise, residuals
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
@@ -50,7 +51,8 @@ class LoopCloser:
         for one in believed:
             tied = tied.with_edge(one.tail, one.head, one.relative, one.information, is_loop=True)
         poses = optimise(self._keyframes.poses, tied, iterations=_ITERATIONS)
-        bent = residuals(poses, tied).squared[~tied.is_loop]
+        sure = ~tied.is_loop & ~doubtful(tied.information)
+        bent = residuals(poses, tied).squared[sure]
         if bent.max(initial=0.0) > _TORN:
             self.refused += len(believed)
             return None

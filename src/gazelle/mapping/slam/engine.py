@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.matching.match import Match
 from gazelle.mapping.pose_graph.edges import Edges, no_edges
-from gazelle.mapping.pose_graph.information import DOUBTFUL, bounded, seen_from
+from gazelle.mapping.pose_graph.information import DOUBTFUL, UNKNOWN, bounded, seen_from
 from gazelle.mapping.pose_graph.optimise import optimise
 from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.scans import Scan
@@ -205,7 +205,7 @@ class Slam:
         relative = between(before, self._pose)
         information = motion_information(relative, self.parameters)
         if self._is_doubtful:
-            information = DOUBTFUL
+            information = UNKNOWN if self._tracker.lost else DOUBTFUL
             self.keyframes.tears.add(tail + 1)
         elif found is not None:
             information = bounded(seen_from(before, found.information) + information)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ _STILL_M = 0.05
 _STILL_RAD = 0.03
 _GOOD_SCORE = 0.6
 _SUSPICIOUS = 0.8
+_SUDDEN, _SUDDEN_SPREADS = 0.3, 6.0
 _FORGET = 0.05
 _BELIEVED = 0.85
 _WIDE_M = 1.0
@@ -67,6 +68,7 @@ class Tracker:
         self._parameters = parameters
         self._submap: _Submap | None = None
         self._usual_score = 0.8
+        self._usual_spread = 0.1
         self.lost = 0
         self.uses_nearest = False
 
@@ -89,7 +91,9 @@ class Tracker:
         if found is None:
             self.lost += 1
             return None
-        self._usual_score += _FORGET * (found.score - self._usual_score)
+        change = found.score - self._usual_score
+        self._usual_score += _FORGET * change
+        self._usual_spread += _FORGET * (abs(change) - self._usual_spread)
         self.lost = 0
         return found
 
@@ -110,8 +114,15 @@ class Tracker:
         if found.score < _SUSPICIOUS * self._usual_score:
             # Wheels slip, clocks differ, and what is new to the last scans may be known of old.
             wide = max(_WIDE_M, reach_m), max(_WIDE_RAD, 2 * reach_rad)
-            return self._weighed(frame, expected, found.pose, wide)
+            return self._doubted(self._weighed(frame, expected, found.pose, wide))
         return found if found.score > told.least_match else None
+
+    def _doubted(self, found: Match | None) -> Match | None:
+        """Doubt what all at once fits badly: a robot may have been carried away."""
+        sudden = max(_SUDDEN, _SUDDEN_SPREADS * self._usual_spread)
+        if found is None or found.score >= self._usual_score - sudden:
+            return found
+        return replace(found, is_doubtful=True)
 
     def _weighed(
         self, frame: Keyframe, expected: Poses, guess: Poses, reach: tuple[float, float]
@@ -131,7 +142,7 @@ class Tracker:
         """Return where a lost robot is, among all that was seen around where it may be."""
         reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN), math.pi
         around = surroundings(self._keyframes, expected, frame.reach_m + reach[0])
-        found = weighed(around, frame, expected, [], reach)
+        found = weighed(around, frame, expected, [], reach, is_lost=True)
         if found is None or found.is_doubtful:
             return None
         return found if found.score > _BELIEVED * self._usual_score else None

@@ -24,7 +24,9 @@ _LEAST_WORTH = 0.15
 _CLEARLY = 0.15
 _APART_M = 0.3
 _APART_RAD = 0.15
-_FAR_COSTS = 0.05
+# Of a pose at the edge of the window. Wheels slip seldom by so much within a step; what is new in
+# a scan explains a bad fit more often.
+_FAR_COSTS, _LOST_COSTS = 0.12, 0.05
 
 
 class Surroundings(NamedTuple):
@@ -65,6 +67,8 @@ def weighed(
     expected: Poses,
     guesses: list[Poses],
     reach: tuple[float, float],
+    *,
+    is_lost: bool = False,
 ) -> Match | None:
     """Return the pose for which most speaks, None when little speaks for any.
 
@@ -77,6 +81,7 @@ def weighed(
         expected: pose by odometry.
         guesses: poses that are considered besides those of the search.
         reach: half sides of the window, m and rad.
+        is_lost: odometry says little of where the robot is.
     """
     points = frame.points_m
     rough = best_of_sectors(
@@ -84,7 +89,8 @@ def weighed(
         reach_m=reach[0], reach_rad=min(math.pi, reach[1]), sector_rad=_SECTOR_RAD, least=_LEAST,
     )  # fmt: skip
     poses = [one.pose for one in rough] + guesses
-    weights = [_weight(around, frame, expected, pose, reach) for pose in poses]
+    costs = _LOST_COSTS if is_lost else _FAR_COSTS
+    weights = [_weight(around, frame, expected, pose, reach, costs) for pose in poses]
     if not weights:
         # In empty space no scan looks like anything that is known.
         return None
@@ -102,13 +108,14 @@ def _weight(
     expected: Poses,
     pose: Poses,
     reach: tuple[float, float],
+    costs: float,
 ) -> _Weight:
     found = refined(around.field, frame.points_m, pose, Prior(pose, np.zeros((3, 3))))
     against = around.space.against(frame.scan, frame.points_m, found.pose)
     away = between(expected, found.pose)
     far = math.hypot(away[0], away[1]) / reach[0], abs(float(away[2])) / reach[1]
     # What fits best at the edge of the window fits better outside of it.
-    cost = _FAR_COSTS * (far[0] ** 2 + far[1] ** 2) if max(far) < 1.5 else math.inf
+    cost = costs * (far[0] ** 2 + far[1] ** 2) if max(far) < 1.5 else math.inf
     return _Weight(found, found.score - against - cost)
 
 
