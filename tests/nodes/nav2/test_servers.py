@@ -166,7 +166,6 @@ def test_late_tf_is_told_and_driven_by(bench, world, start) -> None:
     texts = [one.msg for one in said]
     late = re.compile(r"the transform from base_footprint to map is 0\.\d+ s old, .*all the same")
     assert any(late.match(text) for text in texts), texts
-    assert not [text for text in texts if "cannot be used" in text]
 
 
 _SCRIPT = """
