@@ -188,6 +188,20 @@ def test_light_finger_presses_with_all_its_effort(build):
     assert sum(forces_n) / 100 == pytest.approx(20.0, rel=0.01)
 
 
+def test_joint_that_its_stops_hold_is_not_said_to_turn_by_a_quarter_turn():
+    found = Diagnostics()
+    feather = Inertial(1e-6, inertia_kg_m2=(1e-8, 0, 0, 1e-8, 0, 1e-8))
+    axis = JointAxis((0, 0, 1), lower=-1.0, upper=1.0)
+    joint = Joint("flap", JointType.REVOLUTE, "world", "leaf", axis=axis)
+    engine = engine_of(Model("m", links=(Link("leaf", inertial=feather),), joints=(joint,)), found)
+    handle = engine.joint("m::flap")
+    # 200 rad/s a step, were it free: an eighth of a quarter turn.
+    handle.set_effort(2e-3)
+    engine.step(50)
+    assert handle.position == pytest.approx(1.0, abs=0.11)
+    assert not found.by_code("engine.quarter-turn")
+
+
 def test_step_that_holds_nothing_back_is_an_ordinary_step(build):
     """To the bit, so that what is looked at does not change what happens."""
     hashes = []

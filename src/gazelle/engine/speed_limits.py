@@ -146,7 +146,7 @@ class SpeedLimits:
         effort, excess = np.abs(effort[passes]), excess[passes]
         less = np.maximum(effort - excess / (self._step_s * self._weights[passes]), 0.0)
         dofs = self._dofs[passes]
-        turns = np.abs(then[passes]) > self._fastest[passes]
+        turns = np.abs(then[passes]) > self._limits[passes]
         self._tell_of(dofs[turns], then[passes][turns], diagnostics)
         return dofs, less * ahead[passes]
 
