@@ -97,3 +97,11 @@ def test_parameters_move_with_the_hub(
     graph.close()
     assert other.parameters.get("/kept") == [1, 2.0]
     eventually(lambda: other.is_hub)
+
+
+def test_who_left_the_graph_waits_for_nobody(graph: Graph, join: Callable[..., Graph]) -> None:
+    client = join(role="client")
+    assert graph.parameters.settle(60.0)
+    assert client.parameters.settle(60.0)
+    client.close()
+    assert not client.parameters.settle(60.0)
