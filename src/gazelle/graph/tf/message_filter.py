@@ -17,7 +17,8 @@ class MessageFilter(Generic[T]):
     """Holds messages back, in their order, until something that needs tf can be done with them.
 
     Messages are given up when tf has forgotten their time, and the oldest when there are too many.
-    A message that waits does not stop those behind it. Threads may share it.
+    A message that waits does not stop those behind it, except later ones of its frame, for which
+    there is no transform either. Threads may share it.
     """
 
     def __init__(
@@ -30,7 +31,8 @@ class MessageFilter(Generic[T]):
         """Wait for nothing yet.
 
         Args:
-            place: what to do with a message; raises `TransformError` where tf does not know yet.
+            place: what to do with a message, which has a header; raises `TransformError` where tf
+                does not know yet.
             on_drop: told of a message that is given up, and why it could not be placed.
             size: so many messages wait at most.
         """
@@ -68,12 +70,20 @@ class MessageFilter(Generic[T]):
     def _sort(self, new: list[Any]) -> list[T]:
         placed: list[T] = []
         waits: list[tuple[Any, TransformError]] = []
+        first: dict[str, tuple[tuple[int, int], TransformError]] = {}
         with self._lock:
-            for message in (*(one for one, _why in self._waiting), *new):
+            for message, last in (*self._waiting, *((one, None) for one in new)):
+                frame, stamp = message.header.frame_id, _stamp(message)
+                earlier = first.get(frame)
+                if earlier is not None and stamp >= earlier[0]:
+                    waits.append((message, last or earlier[1]))
+                    continue
                 try:
                     placed.append(self._place(message))
                 except TransformError as error:
                     waits.append((message, error))
+                    if not _is_past(error):
+                        first[frame] = stamp, error
             past = [one for one in waits if _is_past(one[1])]
             waits = [one for one in waits if not _is_past(one[1])]
             self._drop(past + waits[: -self._size])
@@ -83,6 +93,10 @@ class MessageFilter(Generic[T]):
     def _drop(self, given_up: list[tuple[Any, TransformError]]) -> None:
         for message, why in given_up:
             self._on_drop(message, why)
+
+
+def _stamp(message: Any) -> tuple[int, int]:
+    return message.header.stamp.sec, message.header.stamp.nanosec
 
 
 def _is_past(error: TransformError) -> bool:
