@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gzip
-import io
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -43,8 +42,7 @@ def lines_of(path: Path) -> Iterator[str]:
     """
     left = scaled(_MOST_BYTES)
     with opened(path) as file:
-        text = io.BufferedReader(cast(io.RawIOBase, file))
-        while line := text.readline(_LONGEST_LINE):
+        while line := file.readline(_LONGEST_LINE):
             left -= len(line)
             if left < 0 or len(line) == _LONGEST_LINE:
                 what = f"a line is longer than {_LONGEST_LINE} bytes"

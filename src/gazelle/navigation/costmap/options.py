@@ -28,7 +28,12 @@ class CostmapOptions:
 
     global_frame: str = text("map", "frame of the costmap")
     robot_base_frame: str = text("base_link", "frame of the robot")
-    transform_tolerance: float = number(0.3, "age of transforms that is tolerated", "s", 0)
+    transform_tolerance: float = number(
+        0.3,
+        "age of the robot's pose that is tolerated; Nav2 tells of older ones and uses them",
+        "s",
+        0,
+    )
     update_frequency: float = number(5.0, "how often the costmap is updated", "Hz", 0)
     publish_frequency: float = number(0.0, "how often it is published, 0 for never", "Hz", 0)
     rolling_window: bool = flag(False, "the costmap moves along with the robot")
@@ -132,7 +137,7 @@ class ObstacleOptions:
 
     NAV2_DEFAULTS: ClassVar[Mapping[str, Any]] = {}
     IDLE: ClassVar[Mapping[str, str]] = {
-        "tf_message_filter_tolerance": "messages wait for their transform for transform_tolerance",
+        "tf_message_filter_tolerance": "messages wait for their transform until 50 wait",
     }
 
 

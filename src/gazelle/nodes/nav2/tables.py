@@ -146,7 +146,7 @@ BEHAVIOR_SERVER = Table(
         Row("max_rotational_vel", "number", 1.0, "fastest turn", "rad/s", 0),
         Row("min_rotational_vel", "number", 0.4, "slowest turn", "rad/s", 0),
         Row("rotational_acc_lim", "number", 3.2, "angular acceleration", "rad/s²", 0),
-        Row("transform_tolerance", "number", 0.1, "age of transforms that is tolerated", "s", 0),
+        Row("transform_tolerance", "number", 0.1, "older poses are told, and used", "s", 0),
         Row("enable_stamped_cmd_vel", "flag", False, "send TwistStamped in place of Twist"),
         *refused("the newest transform counts", "transform_timeout"),
         *refused("collisions are looked for in the local costmap", "global_costmap_topic",
@@ -171,7 +171,7 @@ BT_NAVIGATOR = Table(
         Row("default_nav_through_poses_bt_xml", "text", "", "tree for NavigateThroughPoses"),
         Row("default_bt_xml_filename", "text", "", "tree for NavigateToPose (before Humble)"),
         Row("bt_loop_duration", "number", 10.0, "time between two ticks, wall time", "ms", 1),
-        Row("transform_tolerance", "number", 0.1, "age of transforms that is tolerated", "s", 0),
+        Row("transform_tolerance", "number", 0.1, "older poses are told, and used", "s", 0),
         Row("goal_reached_tol", "number", 0.25, "of the condition GoalReached", "m", 0),
         Row("default_server_timeout", "number", 20.0, "how long an action server may take to "
             "answer", "ms", 0),
