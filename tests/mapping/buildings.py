@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.poses import between, compose
 from gazelle.mapping.scans import Scan
+from gazelle.mapping.slam import Slam, SlamParameters
 
 Segments = NDArray[np.float64]
 
@@ -332,3 +333,12 @@ def _driven(log: Log, steps: NDArray[np.float64]) -> Log:
 
 def _of(log: Log, chosen: list[int]) -> Log:
     return Log([log.records[k] for k in chosen], log.truth[chosen])
+
+
+def mapped(log: Log, parameters: SlamParameters | None = None) -> Slam:
+    """What SLAM makes of a log."""
+    engine = Slam(parameters)
+    for scan, odometry in log.records:
+        engine.add(scan, odometry)
+    engine.finish()
+    return engine

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -11,26 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.mapping import buildings as b
 
 from gazelle.mapping.poses import transform_points
 from gazelle.mapping.relations import absolute_error_m, alignment
 from gazelle.mapping.slam import Slam, load_graph, save_graph
 
-_PATH = Path(__file__).parents[1] / "buildings.py"
-
-
-def _buildings() -> Any:
-    """The module beside this folder; tests are imported without packages."""
-    name = "mapping_buildings"
-    if name not in sys.modules:
-        spec = importlib.util.spec_from_file_location(name, _PATH)
-        assert spec and spec.loader
-        sys.modules[name] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules[name])
-    return sys.modules[name]
-
-
-b = _buildings()
 BAD = b.Wheels(0.1, 0.15, 0.02, 0.01, 0.01, 10)
 HOUSE = "a house, a short-sighted lidar"
 CASES: dict[str, tuple[Callable[[], Any], float]] = {
@@ -51,15 +35,7 @@ def _log(name: str) -> Any:
 @cache
 def _mapped_once(name: str) -> Slam:
     """What tests only look at."""
-    return _mapped(_log(name))
-
-
-def _mapped(log: Any) -> Slam:
-    engine = Slam()
-    for scan, odometry in log.records:
-        engine.add(scan, odometry)
-    engine.finish()
-    return engine
+    return b.mapped(_log(name))
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -74,7 +50,7 @@ def test_the_trajectory_is_the_robots(name: str) -> None:
 def test_walls_of_the_map_are_the_buildings() -> None:
     building = b.house(2)
     log = b.log_of(building, b.LDS)
-    engine = _mapped(log)
+    engine = b.mapped(log)
     grid = engine.grid()
     rows, columns = np.nonzero(grid.cells == 100)
     cells = np.stack(grid.cell_to_world(columns, rows), axis=-1)
@@ -107,7 +83,7 @@ def test_a_saved_graph_of_poses_goes_on_where_it_was(tmp_path: Path) -> None:
 
 
 def test_the_same_log_gives_the_same_map() -> None:
-    first, second = _mapped_once(HOUSE), _mapped(_log(HOUSE))
+    first, second = _mapped_once(HOUSE), b.mapped(_log(HOUSE))
     np.testing.assert_array_equal(first.trajectory(), second.trajectory())
     np.testing.assert_array_equal(first.grid().cells, second.grid().cells)
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 from tests.mapping import buildings as b
 
 from gazelle.mapping.relations import absolute_error_m
-from gazelle.mapping.slam import Slam
+from gazelle.mapping.slam import SlamParameters
 
 
 @cache
@@ -52,19 +51,11 @@ CASES: dict[str, tuple[Callable[[], b.Log], float]] = {
 }
 
 
-def _mapped(log: b.Log) -> Slam:
-    engine = Slam()
-    for scan, odometry in log.records:
-        engine.add(scan, odometry)
-    engine.finish()
-    return engine
-
-
 @pytest.mark.parametrize("name", CASES)
 def test_the_trajectory_is_the_robots_though(name: str) -> None:
     make, most_m = CASES[name]
     log = make()
-    assert absolute_error_m(_mapped(log).trajectory(), log.truth) < most_m
+    assert absolute_error_m(b.mapped(log).trajectory(), log.truth) < most_m
 
 
 def test_a_robot_that_starts_in_the_open_maps_the_building_that_it_comes_to() -> None:
@@ -73,19 +64,14 @@ def test_a_robot_that_starts_in_the_open_maps_the_building_that_it_comes_to() ->
     blind = [scan for scan, _ in log.records if not np.isfinite(scan.ranges_m).any()]
     # A minute at a metre a second.
     assert len(blind) > 200
-    trajectory = _mapped(log).trajectory()
+    trajectory = b.mapped(log).trajectory()
     inside = slice(len(log.records) // 2, None)
     assert absolute_error_m(trajectory[inside], log.truth[inside]) < 0.05
 
 
 def test_a_closure_never_costs_more_than_none() -> None:
     """In corridors that look alike a robot that was carried is nowhere for certain."""
-    from gazelle.mapping.slam import SlamParameters
-
-    log: Any = b.carried(_ring(), 260, 20)
-    plain = Slam(replace(SlamParameters(), loop_closing=False))
-    for scan, odometry in log.records:
-        plain.add(scan, odometry)
-    plain.finish()
+    log = b.carried(_ring(), 260, 20)
+    plain = b.mapped(log, replace(SlamParameters(), loop_closing=False))
     alone_m = absolute_error_m(plain.trajectory(), log.truth)
-    assert absolute_error_m(_mapped(log).trajectory(), log.truth) <= alone_m + 0.05
+    assert absolute_error_m(b.mapped(log).trajectory(), log.truth) <= alone_m + 0.05
