@@ -44,7 +44,9 @@ def main(argv: list[str]) -> int:
     except (BagError, OSError) as error:
         message = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         span = SourceSpan(options.file)
-        diagnostics.report("mapping.log-unreadable", f"it cannot be read: {message}", span)
+        fix = "look whether the file is there, whole and yours to read; copy it again"
+        text = f"it cannot be read: {message}"
+        diagnostics.report("mapping.log-unreadable", text, span, fix=fix)
         records = []
     if not records and not diagnostics.errors:
         diagnostics.report(

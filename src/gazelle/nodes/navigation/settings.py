@@ -180,7 +180,7 @@ class Settings:
         """Report parameters that the table does not have or that have no effect.
 
         Args:
-            *others: names of subtrees that somebody else reads.
+            *others: names that somebody else reads, of subtrees too.
         """
         for key, value in flat(self.tree):
             word = key.partition(".")[0]
@@ -188,7 +188,7 @@ class Settings:
                 continue
             row = self.table.row_for(key)
             if row is None:
-                known = self.table.keys()
+                known = (*self.table.keys(), *others)
                 text = f"parameter '{key}' is not one of {self.table.family}; it has no effect"
                 self.report("navigation.unknown-parameter", text, did_you_mean(word, known))
             elif row.kind == "refused":
