@@ -50,6 +50,7 @@ class SpeedLimits:
         self._range: Array = np.zeros((0, 2))
         self._weights: Array = np.zeros(0)
         self._throwing: Array = np.zeros(0)
+        self._least_squared = math.inf
         self._unlimited: dict[int, tuple[str, Joint]] = {}
         self._told: set[str] = set()
 
@@ -83,6 +84,8 @@ class SpeedLimits:
         self._fastest = np.minimum(np.array(fastest, dtype=float), within)
         much = np.minimum(self._fastest, np.where(stops, _INTO_STOP / step_s, math.inf))
         self._throwing = much / (step_s * self._weights)
+        least = float(self._throwing.min(initial=math.inf))
+        self._least_squared = least * least
 
     def concern(self, applied: Array) -> bool:
         """Whether an effort acts on a joint with a limit, so that each step is to be looked at.
@@ -115,6 +118,9 @@ class SpeedLimits:
         Args:
             applied: efforts on the joints (nv,).
         """
+        # As in `concern`: most efforts are far too small, and a product tells so the fastest.
+        if applied.dot(applied) <= self._least_squared:
+            return False
         return bool((np.abs(applied[self._dofs]) > self._throwing).any())
 
     def held_back(
