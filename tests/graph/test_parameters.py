@@ -35,6 +35,13 @@ def test_node_names_apply(other: Graph) -> None:
     assert node.parameters.search("none") is None
 
 
+def test_names_that_are_numbers_become_texts_everywhere(graph: Graph, other: Graph) -> None:
+    for place, setter in enumerate((graph, other)):
+        setter.parameters.set(f"/set{place}", {1: {2.5: [{True: 3}]}})
+        for member in (graph, other):
+            assert member.parameters.get(f"/set{place}") == {"1": {"2.5": [{"True": 3}]}}
+
+
 def test_missing_parameters(other: Graph) -> None:
     with pytest.raises(KeyError, match="/nothing"):
         other.parameters.get("nothing")

@@ -142,7 +142,7 @@ def _encode(value: Any) -> Any:
     if isinstance(value, list):
         return [_encode(item) for item in value]
     if isinstance(value, dict):
-        inside = {key: _encode(item) for key, item in value.items()}
+        inside = {str(key): _encode(item) for key, item in value.items()}
         return {"$dict": inside} if any(key.startswith(_MARK) for key in inside) else inside
     return value
 
