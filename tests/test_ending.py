@@ -105,6 +105,29 @@ print("heard" if stop.wait(20) else "slept on", flush=True)
         assert program.stdout.readline() == "heard\n"
 
 
+@_POSIX
+def test_a_signal_is_heard_while_the_main_thread_holds_what_its_handler_needs() -> None:
+    """As when a second one comes in the midst of ``Event.set``, which waited for itself."""
+    text = """
+import os, signal, threading
+from gazelle.ending import at_stop_signal
+lock, heard = threading.Lock(), threading.Event()
+def stop():
+    with lock:
+        heard.set()
+at_stop_signal(stop)
+with lock:
+    for _ in range(3):
+        os.kill(os.getpid(), signal.SIGINT)
+print(heard.wait(60))
+"""
+    program = [sys.executable, "-c", text]
+    ended = subprocess.run(
+        program, check=False, capture_output=True, text=True, timeout=stretched()
+    )
+    assert (ended.stdout, ended.stderr) == ("True\n", "")
+
+
 def _interrupted(
     text: str, line: str, *, held: bool = False, folder: str | None = None
 ) -> tuple[int, str, str]:

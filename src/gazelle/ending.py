@@ -194,16 +194,21 @@ def at_stop_signal(stop: Callable[[], object]) -> None:
     """Call something on SIGINT and SIGTERM, at once whatever the main thread is doing.
 
     Python's own handlers run in the main thread when it next wakes: one that begins to wait just
-    as the signal comes, or whose signal the kernel gave to another thread, sleeps on. So a thread
-    is woken by the signal's number and calls it too; it must not mind being called twice.
+    as the signal comes, or whose signal the kernel gave to another thread, sleeps on. And what a
+    handler calls must not wait for a lock that the main thread has just taken, as ``Event.set``
+    does in the midst of ``Event.wait`` or of itself: it would wait for ever. So a thread is woken
+    by the signal's number and calls it; it must not mind being called twice.
     """
     for number in _SIGNALS:
-        signal.signal(number, lambda *_: stop())
+        signal.signal(number, _do_nothing)
     _at_each_signal(stop)
 
 
 def _at_each_signal(act: Callable[[], object]) -> None:
-    """Let a thread call something whenever a signal to end comes, beside its handler."""
+    """Let a thread call something whenever a signal to end comes, beside its handler.
+
+    Python writes the signal's number into the socket before any handler runs.
+    """
     import socket
 
     near, far = socket.socketpair()

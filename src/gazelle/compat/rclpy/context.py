@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import signal
 import sys
 import threading
@@ -22,7 +23,7 @@ class Context:
     def __init__(self) -> None:
         self._graph: Graph | None = None
         self._lock = threading.RLock()
-        self._ok = False
+        self._ok = self._is_ending = False
         self._listeners: list[Callable[[], Any]] = []
         self._wakers: list[Callable[[], Any]] = []
         self.arguments = RosArguments()
@@ -60,7 +61,7 @@ class Context:
             if domain_id is not None:
                 environ["ROS_DOMAIN_ID"] = str(domain_id)
             self._graph = Graph.open(environ=environ)
-            self._ok, self.interrupted = True, False
+            self._ok, self._is_ending, self.interrupted = True, False, False
 
     def ok(self) -> bool:
         """Tell whether `init` was called and no shutdown since."""
@@ -77,11 +78,11 @@ class Context:
     try_shutdown = shutdown
 
     def invalidate(self) -> None:
-        """End spinning and sleeping, and leave the graph itself for later: fit for signals."""
+        """End spinning and sleeping, and leave the graph itself for later."""
         with self._lock:
-            if not self._ok:
+            if not (self._ok or self._is_ending):
                 return
-            self._ok = False
+            self._ok = self._is_ending = False
             listeners, self._listeners = self._listeners, []
         if self._graph is not None:
             self._graph.clock.close()
@@ -89,6 +90,13 @@ class Context:
             listener()
         for wake in tuple(self._wakers):
             wake()
+
+    def end_by_signal(self, number: int) -> None:
+        """Be no longer `ok`, and end what waits: in a thread, as a handler may hold up locks."""
+        self.interrupted = self.interrupted or number == signal.SIGINT
+        if self._ok:
+            self._ok, self._is_ending = False, True
+            _thread.start_new_thread(self.invalidate, ())
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         """Call something once at the shutdown."""
@@ -134,9 +142,7 @@ def handle_signals() -> None:
 
 
 def _on_signal(number: int, frame: FrameType | None) -> None:
-    context = get_default_context()
-    context.interrupted = context.interrupted or number == signal.SIGINT
-    context.invalidate()
+    get_default_context().end_by_signal(number)
     previous = _PREVIOUS.get(number)
     if callable(previous):
         previous(number, frame)
