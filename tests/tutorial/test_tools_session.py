@@ -135,10 +135,12 @@ def _drive(desk: _Desk) -> None:
 def _record_and_play(desk: _Desk, tmp_path: Path) -> None:
     run = desk.free.run
     desk.free.start("rosbag record -a", r"Recording to '.*'\.$")
+    # Topics are listened to one after the other, that of the keys before the poses.
+    _wait_for_poses(tmp_path, 20)
     desk.keys.type(_UP)
-    _wait_for_poses(tmp_path, 60)
+    _wait_for_poses(tmp_path, 80)
     desk.keys.type(_LEFT)
-    _wait_for_poses(tmp_path, 100)
+    _wait_for_poses(tmp_path, 120)
     desk.free.interrupt(code=0)
     (file,) = tmp_path.glob("????-??-??-??-??-??.bag")
     _check_bag(file)

@@ -41,3 +41,19 @@ def test_the_run_id_comes_when_everything_else_is_there() -> None:
     assert store.done[-2:] == ["listens", "/run_id"]
     assert ("setParam", "/bridge", "/ours", 5) in asked
     sync.close()
+
+
+def test_a_master_that_is_coming_up_is_not_told_our_run_id() -> None:
+    """Its roscore ends where it finds another one than its own."""
+    store = _Store(run_id="of the master before", ours=5)
+    asked: list[tuple[Any, ...]] = []
+
+    def ask(*words: Any) -> Any:
+        asked.append(words)
+        return {}
+
+    sync = ParameterSync(store, ask, "/bridge", lambda text: None)  # type: ignore[arg-type]
+    sync.start("http://localhost:1/")
+    assert ("setParam", "/bridge", "/ours", 5) in asked
+    assert not [words for words in asked if "/run_id" in words]
+    sync.close()

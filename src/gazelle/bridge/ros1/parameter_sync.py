@@ -51,7 +51,8 @@ class ParameterSync:
         """Bring both together; where both have a value the master's counts.
 
         The master's ``/run_id`` comes last: a launch sets its own parameters when it sees that,
-        and nothing of the master's may arrive behind them.
+        and nothing of the master's may arrive behind them. Ours is not told: a master without one
+        has a roscore that is about to set it, and that ends where it finds another.
 
         Args:
             uri: slave server that is told of changes.
@@ -67,7 +68,7 @@ class ParameterSync:
             if name != _RUN_ID:
                 self._store_value(name, self._known.get(name))
         for name in ours.names():
-            if not self._known.has(name):
+            if name != _RUN_ID and not self._known.has(name):
                 self._send(name)
         if not self._listens:
             self._listens = True
