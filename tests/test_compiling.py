@@ -114,3 +114,39 @@ def test_nobody_waits_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
             pass
     finally:
         os.close(descriptor)
+
+
+_CALLEE = """
+from gazelle.compiling import njit
+
+
+@njit(cache=True)
+def factor():
+    return {factor}
+"""
+_CALLER = """
+from callee import factor
+from gazelle.compiling import njit
+
+
+@njit(cache=True)
+def times(x):
+    return factor() * x
+
+
+print(times(10), sum(times.stats.cache_hits.values()))
+"""
+
+
+def test_a_kernel_is_compiled_anew_where_one_that_it_calls_has_changed(
+    start: Start, tmp_path: Path
+) -> None:
+    """What is kept on disk holds the code of both."""
+    (tmp_path / "caller.py").write_text(_CALLER, encoding="utf-8")
+    seen = []
+    for factor in ("2", "2", "3.0"):
+        text = _CALLEE.format(factor=factor)
+        if not (tmp_path / "callee.py").exists() or factor != "2":
+            (tmp_path / "callee.py").write_text(text, encoding="utf-8")
+        seen.append(start("import caller").communicate(timeout=stretched())[0].strip())
+    assert seen == ["20 0", "20 1", "30.0 0"]

@@ -4,6 +4,9 @@ Of the processes of a launch several want the same kernel at the same moment. Wh
 numba's cache yet each would compile it, for seconds; here the others wait for the first one and
 load what it has kept.
 
+What numba has kept for a kernel holds the machine code of the kernels it calls, and numba asks
+only whether the kernel's own file is older; here it asks for theirs, too.
+
 Importing this module imports numba.
 """
 
@@ -28,6 +31,8 @@ _LONGEST_WAIT_S = 60.0
 _LOOK_EVERY_S = 0.02
 
 _held: set[Path] = set()
+_stamps: dict[Any, set[Any]] = {}
+"""Of each kernel: the stamps of its file and of those of all kernels it calls."""
 
 
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
@@ -41,10 +46,24 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
         kernel = numba.njit(error_model="numpy", **options)(function)
         # With NUMBA_DISABLE_JIT it is the function itself.
         if options.get("cache") and hasattr(kernel, "compile"):
+            _depend_on_callees(kernel)
             _compile_in_turn(kernel)
         return kernel
 
     return decorate
+
+
+def _depend_on_callees(kernel: Any) -> None:
+    """Let a kernel's cache be stale where the file of a kernel it calls has changed."""
+    function = kernel.py_func
+    kept = kernel._cache._cache_file
+    stamps = {kept._source_stamp}
+    for name in function.__code__.co_names:
+        callee = function.__globals__.get(name)
+        if hasattr(callee, "py_func"):
+            stamps |= _stamps.get(callee, set())
+    _stamps[kernel] = stamps
+    kept._source_stamp = tuple(sorted(stamps))
 
 
 def _compile_in_turn(kernel: Any) -> None:
