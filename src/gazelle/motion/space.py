@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -88,26 +89,35 @@ class JointSpace:
         """The number of joints."""
         return len(self.names)
 
-    @property
+    @cached_property
     def low(self) -> FloatArray:
         """Where samples start: `lower`, -pi for continuous joints, never infinite."""
         return np.where(self.continuous, -math.pi, np.maximum(self.lower, -_TURN))
 
-    @property
+    @cached_property
     def high(self) -> FloatArray:
         """Where samples end: `upper`, pi for continuous joints, never infinite."""
         return np.where(self.continuous, math.pi, np.minimum(self.upper, _TURN))
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """The largest distance between two configurations, which OMPL calls maximum extent."""
         reach = np.where(self.continuous, math.pi, self.high - self.low)
         return float(np.linalg.norm(reach))
 
+    @cached_property
+    def width(self) -> FloatArray:
+        """How wide the range of samples is."""
+        return self.high - self.low
+
+    @cached_property
+    def _turns(self) -> bool:
+        return bool(self.continuous.any())
+
     def between(self, start: FloatArray, goal: FloatArray) -> FloatArray:
         """Return goal - start, continuous joints the short way round."""
         step = goal - start
-        if self.continuous.any():
+        if self._turns:
             turned = (step + math.pi) % _TURN - math.pi
             step = np.where(self.continuous, turned, step)
         return step
@@ -118,7 +128,7 @@ class JointSpace:
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
         """Return a configuration drawn uniformly from within the limits."""
-        return rng.uniform(self.low, self.high)
+        return self.low + self.width * rng.random(self.size)
 
     def outside(self, q: FloatArray, tolerance: float = 0.0) -> tuple[str, ...]:
         """Return one sentence per joint that is outside its limits by more than `tolerance`."""

@@ -196,20 +196,21 @@ def test_moving_a_thing_needs_no_new_model(robot: Make) -> None:
     made = robot(_SWING, _GROUPS)
     scene = _scene(made, WorldObject.single("post", Sphere(0.1), Pose((1.5, 0.0, 0.0))))
     checker = CollisionChecker(scene, "arm")
-    assert not checker.is_valid(_q(0.0))
+    assert not checker.is_valid(_q(0.0)) and checker.why(_q(0.0))
     moved = checker.follow(scene.with_object(scene.objects["post"].at(Pose((0.0, 1.5, 0.0)))))
-    assert moved._built is checker._built
+    assert moved._contacts._built is checker._contacts._built
     assert moved.is_valid(_q(0.0)) and not moved.is_valid(_q(np.pi / 2))
     assert not checker.is_valid(_q(0.0)), "the first checker keeps its scene"
     more = moved.follow(_scene(made, WorldObject("two", (PlacedShape(Sphere(0.1)),))))
-    assert more._built is not checker._built
+    assert more._contacts._built is not checker._contacts._built
 
 
 def test_copies_are_independent(robot: Make) -> None:
     checker = CollisionChecker(_scene(robot(_SWING, _GROUPS)), "arm")
     other = checker.copy()
     assert other.is_valid(_q(0.0)) and not checker.is_valid(_q(0.0, 0.15))
-    assert other._data is not checker._data
+    assert other.why(_q(0.0, 0.15)) == checker.why(_q(0.0, 0.15)) != ""
+    assert other._contacts._data is not checker._contacts._data
 
 
 def test_the_distance_is_that_of_the_nearest_pair(robot: Make) -> None:

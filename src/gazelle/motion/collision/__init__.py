@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.motion.collision.building import Owner
-from gazelle.motion.collision.checker import CollisionChecker, CollisionContact
+from gazelle.motion.collision.checker import CollisionChecker
+from gazelle.motion.collision.contacts import CollisionContact
 
 __all__ = ["CollisionChecker", "CollisionContact", "Owner"]

@@ -7,7 +7,7 @@ not collide is off: as in MoveIt, only the SRDF says which pairs are left out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -19,12 +19,19 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.engine.library import compiled, drained_warnings, mujoco
 from gazelle.engine.shapes import add_geom
 from gazelle.errors import EngineError
-from gazelle.geometry import Pose
+from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.motion.collision.solids import Solid, link_solids, object_solids
 from gazelle.motion.model import JointKind, RobotJoint
 from gazelle.motion.scene import PlanningScene
 
-__all__ = ["CollisionModel", "Owner", "build_collision_model"]
+__all__ = [
+    "CollisionBody",
+    "CollisionModel",
+    "Owner",
+    "build_collision_model",
+    "collision_bodies",
+    "may_touch",
+]
 
 IntArray = NDArray[np.intp]
 
@@ -47,6 +54,30 @@ class Owner:
         return f"{self.kind} '{self.name}'"
 
 
+@dataclass(frozen=True, slots=True)
+class CollisionBody:
+    """A link, thing or attached thing with something that collides.
+
+    Attributes:
+        owner: who it is.
+        link: whose frame it is in; empty for the robot's own.
+        T_frame_body: pose of its own frame in that one.
+        solids: in its own frame.
+        margin_m: how near something has to come to count as touching.
+    """
+
+    owner: Owner
+    link: str
+    T_frame_body: Pose
+    solids: tuple[Solid, ...]
+    margin_m: float = 0.0
+
+    @property
+    def is_object(self) -> bool:
+        """Whether it stands in the world and the robot does not carry it."""
+        return not self.link
+
+
 @dataclass(frozen=True, eq=False)
 class CollisionModel:
     """A compiled scene.
@@ -64,17 +95,45 @@ class CollisionModel:
     mocaps: Mapping[str, int]
 
 
-def build_collision_model(scene: PlanningScene, diagnostics: Diagnostics) -> CollisionModel:
-    """Compile a scene.
+def collision_bodies(scene: PlanningScene, diagnostics: Diagnostics) -> tuple[CollisionBody, ...]:
+    """Return all of a scene that collides: links, attached things, things.
 
     Args:
         scene: what there is.
         diagnostics: receives shapes that cannot be collided.
+    """
+    found = []
+    own = link_solids(scene.robot, diagnostics)
+    for joint in scene.robot.joints:
+        name = joint.child
+        margin_m = scene.padding_m.get(name, 0.0)
+        owner = Owner(name, "link", name)
+        found.append(CollisionBody(owner, name, IDENTITY_POSE, own.get(name, ()), margin_m))
+    for carried in scene.attached.values():
+        solids = object_solids(carried.body, diagnostics)
+        owner = Owner(carried.name, "attached object", carried.link)
+        found.append(CollisionBody(owner, carried.link, carried.body.T_frame_object, solids))
+    for item in scene.objects.values():
+        owner = Owner(item.name, "object")
+        solids = object_solids(item, diagnostics)
+        found.append(CollisionBody(owner, "", item.T_frame_object, solids))
+    return tuple(body for body in found if body.solids)
+
+
+def build_collision_model(
+    scene: PlanningScene, bodies: Sequence[CollisionBody], diagnostics: Diagnostics
+) -> CollisionModel:
+    """Compile a scene.
+
+    Args:
+        scene: what there is.
+        bodies: its `collision_bodies`.
+        diagnostics: receives MuJoCo's warnings.
 
     Raises:
         EngineError: MuJoCo refuses the model; its words are part of the message.
     """
-    builder = _Builder(scene, diagnostics)
+    builder = _Builder(scene, bodies, diagnostics)
     builder.add_links()
     builder.add_attached()
     builder.add_objects()
@@ -83,8 +142,11 @@ def build_collision_model(scene: PlanningScene, diagnostics: Diagnostics) -> Col
 
 
 class _Builder:
-    def __init__(self, scene: PlanningScene, diagnostics: Diagnostics) -> None:
+    def __init__(
+        self, scene: PlanningScene, bodies: Sequence[CollisionBody], diagnostics: Diagnostics
+    ) -> None:
         self._scene = scene
+        self._colliding = {str(body.owner): body for body in bodies}
         self._diagnostics = diagnostics
         self._spec = _new_spec()
         self._bodies: dict[str, Any] = {}
@@ -92,29 +154,25 @@ class _Builder:
         self._geom_owners: list[Owner] = []
 
     def add_links(self) -> None:
-        solids = link_solids(self._scene.robot, self._diagnostics)
         for joint in self._scene.robot.joints:
             above = self._bodies.get(f"link {joint.parent}", self._spec.worldbody)
             pose = joint.T_parent_joint @ joint.T_joint_child
             body = self._body(above, f"link {joint.child}", pose)
             _add_motion(body, joint)
-            owner = Owner(joint.child, "link", joint.child)
-            margin = self._scene.padding_m.get(joint.child, 0.0)
-            self._add(body, owner, solids.get(joint.child, ()), margin)
+            self._add(body, Owner(joint.child, "link", joint.child))
 
     def add_attached(self) -> None:
         for attached in self._scene.attached.values():
             pose = attached.body.T_frame_object
             above = self._bodies[f"link {attached.link}"]
             body = self._body(above, f"attached {attached.name}", pose)
-            solids = object_solids(attached.body, self._diagnostics)
-            self._add(body, Owner(attached.name, "attached object", attached.link), solids)
+            self._add(body, Owner(attached.name, "attached object", attached.link))
 
     def add_objects(self) -> None:
         for item in self._scene.objects.values():
             body = self._body(self._spec.worldbody, f"object {item.name}", item.T_frame_object)
             body.mocap = True
-            self._add(body, Owner(item.name, "object"), object_solids(item, self._diagnostics))
+            self._add(body, Owner(item.name, "object"))
 
     def add_exclusions(self) -> None:
         for first, second in combinations(self._owners, 2):
@@ -142,15 +200,15 @@ class _Builder:
         self._bodies[name] = body
         return body
 
-    def _add(
-        self, body: Any, owner: Owner, solids: tuple[Solid, ...], margin_m: float = 0.0
-    ) -> None:
-        if solids:
-            self._owners[body.name] = owner
-        for solid in solids:
+    def _add(self, body: Any, owner: Owner) -> None:
+        colliding = self._colliding.get(str(owner))
+        if colliding is None:
+            return
+        self._owners[body.name] = owner
+        for solid in colliding.solids:
             name = f"geom {len(self._geom_owners)}"
             geom = add_geom(self._spec, body, name, solid.shape, solid.T_owner_shape)
-            geom.margin = margin_m
+            geom.margin = colliding.margin_m
             self._geom_owners.append(owner)
 
 

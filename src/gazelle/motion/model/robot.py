@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -131,6 +131,21 @@ class RobotModel:
             hint = f"planning groups of '{self.name}': {', '.join(self.groups) or 'none'}"
             near = nearest_names(name, self.groups)
             raise NotFoundError("planning group", name, nearest=near, hint=hint)
+        return found
+
+    def followers_of(self, variables: Sequence[str]) -> list[tuple[int, int, float, float]]:
+        """Return what follows some of the variables.
+
+        Returns:
+            for each follower its place in the robot's positions, its leader's place among
+            `variables`, multiplier and offset.
+        """
+        own = {name: place for place, name in enumerate(variables)}
+        found = []
+        for place, name in enumerate(self.variables):
+            leader, factor, offset = self.mimic_of(name)
+            if leader != name and leader in own:
+                found.append((place, own[leader], factor, offset))
         return found
 
     def mimic_of(self, variable: str) -> tuple[str, float, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -61,7 +62,7 @@ class Problem:
         """Return whether the time is used up."""
         return time.perf_counter() >= self.deadline
 
-    @property
+    @cached_property
     def range(self) -> float:
         """The longest motion that is added to a tree in one go."""
         return self.settings.range or min(0.2 * self.space.extent, 1.0)

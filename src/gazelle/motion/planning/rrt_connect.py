@@ -11,10 +11,18 @@ from gazelle.motion.space import FloatArray
 __all__ = ["rrt_connect"]
 
 _DRAWS_PER_GOAL = 20
+_DOMAIN = 3.0
+_DRAWS = 20
 
 
 def rrt_connect(problem: Problem) -> Waypoints | None:
-    """Return a path, None where the time ran out."""
+    """Return a path, None where the time ran out.
+
+    A node that an obstacle was next to draws from its surroundings only, as in the dynamic domain
+    of A. Yershova, L. Jaillet, T. Siméon and S. LaValle, "Dynamic-domain RRTs: efficient
+    exploration by controlling the sampling domain" (ICRA 2005). Where nearly all draws are too far
+    for that, as with very many joints, every twentieth one counts all the same.
+    """
     direct = _straight(problem)
     if direct is not None:
         return direct
@@ -26,10 +34,12 @@ def rrt_connect(problem: Problem) -> Waypoints | None:
             far.add(goal, -1)
         # The smaller tree grows, so that a tree in a narrow place is not left behind.
         grown, other = (near, far) if len(near) <= len(far) else (far, near)
-        node, arrived = _grow(problem, grown, problem.sample(), problem.range)
+        target, here = _drawn(problem, grown)
+        node, arrived = _grow(problem, grown, here, target, problem.range)
         if node < 0:
+            grown.confine(here, _DOMAIN * problem.range)
             continue
-        meeting, arrived = _grow(problem, other, grown[node], np.inf)
+        meeting, arrived = _grow(problem, other, other.nearest(grown[node]), grown[node], np.inf)
         if arrived:
             ends = (node, meeting) if grown is near else (meeting, node)
             return _joined(near.branch(ends[0]), far.branch(ends[1]))
@@ -45,13 +55,22 @@ def _straight(problem: Problem) -> Waypoints | None:
     return None
 
 
-def _grow(problem: Problem, tree: Tree, target: FloatArray, most: float) -> tuple[int, bool]:
-    """Grow towards a target, in motions of the planner's range.
+def _drawn(problem: Problem, tree: Tree) -> tuple[FloatArray, int]:
+    """Return a configuration to grow towards, and the node to grow."""
+    if problem.project is not None:
+        q = problem.sample()
+        return q, tree.nearest(q)
+    return tree.drawn(problem.rng.random((_DRAWS, problem.space.size)))
+
+
+def _grow(
+    problem: Problem, tree: Tree, here: int, target: FloatArray, most: float
+) -> tuple[int, bool]:
+    """Grow from a node towards a target, in motions of the planner's range.
 
     Returns:
         the last node added or stood on, -1 where none was; whether it is the target.
     """
-    here = tree.nearest(target)
     last, gone = -1, 0.0
     while gone < most:
         waypoints, arrived = problem.towards(tree[here], target, problem.range)

@@ -16,7 +16,11 @@ from gazelle.motion.planning.planners import Chosen, choose
 from gazelle.motion.planning.problem import GoalSource, Problem, Waypoints
 from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.planning.shortcut import shortcut
-from gazelle.motion.planning.validation import FINE_STEP, first_fault
+from gazelle.motion.planning.validation import (
+    FINE_STEP,
+    first_faulty_motion,
+    why_faulty,
+)
 from gazelle.motion.space import FloatArray, JointSpace, Validity
 
 __all__ = ["plan"]
@@ -170,8 +174,9 @@ def _solved(problem: Problem, chosen: Chosen, began: float, time_limit_s: float)
             return Path(problem.space.names, rows, chosen.name, *times, notes, timed_out)
         problem.step = max(FINE_STEP, problem.step * _FINER)
     why = f"{chosen.name} found no path within {time_limit_s:g} s"
-    if finish.fault:
-        why += f" that stands the check every {FINE_STEP} rad: {finish.fault}"
+    if finish.fault is not None:
+        fault = why_faulty(problem.space, problem.validity, finish.fault)
+        why += f" that stands the check every {FINE_STEP} rad: {fault}"
     elif time.perf_counter() < began + time_limit_s:
         why = f"{chosen.name} gave up before {time_limit_s:g} s were over"
         raise PlanningError(ErrorCode.PLANNING_FAILED, why)
@@ -185,7 +190,7 @@ class _Finish:
         self._problem = problem
         self.simplifying_s = 0.0
         self.checking_s = 0.0
-        self.fault = ""
+        self.fault: FloatArray | None = None
 
     def shortened(self, raw: Waypoints) -> Waypoints | None:
         """Return a short path that stands the check, None where `raw` does not."""
@@ -207,10 +212,12 @@ class _Finish:
 
     def _stands(self, waypoints: Waypoints) -> bool:
         mark = time.perf_counter()
-        fault = first_fault(self._problem.space, self._problem.validity, np.array(waypoints))
+        problem = self._problem
+        fault = first_faulty_motion(problem.space, problem.validity, np.array(waypoints))
         self.checking_s += time.perf_counter() - mark
-        self.fault = fault or self.fault
-        return not fault
+        if fault is not None:
+            self.fault = fault
+        return fault is None
 
 
 def _at_least(waypoints: Waypoints, count: int) -> FloatArray:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gazelle.motion.planning.tree_kernels import drawn, nearest
 from gazelle.motion.space import FloatArray, JointSpace
 
 __all__ = ["Tree"]
@@ -15,12 +16,18 @@ _TURN = 2.0 * math.pi
 
 
 class Tree:
-    """Nodes in one growing array; a brute search of some thousand beats any index in Python."""
+    """Nodes in one growing array; a brute search of some thousand beats any index.
+
+    Attributes:
+        parents: node above each, -1 for roots.
+    """
 
     def __init__(self, space: JointSpace, roots: Sequence[FloatArray]) -> None:
         """Start a tree, or a forest where there are several roots."""
+        self._space = space
         self._nodes = np.empty((256, space.size))
         self._difference = np.empty((256, space.size))
+        self._domains = np.full(256, np.inf)
         self._turning = np.flatnonzero(space.continuous)
         self.parents: list[int] = []
         for root in roots:
@@ -44,6 +51,7 @@ class Tree:
         if count == len(self._nodes):
             self._nodes = np.concatenate([self._nodes, np.empty_like(self._nodes)])
             self._difference = np.empty_like(self._nodes)
+            self._domains = np.concatenate([self._domains, np.full(count, np.inf)])
         self._nodes[count] = q
         self.parents.append(parent)
         return count
@@ -60,7 +68,24 @@ class Tree:
 
     def nearest(self, q: FloatArray) -> int:
         """Return the index of the node nearest to `q`."""
-        return int(self.squared_distances(q).argmin())
+        return int(nearest(self._nodes, len(self.parents), self._space.continuous, q)[0])
+
+    def drawn(self, chances: FloatArray) -> tuple[FloatArray, int]:
+        """Return a draw that the node nearest to it may grow towards, and the node.
+
+        Args:
+            chances: (d, n) numbers from 0 to 1; the last row counts wherever it lies.
+        """
+        space = self._space
+        q, node = drawn(
+            self._nodes, len(self.parents), space.continuous, self._domains, space.low,
+            space.width, chances,
+        )  # fmt: skip
+        return q, int(node)
+
+    def confine(self, index: int, domain: float) -> None:
+        """Let a node grow only towards what is near."""
+        self._domains[index] = domain
 
     def branch(self, index: int) -> list[FloatArray]:
         """Return the nodes from the root to `index`."""

@@ -8,10 +8,12 @@ import numpy as np
 
 from gazelle.motion.space import FloatArray, JointSpace, Validity
 
-__all__ = ["FINE_STEP", "first_fault"]
+__all__ = ["FINE_STEP", "first_fault", "first_faulty_motion", "why_faulty"]
 
 FINE_STEP = 0.005
 """Longest motion between two states of the last check, rad or m."""
+
+_TOLERANCE = 1e-3
 
 
 def first_fault(
@@ -25,15 +27,38 @@ def first_fault(
         states: shape (m, n), straight motions between rows.
         step: longest motion that goes unchecked.
     """
+    fault = first_faulty_motion(space, validity, states, step)
+    return "" if fault is None else why_faulty(space, validity, fault, step)
+
+
+def first_faulty_motion(
+    space: JointSpace, validity: Validity, states: FloatArray, step: float = FINE_STEP
+) -> FloatArray | None:
+    """Return both ends of the first motion of a line that is not allowed; see `first_fault`.
+
+    Both ends are the same where a state itself is not.
+    """
     for q in states:
-        if beyond := space.outside(q, tolerance=1e-3):
-            return beyond[0]
+        if space.outside(q, tolerance=_TOLERANCE):
+            return np.array([q, q])
     if not validity.is_valid(states[0]):
-        return validity.why(states[0])
+        return states[[0, 0]]
     for first, last in itertools.pairwise(states):
         if not validity.motion_is_valid(first, last, step):
-            return _reason(validity, first, last, step)
-    return ""
+            return np.array([first, last])
+    return None
+
+
+def why_faulty(
+    space: JointSpace, validity: Validity, motion: FloatArray, step: float = FINE_STEP
+) -> str:
+    """Return what is wrong with a motion that `first_faulty_motion` found."""
+    first, last = motion
+    if beyond := space.outside(first, tolerance=_TOLERANCE):
+        return beyond[0]
+    if not validity.is_valid(first):
+        return validity.why(first)
+    return _reason(validity, first, last, step)
 
 
 def _reason(validity: Validity, first: FloatArray, last: FloatArray, step: float) -> str:

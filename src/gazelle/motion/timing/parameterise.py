@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from gazelle.motion.planning.path import Path
-from gazelle.motion.planning.validation import FINE_STEP, first_fault
+from gazelle.motion.planning.validation import FINE_STEP, first_fault, first_faulty_motion
 from gazelle.motion.space import FloatArray, JointSpace, Validity
 from gazelle.motion.timing.geometry import Arc, Line, corner_arc, distinct, pieces
 from gazelle.motion.timing.jerk import Smoothed, seven_phases
@@ -200,4 +200,4 @@ def _corner_tolerances(
 def _arc_is_valid(space: JointSpace, validity: Validity, arc: Arc) -> bool:
     count = max(2, math.ceil(arc.length / FINE_STEP))
     states = arc.states(np.linspace(0.0, arc.length, count + 1))[0]
-    return not first_fault(space, validity, states)
+    return first_faulty_motion(space, validity, states) is None

@@ -1,0 +1,389 @@
+"""Whole motions of a robot checked at once."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from enum import Enum
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.geometry import Pose
+from gazelle.motion.collision.building import CollisionBody, may_touch
+from gazelle.motion.collision.convex_rows import ConvexRows, rows_of
+from gazelle.motion.collision.gjk_kernels import APART
+from gazelle.motion.collision.solids import Solid
+from gazelle.motion.collision.sweep_kernels import (
+    COLLIDES,
+    FREE,
+    TOO_LONG,
+    pair_clear,
+    sweep,
+)
+from gazelle.motion.kinematics import link_poses
+from gazelle.motion.kinematics.chain import LinkTree, link_tree
+from gazelle.motion.kinematics.kernels import tree
+from gazelle.motion.model import JointGroup, JointKind, RobotJoint, RobotModel
+from gazelle.motion.scene import PlanningScene
+from gazelle.motion.space import FloatArray
+
+__all__ = ["Sweeper", "Verdict"]
+
+IntArray = NDArray[np.int64]
+
+_UNLIMITED_M = 1e9
+_MOST_DOUBTS = 256
+_SCRATCH = (10, 4)
+
+
+class Verdict(Enum):
+    """What is known of a motion."""
+
+    FREE = "free"
+    COLLIDES = "collides"
+    DOUBTFUL = "doubtful"
+
+
+class Sweeper:
+    """Says of states and motions of a group whether they are free, where bounds can tell.
+
+    Not for use in several threads at once; make a `copy` for each.
+
+    Attributes:
+        has_constant_neighbours: there are two that nothing moves apart, and that may touch.
+    """
+
+    _doubts: FloatArray
+
+    def __init__(
+        self, scene: PlanningScene, group: JointGroup | None, bodies: Sequence[CollisionBody]
+    ) -> None:
+        robot = scene.robot
+        self._group = group
+        frames = _Frames(scene, group, bodies)
+        variables = robot.variables if group is None else group.variables
+        self._indices = np.array([robot.variables.index(name) for name in variables], np.int64)
+        rules = robot.followers_of(variables)
+        self._followers = np.array([rule[0] for rule in rules], np.int64)
+        self._leaders = np.array([rule[1] for rule in rules], np.int64)
+        self._rules = np.array([rule[2:] for rule in rules], np.float64).reshape(-1, 2)
+        self._fill(frames, bodies)
+        reaches = _Reaches(robot, variables, bodies, frames.numbers)
+        self._motions = reaches.motions
+        every = _pairs(scene, group, bodies)
+        apart = reaches.apart(every)
+        moved = apart.any(axis=1)
+        self._pairs, self._apart = every[moved], apart[moved]
+        self._constant_pairs = every[~moved]
+        self._axes, self._order = np.zeros((len(self._pairs), 4)), np.arange(len(self._pairs))
+        self._set_up(scene, frames)
+
+    def copy(self) -> Sweeper:
+        """Return one of the same scene that another thread may use."""
+        other = copy.copy(self)
+        other._R, other._p = self._R.copy(), self._p.copy()
+        other._positions, other._axes = self._positions.copy(), self._axes.copy()
+        other._order = self._order.copy()
+        other._set_up_scratch()
+        return other
+
+    def follow(self, scene: PlanningScene, bodies: Sequence[CollisionBody]) -> Sweeper:
+        """Return one of a scene with the same things elsewhere."""
+        other = self.copy()
+        other._set_up(scene, _Frames(scene, self._group, bodies))
+        return other
+
+    def state(self, q: FloatArray) -> Verdict:
+        """Return what is known of a state."""
+        return self._swept(q, np.zeros(len(q)), 1.0)[0]
+
+    def motion(self, q0: FloatArray, q1: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
+        """Return what is known of a straight motion whose beginning is known to be free.
+
+        Args:
+            q0: where it begins.
+            q1: where it ends.
+            step: longest piece of which only the middle need be free, Euclidean, rad or m.
+
+        Returns:
+            the verdict, and the states that are in doubt, (m, n).
+        """
+        way = q1 - q0
+        verdict, parts = self._swept(q0, way, step)
+        return verdict, q0 + way * parts[:, None]
+
+    def _swept(self, q0: FloatArray, way: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
+        q0 = np.ascontiguousarray(q0, dtype=np.float64)
+        while True:
+            found, value = sweep(
+                q0, way, step, *self._tree,
+                self._positions, self._indices, self._followers, self._leaders, self._rules,
+                self._members, self._pairs, *self._motions, self._apart, self._solids, self._kinds,
+                self._vertices, self._axes, self._order, self._R, self._p, self._work, self._doubts,
+            )  # fmt: skip
+            if found != TOO_LONG:
+                break
+            self._doubts = np.empty(2 * len(self._doubts))
+        if found == FREE:
+            return Verdict.FREE, self._doubts[:0]
+        if found == COLLIDES:
+            return Verdict.COLLIDES, self._doubts[:0]
+        return Verdict.DOUBTFUL, self._doubts[: int(value)].copy()
+
+    def _set_up(self, scene: PlanningScene, frames: _Frames) -> None:
+        self._tree, self._R, self._p = frames.tree, frames.R, frames.p
+        self._positions = np.array(scene.positions, dtype=np.float64)
+        self._set_up_scratch()
+        self.has_constant_neighbours = self._has_constant_neighbours()
+
+    def _set_up_scratch(self) -> None:
+        self._work = np.zeros(_SCRATCH)
+        self._doubts = np.empty(_MOST_DOUBTS)
+
+    def _fill(self, frames: _Frames, bodies: Sequence[CollisionBody]) -> None:
+        """Put the rows of all bodies below each other."""
+        solids, kinds, vertices, members = [], [], [], []
+        first_row = first_vertex = 0
+        for number, body in enumerate(bodies):
+            rows = _rows(body)
+            own = rows.kinds.copy()
+            own[:, 1] = frames.of_body[number]
+            own[:, 2] += first_vertex
+            members.append((first_row, first_row + len(own) - rows.own, rows.own))
+            solids.append(rows.solids)
+            kinds.append(own)
+            vertices.append(rows.vertices)
+            first_row += len(own)
+            first_vertex += len(rows.vertices)
+        self._members = np.array(members, np.int64).reshape(-1, 3)
+        self._solids = np.concatenate(solids) if solids else np.zeros((0, 24))
+        self._kinds = np.concatenate(kinds) if kinds else np.zeros((0, 4), np.int64)
+        self._vertices = np.ascontiguousarray(np.concatenate([*vertices, np.zeros((1, 3))]).T)
+
+    def _has_constant_neighbours(self) -> bool:
+        """Return whether a pair that nothing moves apart is not known to be apart."""
+        pairs = self._constant_pairs
+        if len(pairs):
+            tree(*self._tree, self._positions, self._R, self._p)
+        axes = np.zeros((len(pairs), 4))
+        for number in range(len(pairs)):
+            state, _ = pair_clear(
+                number, pairs, self._members, self._solids, self._kinds, self._vertices,
+                self._R, self._p, 0.0, axes, self._work,
+            )  # fmt: skip
+            if state != APART:
+                return True
+        return False
+
+
+@lru_cache(maxsize=512)
+def _kept_rows(solids: tuple[Solid, ...], margin_m: float) -> ConvexRows:
+    return rows_of(solids, margin_m)
+
+
+def _rows(body: CollisionBody) -> ConvexRows:
+    """Return a body's rows in its frame; those of links are kept, as solids are the same ones."""
+    if body.owner.kind != "link":
+        pose = Pose() if body.is_object else body.T_frame_body
+        return rows_of([Solid(one, pose @ own) for one, own in body.solids], body.margin_m)
+    return _kept_rows(body.solids, body.margin_m)
+
+
+class _Frames:
+    """Where solids are: links that move, links that stand still, and things.
+
+    Attributes:
+        tree: arguments of `kinematics.kernels.tree` for the links that move.
+        R: rotations of all frames; those of links that move come first and are written over.
+        p: positions of all frames.
+        of_body: number of the frame of each body.
+        numbers: of the frames of links.
+    """
+
+    def __init__(
+        self, scene: PlanningScene, group: JointGroup | None, bodies: Sequence[CollisionBody]
+    ) -> None:
+        robot = scene.robot
+        poses = link_poses(robot, scene.positions)
+        names = set(robot.links if group is None else group.moved_links)
+        moving = [place for place, link in enumerate(robot.links) if link in names]
+        self.tree = _part(link_tree(robot), moving, [poses[link] for link in robot.links])
+        numbers = {robot.links[place]: number for number, place in enumerate(moving)}
+        self.numbers = numbers
+        matrices = [np.eye(4) for _ in moving]
+        self.of_body: list[int] = []
+        for body in bodies:
+            if body.is_object:
+                self.of_body.append(len(matrices))
+                matrices.append(body.T_frame_body.matrix())
+                continue
+            if body.link not in numbers:
+                numbers[body.link] = len(matrices)
+                matrices.append(poses[body.link])
+            self.of_body.append(numbers[body.link])
+        stacked = np.array(matrices).reshape(-1, 4, 4)
+        self.R = np.ascontiguousarray(stacked[:, :3, :3])
+        self.p = np.ascontiguousarray(stacked[:, :3, 3])
+
+
+def _part(whole: LinkTree, kept: list[int], poses: Sequence[FloatArray]) -> LinkTree:
+    """Return some links of a tree; those whose parent is left out start where it stands."""
+    place = {old: new for new, old in enumerate(kept)}
+    A, a = whole.A[kept].copy(), whole.a[kept].copy()
+    parents = np.full(len(kept), -1, np.int64)
+    for new, old in enumerate(kept):
+        above = int(whole.parents[old])
+        if above in place:
+            parents[new] = place[above]
+        elif above >= 0:
+            pose = poses[above]
+            a[new] = pose[:3, :3] @ a[new] + pose[:3, 3]
+            A[new] = pose[:3, :3] @ A[new]
+    return LinkTree(
+        parents, A, a, whole.kinds[kept], whole.axes[kept], whole.places[kept],
+        whole.B[kept], whole.b[kept],
+    )  # fmt: skip
+
+
+def _pairs(
+    scene: PlanningScene, group: JointGroup | None, bodies: Sequence[CollisionBody]
+) -> IntArray:
+    """Return the numbers of bodies that must not touch, where the group moves one of them."""
+    moved = None if group is None else set(group.moved_links)
+    active = [not body.is_object if moved is None else body.owner.link in moved for body in bodies]
+    found = [
+        (first, second)
+        for first in range(len(bodies))
+        for second in range(first + 1, len(bodies))
+        if (active[first] or active[second])
+        and not may_touch(scene, bodies[first].owner, bodies[second].owner)
+    ]
+    return np.array(found, np.int64).reshape(-1, 2)
+
+
+class _Motions(NamedTuple):
+    """Which joints move, and how far they carry bodies at most; see `sweep_kernels.sweep`."""
+
+    joints: IntArray
+    lines: FloatArray
+    turns: FloatArray
+    moves: FloatArray
+
+
+class _Reaches:
+    """How far points of bodies move at most when a variable changes by one.
+
+    Attributes:
+        motions: by joint, those without a variable left out.
+    """
+
+    def __init__(
+        self,
+        robot: RobotModel,
+        variables: Sequence[str],
+        bodies: Sequence[CollisionBody],
+        frames: Mapping[str, int],
+    ) -> None:
+        self._robot = robot
+        self._places = {name: place for place, name in enumerate(variables)}
+        self._joints = [
+            joint
+            for joint in robot.joints
+            if any(robot.mimic_of(name)[0] in self._places for name in joint.variables)
+        ]
+        self._number = {joint.name: number for number, joint in enumerate(self._joints)}
+        shape = len(bodies), len(self._joints)
+        self._above = np.zeros(shape, np.bool_)
+        self._moves = np.zeros((*shape, len(variables)))
+        for number, body in enumerate(bodies):
+            if not body.is_object:
+                self._climb(number, body)
+        turning = [joint.kind is JointKind.TURNING for joint in self._joints]
+        self.motions = _Motions(
+            np.array(
+                [
+                    frames.get(joint.child, -1) if turns else -1
+                    for joint, turns in zip(self._joints, turning, strict=True)
+                ],
+                np.int64,
+            ),
+            np.array([_line(joint) for joint in self._joints]).reshape(-1, 6),
+            np.array([self._moved(joint, 1.0, 1.0) for joint in self._joints]).reshape(
+                -1, len(variables)
+            ),
+            self._moves,
+        )
+
+    def apart(self, pairs: IntArray) -> NDArray[np.bool_]:
+        """Return which joints move one body of a pair and not both."""
+        return np.asarray(self._above[pairs[:, 0]] ^ self._above[pairs[:, 1]])
+
+    def _climb(self, number: int, body: CollisionBody) -> None:
+        points, extra = _points(_rows(body))
+        link = body.link
+        while link:
+            joint = self._robot.joint_above[link]
+            points = points @ _rotation(joint.T_joint_child).T + joint.T_joint_child.position_m
+            place = self._number.get(joint.name)
+            reach = float((np.linalg.norm(points, axis=1) + extra).max())
+            flat = points - np.outer(points @ joint.axis, joint.axis)
+            turn = float((np.linalg.norm(flat, axis=1) + extra).max())
+            if place is not None:
+                self._above[number, place] = True
+                self._moves[number, place] = self._moved(joint, reach, turn)
+            # From the next joint on, all of it is within a ball around this one.
+            points = np.array([joint.T_parent_joint.position_m])
+            extra = np.array([reach + _travel_m(joint)])
+            link = joint.parent
+
+    def _moved(self, joint: RobotJoint, reach: float, turn: float) -> FloatArray:
+        found = np.zeros(len(self._places))
+        for nth, name in enumerate(joint.variables):
+            leader, factor, _ = self._robot.mimic_of(name)
+            if leader not in self._places:
+                continue
+            if joint.kind is JointKind.TURNING:
+                metres = turn
+            elif joint.kind is JointKind.PLANAR and nth == 2:
+                metres = reach
+            elif joint.kind is JointKind.FLOATING and nth >= 3:
+                metres = _UNLIMITED_M
+            else:
+                metres = 1.0
+            found[self._places[leader]] += abs(factor) * metres
+        return found
+
+
+def _line(joint: RobotJoint) -> FloatArray:
+    """Return a joint's axis and a point of it in the frame of the link it carries."""
+    T_child_joint = joint.T_joint_child.inverse()
+    return np.array([*T_child_joint.rotate(joint.axis), *T_child_joint.position_m])
+
+
+def _travel_m(joint: RobotJoint) -> float:
+    """Return how far a joint's sliding carries what it moves."""
+    if joint.kind in {JointKind.PLANAR, JointKind.FLOATING}:
+        return _UNLIMITED_M
+    if joint.kind is not JointKind.SLIDING:
+        return 0.0
+    limit = joint.limits[0]
+    return min(max(abs(limit.lower), abs(limit.upper)), _UNLIMITED_M)
+
+
+def _points(rows: ConvexRows) -> tuple[FloatArray, FloatArray]:
+    """Return balls around all solids: centres and radii."""
+    own = rows.solids[-rows.own :]
+    hull = rows.kinds[-rows.own :, 0] == 0
+    points = [own[~hull, 17:20]]
+    extra = [np.minimum(own[~hull, 20], _UNLIMITED_M)]
+    for row, (_, _, first, count) in zip(own[hull], rows.kinds[-rows.own :][hull], strict=True):
+        points.append(rows.vertices[first : first + count])
+        extra.append(np.full(count, row[16]))
+    return np.concatenate(points), np.concatenate(extra)
+
+
+def _rotation(pose: Pose) -> FloatArray:
+    return np.asarray(pose.matrix()[:3, :3])

@@ -1,0 +1,416 @@
+# mypy: ignore-errors
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917, PLW3301
+"""The compiled distance between two convex solids, as a bound that cannot be wrong.
+
+The search is that of E. Gilbert, D. Johnson and S. Keerthi, "A fast procedure for computing the
+distance between complex objects in three-dimensional space" (IEEE J. Robotics and Automation 4,
+1988). What it says does not rest on its convergence: two solids are `APART` when they lie on both
+sides of a slab of the thickness asked for, and they `OVERLAP` when a tetrahedron of their
+difference holds the origin. What is neither is `UNKNOWN`.
+
+A solid is a row of numbers and one of integers, see `convex_rows.ConvexRows`. Frames are rotations
+and positions.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.compiling import njit
+
+__all__ = ["APART", "OVERLAP", "UNKNOWN", "outside_m", "separation", "slab_m"]
+
+APART, OVERLAP, UNKNOWN = 0, 1, 2
+
+_MOST_ROUNDS = 32
+_ATTEMPTS = 3
+_DEEP_M = 5e-6
+"""An overlap of less is left to MuJoCo, which stops its own search at a millionth of a metre."""
+
+
+@njit(cache=True, nogil=True)
+def _support(number, solids, kinds, vertices, R, p, x, y, z, out, at):
+    """Write the point of a solid that is farthest in a direction of the robot's frame."""
+    frame = kinds[number, 1]
+    u = R[frame, 0, 0] * x + R[frame, 1, 0] * y + R[frame, 2, 0] * z
+    v = R[frame, 0, 1] * x + R[frame, 1, 1] * y + R[frame, 2, 1] * z
+    w = R[frame, 0, 2] * x + R[frame, 1, 2] * y + R[frame, 2, 2] * z
+    kind = kinds[number, 0]
+    if kind == 0:
+        first = kinds[number, 2]
+        best, farthest = first, -1e300
+        for i in range(first, first + kinds[number, 3]):
+            reach = vertices[0, i] * u + vertices[1, i] * v + vertices[2, i] * w
+            if reach > farthest:
+                best, farthest = i, reach
+        a, b, c = vertices[0, best], vertices[1, best], vertices[2, best]
+    else:
+        k = solids[number, 0] * u + solids[number, 3] * v + solids[number, 6] * w
+        m = solids[number, 1] * u + solids[number, 4] * v + solids[number, 7] * w
+        n = solids[number, 2] * u + solids[number, 5] * v + solids[number, 8] * w
+        i, j, h = 0.0, 0.0, 0.0
+        if kind == 1:
+            i = math.copysign(solids[number, 12], k)
+            j = math.copysign(solids[number, 13], m)
+            h = math.copysign(solids[number, 14], n)
+        elif kind == 2:
+            flat = math.sqrt(k * k + m * m)
+            if flat > 1e-12:
+                i, j = solids[number, 12] * k / flat, solids[number, 12] * m / flat
+            h = math.copysign(solids[number, 13], n)
+        elif kind == 3:
+            h = math.copysign(solids[number, 13], n)
+        elif kind == 4:
+            i, j, h = solids[number, 12] * k, solids[number, 13] * m, solids[number, 14] * n
+            length = math.sqrt(i * i + j * j + h * h)
+            if length > 1e-300:
+                i, j, h = (
+                    i * solids[number, 12] / length,
+                    j * solids[number, 13] / length,
+                    h * solids[number, 14] / length,
+                )
+        a = (
+            solids[number, 0] * i
+            + solids[number, 1] * j
+            + solids[number, 2] * h
+            + solids[number, 9]
+        )
+        b = (
+            solids[number, 3] * i
+            + solids[number, 4] * j
+            + solids[number, 5] * h
+            + solids[number, 10]
+        )
+        c = (
+            solids[number, 6] * i
+            + solids[number, 7] * j
+            + solids[number, 8] * h
+            + solids[number, 11]
+        )
+    out[at, 0] = R[frame, 0, 0] * a + R[frame, 0, 1] * b + R[frame, 0, 2] * c + p[frame, 0]
+    out[at, 1] = R[frame, 1, 0] * a + R[frame, 1, 1] * b + R[frame, 1, 2] * c + p[frame, 1]
+    out[at, 2] = R[frame, 2, 0] * a + R[frame, 2, 1] * b + R[frame, 2, 2] * c + p[frame, 2]
+
+
+@njit(cache=True, nogil=True, fastmath={"nnan", "nsz", "reassoc"})
+def _farthest(vertices, first, last, u, v, w):
+    """Return how far vertices reach in a direction; the machine looks at several at a time."""
+    reach = -1e300
+    for i in range(first, last):
+        reach = max(reach, vertices[0, i] * u + vertices[1, i] * v + vertices[2, i] * w)
+    return reach
+
+
+@njit(cache=True, nogil=True)
+def _reach(number, solids, kinds, vertices, R, p, x, y, z):
+    """Return how far a solid reaches in a direction of the robot's frame."""
+    frame = kinds[number, 1]
+    reach = p[frame, 0] * x + p[frame, 1] * y + p[frame, 2] * z
+    u = R[frame, 0, 0] * x + R[frame, 1, 0] * y + R[frame, 2, 0] * z
+    v = R[frame, 0, 1] * x + R[frame, 1, 1] * y + R[frame, 2, 1] * z
+    w = R[frame, 0, 2] * x + R[frame, 1, 2] * y + R[frame, 2, 2] * z
+    kind = kinds[number, 0]
+    if kind == 0:
+        first = kinds[number, 2]
+        return reach + _farthest(vertices, first, first + kinds[number, 3], u, v, w)
+    reach += solids[number, 9] * u + solids[number, 10] * v + solids[number, 11] * w
+    k = solids[number, 0] * u + solids[number, 3] * v + solids[number, 6] * w
+    m = solids[number, 1] * u + solids[number, 4] * v + solids[number, 7] * w
+    n = solids[number, 2] * u + solids[number, 5] * v + solids[number, 8] * w
+    if kind == 1:
+        return (
+            reach
+            + solids[number, 12] * abs(k)
+            + solids[number, 13] * abs(m)
+            + solids[number, 14] * abs(n)
+        )
+    if kind == 2:
+        return reach + solids[number, 12] * math.sqrt(k * k + m * m) + solids[number, 13] * abs(n)
+    if kind == 3:
+        return reach + solids[number, 13] * abs(n)
+    i, j, h = solids[number, 12] * k, solids[number, 13] * m, solids[number, 14] * n
+    return reach + math.sqrt(i * i + j * j + h * h)
+
+
+@njit(cache=True, nogil=True)
+def slab_m(one, other, solids, kinds, vertices, R, p, axis):
+    """Return how thick the slab across `axis` is that lies between two solids."""
+    if kinds[one, 0] >= 5 or kinds[other, 0] >= 5:
+        return -1e300
+    x, y, z = axis[0], axis[1], axis[2]
+    near = _reach(one, solids, kinds, vertices, R, p, -x, -y, -z)
+    far = _reach(other, solids, kinds, vertices, R, p, x, y, z)
+    larger = solids[one, 15] + solids[other, 15] + solids[one, 16] + solids[other, 16]
+    return -near - far - larger
+
+
+@njit(cache=True, nogil=True)
+def _dot(W, i, j):
+    return W[i, 0] * W[j, 0] + W[i, 1] * W[j, 1] + W[i, 2] * W[j, 2]
+
+
+@njit(cache=True, nogil=True)
+def _on_triangle(W, a, b, c, weights):
+    """Write the weights of the point of a triangle that is nearest to the origin.
+
+    Regions of corners, edges and face as in C. Ericson, "Real-Time Collision Detection", 5.1.5.
+    """
+    aa, bb, cc = _dot(W, a, a), _dot(W, b, b), _dot(W, c, c)
+    ab, ac, bc = _dot(W, a, b), _dot(W, a, c), _dot(W, b, c)
+    d1, d2 = aa - ab, aa - ac
+    d3, d4 = ab - bb, ab - bc
+    d5, d6 = ac - bc, ac - cc
+    weights[0], weights[1], weights[2] = 0.0, 0.0, 0.0
+    if d1 <= 0.0 and d2 <= 0.0:
+        weights[0] = 1.0
+        return
+    if d3 >= 0.0 and d4 <= d3:
+        weights[1] = 1.0
+        return
+    if d6 >= 0.0 and d5 <= d6:
+        weights[2] = 1.0
+        return
+    vc = d1 * d4 - d3 * d2
+    if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        weights[1] = d1 / (d1 - d3)
+        weights[0] = 1.0 - weights[1]
+        return
+    vb = d5 * d2 - d1 * d6
+    if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        weights[2] = d2 / (d2 - d6)
+        weights[0] = 1.0 - weights[2]
+        return
+    va = d3 * d6 - d5 * d4
+    if va <= 0.0 and d4 >= d3 and d5 >= d6:
+        weights[2] = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        weights[1] = 1.0 - weights[2]
+        return
+    total = va + vb + vc
+    weights[1], weights[2] = vb / total, vc / total
+    weights[0] = 1.0 - weights[1] - weights[2]
+
+
+@njit(cache=True, nogil=True)
+def _height(W, a, b, c, d):
+    """Return how far the origin lies on the side of d from the plane of a, b and c."""
+    ux, uy, uz = W[b, 0] - W[a, 0], W[b, 1] - W[a, 1], W[b, 2] - W[a, 2]
+    vx, vy, vz = W[c, 0] - W[a, 0], W[c, 1] - W[a, 1], W[c, 2] - W[a, 2]
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    length = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if length < 1e-18:
+        return -1.0
+    far = nx * (W[d, 0] - W[a, 0]) + ny * (W[d, 1] - W[a, 1]) + nz * (W[d, 2] - W[a, 2])
+    own = -(nx * W[a, 0] + ny * W[a, 1] + nz * W[a, 2])
+    return (own if far >= 0.0 else -own) / length
+
+
+@njit(cache=True, nogil=True)
+def _outward(W, v, work):
+    """Find the side of a tetrahedron that is nearest to the origin in it.
+
+    Writes its corners first, its outward normal into the last column of `work`, and how far off
+    the other sides are into v[1].
+    """
+    nearest, least, second = 0, 1e300, 1e300
+    for out in range(4):
+        a, b, c = (out + 1) % 4, (out + 2) % 4, (out + 3) % 4
+        height = _height(W, a, b, c, out)
+        if height < least:
+            nearest, least, second = out, height, least
+        else:
+            second = min(second, height)
+    v[1] = second
+    for k in range(3):
+        W[nearest, k], W[3, k] = W[3, k], W[nearest, k]
+    ux, uy, uz = W[1, 0] - W[0, 0], W[1, 1] - W[0, 1], W[1, 2] - W[0, 2]
+    vx, vy, vz = W[2, 0] - W[0, 0], W[2, 1] - W[0, 1], W[2, 2] - W[0, 2]
+    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    length = math.sqrt(x * x + y * y + z * z)
+    inwards = x * (W[3, 0] - W[0, 0]) + y * (W[3, 1] - W[0, 1]) + z * (W[3, 2] - W[0, 2])
+    length = max(length, 1e-300) * (-1.0 if inwards > 0.0 else 1.0)
+    work[0, 3], work[1, 3], work[2, 3] = x / length, y / length, z / length
+
+
+@njit(cache=True, nogil=True)
+def _room(W):
+    """Return how far the origin, in or near the first side, is from the others at least."""
+    return min(
+        abs(_height(W, 0, 1, 3, 2)), min(abs(_height(W, 1, 2, 3, 0)), abs(_height(W, 0, 2, 3, 1)))
+    )
+
+
+@njit(cache=True, nogil=True)
+def _nearest(W, count, v, weights, best):
+    """Write the point of a simplex nearest to the origin; keep only the corners it needs.
+
+    Returns the corners kept, or 0 where a tetrahedron holds the origin; its depth is in v[0] then.
+    """
+    if count == 1:
+        for k in range(3):
+            v[k] = W[0, k]
+        return 1
+    if count == 2:
+        aa, ab, bb = _dot(W, 0, 0), _dot(W, 0, 1), _dot(W, 1, 1)
+        square = aa - 2.0 * ab + bb
+        t = (aa - ab) / square if square > 1e-300 else 0.0
+        t = min(1.0, max(0.0, t))
+        best[0], best[1], best[2], best[3] = 1.0 - t, t, 0.0, 0.0
+    elif count == 3:
+        _on_triangle(W, 0, 1, 2, weights)
+        best[0], best[1], best[2], best[3] = weights[0], weights[1], weights[2], 0.0
+    else:
+        inside = min(
+            min(_height(W, 1, 2, 3, 0), _height(W, 0, 2, 3, 1)),
+            min(_height(W, 0, 1, 3, 2), _height(W, 0, 1, 2, 3)),
+        )
+        if inside >= 0.0:
+            v[0] = inside
+            return 0
+        least = 1e300
+        for left_out in range(4):
+            a = 1 if left_out == 0 else 0
+            b = 2 if left_out <= 1 else 1
+            c = 3 if left_out <= 2 else 2
+            _on_triangle(W, a, b, c, weights)
+            square = 0.0
+            for k in range(3):
+                part = weights[0] * W[a, k] + weights[1] * W[b, k] + weights[2] * W[c, k]
+                square += part * part
+            if square < least:
+                least = square
+                best[0], best[1], best[2], best[3] = 0.0, 0.0, 0.0, 0.0
+                best[a], best[b], best[c] = weights[0], weights[1], weights[2]
+    kept = 0
+    v[0], v[1], v[2] = 0.0, 0.0, 0.0
+    for i in range(count):
+        if best[i] > 0.0:
+            for k in range(3):
+                v[k] += best[i] * W[i, k]
+                W[kept, k] = W[i, k]
+            kept += 1
+    return kept
+
+
+@njit(cache=True, nogil=True)
+def separation(one, other, solids, kinds, vertices, R, p, enough, axis, work):
+    """Say how two solids lie to each other.
+
+    Args:
+        one: number of a solid.
+        other: number of another.
+        solids: rows of numbers.
+        kinds: rows of integers.
+        vertices: (3, v), of all hulls, each in its solid's frame.
+        R: rotations of the frames.
+        p: positions of the frames.
+        enough: distance in metres that is asked for.
+        axis: unit vector from the other to the one to begin with; the best one when it returns.
+        work: scratch of (9, 4).
+
+    Returns:
+        `APART` with a distance that is certain, more than `enough` where that could be shown;
+        `OVERLAP`, or `UNKNOWN`, with a distance that is not more than the real one.
+    """
+    if kinds[one, 0] == 5:
+        one, other = other, one
+    if kinds[one, 0] >= 5 or kinds[other, 0] > 5:
+        return UNKNOWN, -1.0
+    rounding = solids[one, 15] + solids[other, 15]
+    slack = solids[one, 16] + solids[other, 16]
+    if kinds[other, 0] == 5:
+        r, o = R[kinds[other, 1]], p[kinds[other, 1]]
+        row = solids[other]
+        for k in range(3):
+            axis[k] = r[k, 0] * row[2] + r[k, 1] * row[5] + r[k, 2] * row[8]
+            work[2, k] = r[k, 0] * row[9] + r[k, 1] * row[10] + r[k, 2] * row[11] + o[k]
+        _support(one, solids, kinds, vertices, R, p, -axis[0], -axis[1], -axis[2], work, 0)
+        clear = -rounding
+        for k in range(3):
+            clear += axis[k] * (work[0, k] - work[2, k])
+        if clear - slack > 0.0:
+            return APART, clear - slack
+        return (OVERLAP if clear < -_DEEP_M and slack == 0.0 else UNKNOWN), clear - slack
+    W, v, weights, best = work[2:6], work[6], work[7], work[8]
+    clear = -1e300
+    for attempt in range(_ATTEMPTS):
+        # Where the origin lies on an edge of the difference the first search may see too little.
+        x, y, z = axis[0], axis[1], axis[2]
+        if attempt == 1:
+            x, y, z = 0.36, 0.48, 0.8
+        elif attempt == 2:
+            x, y, z = -0.64, 0.6, -0.48
+        count, length, last = 0, 1.0, 1e300
+        for _ in range(_MOST_ROUNDS):
+            _support(one, solids, kinds, vertices, R, p, -x, -y, -z, work, 0)
+            _support(other, solids, kinds, vertices, R, p, x, y, z, work, 1)
+            for k in range(3):
+                W[count, k] = work[0, k] - work[1, k]
+            reach = x * W[count, 0] + y * W[count, 1] + z * W[count, 2]
+            if reach - rounding - slack > clear:
+                clear = reach - rounding - slack
+                axis[0], axis[1], axis[2] = x, y, z
+                if clear > enough:
+                    return APART, clear
+            if count > 0 and length - reach <= 1e-6 * length + 1e-9:
+                break
+            count = _nearest(W, count + 1, v, weights, best)
+            if count == 0:
+                if v[0] <= _DEEP_M:
+                    _outward(W, v, work)
+                    x, y, z = work[0, 3], work[1, 3], work[2, 3]
+                    _support(one, solids, kinds, vertices, R, p, x, y, z, work, 0)
+                    _support(other, solids, kinds, vertices, R, p, -x, -y, -z, work, 1)
+                    for k in range(3):
+                        W[3, k] = work[0, k] - work[1, k]
+                    v[0] = min(v[1], _room(W))
+                if v[0] > _DEEP_M:
+                    return OVERLAP, -v[0]
+                break
+            length = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+            if length < 1e-9 or length >= last or count == 4:
+                break
+            last = length
+            if length <= rounding - _DEEP_M:
+                return OVERLAP, length - rounding
+            if clear > 0.0 and length - rounding - slack <= enough:
+                return APART, clear
+            x, y, z = v[0] / length, v[1] / length, v[2] / length
+        if clear > 0.0:
+            return APART, clear
+    return UNKNOWN, clear
+
+
+@njit(cache=True, nogil=True)
+def outside_m(points, corners):
+    """Return how far points lie outside the hull of corners at most, 0 for those inside."""
+    found = np.zeros(len(points))
+    work = np.empty((7, 4))
+    W, v, weights, best = work[:4], work[4], work[5], work[6]
+    for i in range(len(points)):
+        for k in range(3):
+            v[k] = corners[0, k] - points[i, k]
+            W[0, k] = v[k]
+        count, last = 1, 1e300
+        for _ in range(_MOST_ROUNDS):
+            square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+            if square >= last or square < 1e-18:
+                break
+            last = square
+            farthest, reach = 0, 1e300
+            for j in range(len(corners)):
+                own = corners[j, 0] * v[0] + corners[j, 1] * v[1] + corners[j, 2] * v[2]
+                if own < reach:
+                    farthest, reach = j, own
+            reach -= points[i, 0] * v[0] + points[i, 1] * v[1] + points[i, 2] * v[2]
+            if square - reach <= 1e-6 * square:
+                break
+            for k in range(3):
+                W[count, k] = corners[farthest, k] - points[i, k]
+            count = _nearest(W, count + 1, v, weights, best)
+            if count == 0:
+                last = 0.0
+                break
+        found[i] = math.sqrt(min(last, v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) if count else 0.0
+    return found
