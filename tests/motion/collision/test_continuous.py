@@ -170,3 +170,26 @@ def test_nothing_is_compiled_for_mujoco_before_something_is_in_doubt(robot: Make
     assert "_built" not in vars(checker._contacts)
     assert checker.why(np.zeros(1)) == ""
     assert "_built" in vars(checker._contacts)
+
+
+def test_what_is_no_number_is_not_free(robot: Make) -> None:
+    turning = _SLIDING.replace('type="prismatic"', 'type="continuous"')
+    made = robot(turning, '<group name="g"><joint name="slide"/></group>')
+    checker = CollisionChecker(PlanningScene.of(made), "g")
+    for value in (np.nan, np.inf, -np.inf):
+        assert not checker.is_valid(np.array([value]))
+        assert not checker.motion_is_valid(np.zeros(1), np.array([value]), 0.005)
+
+
+def test_a_motion_of_many_turns_is_looked_at_piece_by_piece(robot: Make) -> None:
+    """No more memory is taken than for a motion that an arm makes."""
+    turning = _SLIDING.replace('type="prismatic"', 'type="continuous"')
+    arm = turning.replace(
+        '<link name="cart"><collision>', '<link name="cart"><collision><origin xyz="0 -0.5 0"/>'
+    )
+    made = robot(arm, '<group name="g"><joint name="slide"/></group>')
+    free = CollisionChecker(PlanningScene.of(made), "g")
+    assert free.motion_is_valid(np.zeros(1), np.array([600.0]), 0.05)
+    post = WorldObject.single("post", Sphere(0.1), Pose((0.0, 0.0, 0.5)))
+    barred = CollisionChecker(PlanningScene.of(made).with_object(post), "g")
+    assert not barred.motion_is_valid(np.zeros(1), np.array([600.0]), 0.05)

@@ -19,6 +19,8 @@ from gazelle.motion.space import FloatArray
 __all__ = ["CollisionChecker"]
 
 _LIMIT_TOLERANCE = 1e-9
+_ENDLESS = float(np.finfo(np.float64).max)
+"""What a joint without limits must be within: what is no number is nowhere."""
 
 
 class CollisionChecker:
@@ -48,11 +50,11 @@ class CollisionChecker:
         self._sweeper = Sweeper(scene, self.group, self._bodies)
         self._contacts = SceneContacts(scene, self.group, self._bodies, self.diagnostics)
         size = len(scene.robot.variables if self.group is None else self.group.variables)
-        self._lower, self._upper = np.full(size, -np.inf), np.full(size, np.inf)
+        self._lower, self._upper = np.full(size, -_ENDLESS), np.full(size, _ENDLESS)
         if self.group is not None:
             space = self.group.space
-            self._lower = np.where(space.continuous, -np.inf, space.lower - _LIMIT_TOLERANCE)
-            self._upper = np.where(space.continuous, np.inf, space.upper + _LIMIT_TOLERANCE)
+            self._lower = np.where(space.continuous, -_ENDLESS, space.lower - _LIMIT_TOLERANCE)
+            self._upper = np.where(space.continuous, _ENDLESS, space.upper + _LIMIT_TOLERANCE)
 
     def copy(self) -> CollisionChecker:
         """Return a checker of the same scene that another thread may use."""
@@ -136,4 +138,4 @@ class CollisionChecker:
         return tuple(self._contacts.constant()) if self._sweeper.has_constant_neighbours else ()
 
     def _is_within(self, q: FloatArray) -> bool:
-        return not ((q < self._lower) | (q > self._upper)).any()
+        return bool(((q >= self._lower) & (q <= self._upper)).all())

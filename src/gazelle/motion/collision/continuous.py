@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import lru_cache
@@ -36,6 +37,7 @@ IntArray = NDArray[np.int64]
 
 _UNLIMITED_M = 1e9
 _MOST_DOUBTS = 256
+_MOST_STEPS = 10_000
 _SCRATCH = (10, 4)
 
 
@@ -112,8 +114,16 @@ class Sweeper:
             the verdict, and the states that are in doubt, (m, n).
         """
         way = q1 - q0
-        verdict, parts = self._swept(q0, way, step)
-        return verdict, q0 + way * parts[:, None]
+        pieces = math.ceil(float(np.sqrt(way @ way)) / (_MOST_STEPS * step)) or 1
+        doubtful = [np.empty((0, len(q0)))]
+        for piece in range(pieces):
+            begin = q0 + way * (piece / pieces)
+            verdict, parts = self._swept(begin, way / pieces, step)
+            if verdict is Verdict.COLLIDES:
+                return verdict, doubtful[0]
+            doubtful.append(begin + way * (parts[:, None] / pieces))
+        states = np.concatenate(doubtful)
+        return Verdict.DOUBTFUL if len(states) else Verdict.FREE, states
 
     def _swept(self, q0: FloatArray, way: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
         q0 = np.ascontiguousarray(q0, dtype=np.float64)
