@@ -82,6 +82,8 @@ class Sweeper:
         self._constant_pairs = every[~moved]
         self._axes, self._order = np.zeros((len(self._pairs), 4)), np.arange(len(self._pairs))
         self._set_up(scene, frames)
+        # Compiled or loaded here, and not in the time that somebody has for planning.
+        self.state(self._positions[self._indices])
 
     def copy(self) -> Sweeper:
         """Return one of the same scene that another thread may use."""

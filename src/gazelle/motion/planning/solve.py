@@ -16,6 +16,7 @@ from gazelle.motion.planning.planners import Chosen, choose
 from gazelle.motion.planning.problem import GoalSource, Problem, Waypoints
 from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.planning.shortcut import shortcut
+from gazelle.motion.planning.tree import warm_up
 from gazelle.motion.planning.validation import (
     FINE_STEP,
     first_faulty_motion,
@@ -65,6 +66,7 @@ def plan(
         PlanningError: there is no path, with MoveIt's error code and why.
         ValueError: an array has the wrong size or is not finite.
     """
+    warm_up()
     began = time.perf_counter()
     settings = settings or PlannerSettings()
     narrow = _narrowed(space, constraints)

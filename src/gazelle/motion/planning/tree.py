@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
 from gazelle.motion.planning.tree_kernels import drawn, nearest
 from gazelle.motion.space import FloatArray, JointSpace
 
-__all__ = ["Tree"]
+__all__ = ["Tree", "warm_up"]
 
 _TURN = 2.0 * math.pi
+
+
+@cache
+def warm_up() -> None:
+    """Compile or load the kernels of trees, before the time that somebody has for planning."""
+    joint = JointSpace(("j",), *np.array([[0.0], [1.0]]), *np.zeros((4, 1)))
+    tree = Tree(joint, [np.zeros(1)])
+    tree.nearest(np.zeros(1))
+    tree.drawn(np.zeros((1, 1)))
 
 
 class Tree:
