@@ -193,3 +193,24 @@ def test_a_motion_of_many_turns_is_looked_at_piece_by_piece(robot: Make) -> None
     post = WorldObject.single("post", Sphere(0.1), Pose((0.0, 0.0, 0.5)))
     barred = CollisionChecker(PlanningScene.of(made).with_object(post), "g")
     assert not barred.motion_is_valid(np.zeros(1), np.array([600.0]), 0.05)
+
+
+def test_a_slide_beyond_its_limits_carries_what_is_behind_it_as_far(robot: Make) -> None:
+    """Nobody plans for the slide, and it stands 3 m out where 0.1 m is its limit."""
+    links = '<link name="base"/><link name="mast"/><link name="end"><collision><geometry>'
+    made = robot(
+        links + '<sphere radius="0.05"/></geometry></collision></link>'
+        '<joint name="turn" type="revolute"><parent link="base"/><child link="mast"/>'
+        '<axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>'
+        '<joint name="out" type="prismatic"><parent link="mast"/><child link="end"/>'
+        '<axis xyz="1 0 0"/><limit lower="0" upper="0.1" velocity="1" effort="1"/></joint>',
+        '<group name="g"><joint name="turn"/></group>',
+    )
+    # In the way after a quarter of the turn; the ends and the middle are far from it.
+    at = (3.0 * np.cos(0.75), 3.0 * np.sin(0.75), 0.0)
+    post = WorldObject.single("post", Sphere(0.05), Pose(at))
+    near = CollisionChecker(PlanningScene.of(made).with_object(post), "g")
+    assert near.motion_is_valid(np.zeros(1), np.array([3.0]), 0.01)
+    far = near.scene.with_positions({"out": 3.0})
+    for checker in (CollisionChecker(far, "g"), near.follow(far)):
+        assert not checker.motion_is_valid(np.zeros(1), np.array([3.0]), 0.01)

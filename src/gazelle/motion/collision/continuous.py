@@ -27,7 +27,7 @@ from gazelle.motion.collision.sweep_kernels import (
 from gazelle.motion.kinematics import link_poses
 from gazelle.motion.kinematics.chain import LinkTree, link_tree
 from gazelle.motion.kinematics.kernels import tree
-from gazelle.motion.model import JointGroup, JointKind, RobotJoint, RobotModel
+from gazelle.motion.model import JointGroup, JointKind, RobotJoint
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 
@@ -66,22 +66,21 @@ class Sweeper:
         robot = scene.robot
         self._group = group
         frames = _Frames(scene, group, bodies)
-        variables = robot.variables if group is None else group.variables
+        self._variables = variables = robot.variables if group is None else group.variables
         self._indices = np.array([robot.variables.index(name) for name in variables], np.int64)
         rules = robot.followers_of(variables)
         self._followers = np.array([rule[0] for rule in rules], np.int64)
         self._leaders = np.array([rule[1] for rule in rules], np.int64)
         self._rules = np.array([rule[2:] for rule in rules], np.float64).reshape(-1, 2)
         self._fill(frames, bodies)
-        reaches = _Reaches(robot, variables, bodies, frames.numbers)
-        self._motions = reaches.motions
+        reaches = _Reaches(scene, variables, bodies, frames.numbers)
         every = _pairs(scene, group, bodies)
         apart = reaches.apart(every)
         moved = apart.any(axis=1)
         self._pairs, self._apart = every[moved], apart[moved]
         self._constant_pairs = every[~moved]
         self._axes, self._order = np.zeros((len(self._pairs), 4)), np.arange(len(self._pairs))
-        self._set_up(scene, frames)
+        self._set_up(scene, frames, reaches)
         # Compiled or loaded here, and not in the time that somebody has for planning.
         self.state(self._positions[self._indices])
 
@@ -97,7 +96,8 @@ class Sweeper:
     def follow(self, scene: PlanningScene, bodies: Sequence[CollisionBody]) -> Sweeper:
         """Return one of a scene with the same things elsewhere."""
         other = self.copy()
-        other._set_up(scene, _Frames(scene, self._group, bodies))
+        frames = _Frames(scene, self._group, bodies)
+        other._set_up(scene, frames, _Reaches(scene, self._variables, bodies, frames.numbers))
         return other
 
     def state(self, q: FloatArray) -> Verdict:
@@ -145,7 +145,8 @@ class Sweeper:
             return Verdict.COLLIDES, self._doubts[:0]
         return Verdict.DOUBTFUL, self._doubts[: int(value)].copy()
 
-    def _set_up(self, scene: PlanningScene, frames: _Frames) -> None:
+    def _set_up(self, scene: PlanningScene, frames: _Frames, reaches: _Reaches) -> None:
+        self._motions = reaches.motions
         self._tree, self._R, self._p = frames.tree, frames.R, frames.p
         self._positions = np.array(scene.positions, dtype=np.float64)
         self._set_up_scratch()
@@ -294,12 +295,13 @@ class _Reaches:
 
     def __init__(
         self,
-        robot: RobotModel,
+        scene: PlanningScene,
         variables: Sequence[str],
         bodies: Sequence[CollisionBody],
         frames: Mapping[str, int],
     ) -> None:
-        self._robot = robot
+        self._robot = robot = scene.robot
+        self._positions = scene.positions
         self._places = {name: place for place, name in enumerate(variables)}
         self._joints = [
             joint
@@ -348,7 +350,7 @@ class _Reaches:
                 self._moves[number, place] = self._moved(joint, reach, turn)
             # From the next joint on, all of it is within a ball around this one.
             points = np.array([joint.T_parent_joint.position_m])
-            extra = np.array([reach + _travel_m(joint)])
+            extra = np.array([reach + self._travel_m(joint)])
             link = joint.parent
 
     def _moved(self, joint: RobotJoint, reach: float, turn: float) -> FloatArray:
@@ -368,21 +370,25 @@ class _Reaches:
             found[self._places[leader]] += abs(factor) * metres
         return found
 
+    def _travel_m(self, joint: RobotJoint) -> float:
+        """Return how far a joint's sliding carries what it moves at most."""
+        if joint.kind in {JointKind.PLANAR, JointKind.FLOATING}:
+            return _UNLIMITED_M
+        if joint.kind is not JointKind.SLIDING:
+            return 0.0
+        leader, factor, offset = self._robot.mimic_of(joint.variables[0])
+        if leader not in self._places:
+            # It stands where it is, within its limits or not.
+            return abs(float(self._positions[joint.first]))
+        limit = next(one for one in self._robot.joints if leader in one.variables).limits[0]
+        most = abs(factor) * max(abs(limit.lower), abs(limit.upper)) + abs(offset)
+        return min(most, _UNLIMITED_M)
+
 
 def _line(joint: RobotJoint) -> FloatArray:
     """Return a joint's axis and a point of it in the frame of the link it carries."""
     T_child_joint = joint.T_joint_child.inverse()
     return np.array([*T_child_joint.rotate(joint.axis), *T_child_joint.position_m])
-
-
-def _travel_m(joint: RobotJoint) -> float:
-    """Return how far a joint's sliding carries what it moves."""
-    if joint.kind in {JointKind.PLANAR, JointKind.FLOATING}:
-        return _UNLIMITED_M
-    if joint.kind is not JointKind.SLIDING:
-        return 0.0
-    limit = joint.limits[0]
-    return min(max(abs(limit.lower), abs(limit.upper)), _UNLIMITED_M)
 
 
 def _points(rows: ConvexRows) -> tuple[FloatArray, FloatArray]:

@@ -60,7 +60,7 @@ def rows_of(solids: Sequence[Solid], margin_m: float = 0.0) -> ConvexRows:
     made = [_row(solid, margin_m) for solid in solids]
     count = len(made)
     if count > 1 or len(made[0][2]) > _FEW:
-        made.insert(0, _around(solids, made, margin_m))
+        made.insert(0, _around(made, margin_m))
     first, kinds = 0, []
     for _, kind, corners in made:
         kinds.append((kind, 0, first, len(corners)))
@@ -117,7 +117,7 @@ def _hull_row(hull: _Hull, margin_m: float) -> tuple[FloatArray, int]:
 
 
 def _around(
-    solids: Sequence[Solid], made: list[tuple[FloatArray, int, FloatArray]], margin_m: float
+    made: list[tuple[FloatArray, int, FloatArray]], margin_m: float
 ) -> tuple[FloatArray, int, FloatArray]:
     """Return a hull around all; one of which nothing is known where a solid has no end."""
     corners = []
