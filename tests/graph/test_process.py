@@ -122,7 +122,8 @@ def test_stopped_subscriber_stalls_nobody_and_comes_back(
     eventually(lambda: publisher.matched)
     listener.send_signal(signal.SIGSTOP)
     message = publisher.message_class(data="x" * 1_000_000)
-    with at_most(5.0):
+    # A link that is full is waited for once, five seconds, and then given up.
+    with at_most(10.0):
         for _ in range(50):
             publisher.publish(message)
     listener.send_signal(signal.SIGCONT)

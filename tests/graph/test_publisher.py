@@ -340,3 +340,41 @@ def test_unregistering_while_another_thread_publishes_is_clean(
             thread.join(stretched(30))
     assert len(ended) == 40
     assert {type(error) for error in ended} == {GraphError}
+
+
+def test_what_was_published_last_arrives_before_its_process_has_left(
+    graph: Graph, other: Graph, eventually: Wait
+) -> None:
+    got: list[int] = []
+
+    def take(raw: RawMessage) -> None:
+        threading.Event().wait(0.002)
+        got.append(len(raw.data))
+
+    graph.create_node("slow").create_subscription("chatter", None, take, raw=True, inline=True)
+    publisher = other.create_node("talker").create_publisher("chatter", String)
+    eventually(lambda: publisher.matched)
+    for _ in range(100):
+        publisher.publish(String(data="x" * 20_000))
+    other.close()
+    assert len(got) == 100
+
+
+def test_a_subscriber_that_stands_still_does_not_keep_others_from_leaving(
+    graph: Graph, other: Graph, eventually: Wait, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gazelle.graph.graph._LAST_MESSAGES_S", 0.2)
+    goes_on, stands = threading.Event(), threading.Event()
+
+    def take(raw: RawMessage) -> None:
+        stands.set()
+        goes_on.wait()
+
+    graph.create_node("stands").create_subscription("chatter", None, take, raw=True, inline=True)
+    publisher = other.create_node("talker").create_publisher("chatter", String)
+    eventually(lambda: publisher.matched)
+    publisher.publish(String(data="x"))
+    eventually(stands.is_set)
+    other.close()
+    assert not goes_on.is_set()
+    goes_on.set()

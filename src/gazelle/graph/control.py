@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
@@ -16,7 +16,7 @@ from gazelle.graph.requests import answer_in, read_query, reply_to
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["Control", "ask_process", "shut_down_node"]
+__all__ = ["Control", "ask_process", "shut_down_node", "wait_for_processes"]
 
 _ASK_S = 2.0
 _KINDS: dict[str, Any] = {"op": str, "node": str, "reason": str, "since_ns": (int, type(None))}
@@ -51,7 +51,7 @@ class Control:
         self._queryable: Any = session.declare_queryable(self._key, callback)
 
     def close(self) -> None:
-        """Answer no more."""
+        """Answer no more; whoever waits for an answer is let go."""
         self._queryable.undeclare()
         self._mailbox.close()
 
@@ -77,6 +77,26 @@ def ask_process(session: zenoh.Session, domain: int, zid: str) -> tuple[int, str
     """Return process number and host of a session, (0, "") when it does not answer."""
     answer = _ask(session, domain, zid, {"op": "info"})
     return int(answer.get("pid", 0)), str(answer.get("host", ""))
+
+
+def wait_for_processes(
+    session: zenoh.Session, domain: int, zids: Iterable[str], within_s: float
+) -> None:
+    """Wait until processes have what they were sent: a question comes after it on the same way.
+
+    Args:
+        session: of this process.
+        domain: of the graph.
+        zids: the processes, asked all at once; those that are gone are not waited for.
+        within_s: to wait at most, in the time of the wall.
+    """
+    asked = [
+        session.get(control_key(domain, zid), payload=to_json({"op": "info"}), timeout=within_s)
+        for zid in zids
+    ]
+    for replies in asked:
+        for _ in replies:
+            pass
 
 
 def shut_down_node(

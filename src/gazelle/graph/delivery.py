@@ -87,10 +87,13 @@ class Mailbox:
         self._items.put(item)
 
     def close(self, timeout_s: float = 0.0) -> None:
-        """Handle nothing more; wait for the item at work if there is time for it."""
+        """Handle nothing more, let go of what waits, and give the item at work some time."""
         with self._lock:
             self._closed = True
             thread = self._thread
+        with suppress(Empty):
+            while True:
+                self._items.get_nowait()
         self._items.put(_STOP)
         if thread is not None and timeout_s and thread is not threading.current_thread():
             thread.join(timeout_s)

@@ -6,7 +6,9 @@ import atexit
 import itertools
 import os
 import threading
+import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from gazelle.diagnostics import nearest_names
@@ -18,7 +20,7 @@ from gazelle.graph.clock import Clock
 from gazelle.graph.closing import close_session
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
-from gazelle.graph.control import Control, ask_process, shut_down_node
+from gazelle.graph.control import Control, ask_process, shut_down_node, wait_for_processes
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.hub import HubKeeper
@@ -45,6 +47,8 @@ Role = Literal["auto", "hub", "client"]
 # A hub that is there answers at once, but on a machine with much to do it has to wait its turn.
 _HUB_S = 10.0
 _LAST_CALLS_S = 1.0
+# As long as a reliable message waits for a link; those before it are there or lost.
+_LAST_MESSAGES_S = 5.0
 _USE_SIM_TIME = "/use_sim_time"
 
 
@@ -329,6 +333,7 @@ class Graph:
         self.clock.close()
         for node in self.nodes:
             node.shutdown("graph closed")
+        self._deliver_last()
         if self in Graph._open:
             Graph._open.remove(self)
         self._discovery.close()
@@ -350,6 +355,20 @@ class Graph:
             self.parameters.on_change(self._on_parameter)
         Graph._open.append(self)
         atexit.register(self.close)
+
+    def _deliver_last(self) -> None:
+        """Wait for the subscribers of what was sent last: what waits in a link ends with it."""
+        import zenoh
+
+        topics = self.local.sent_since(time.monotonic() - _LAST_MESSAGES_S)
+        entities = self._discovery.known() if topics else ()
+        zids = {
+            one.zid
+            for one in entities
+            if one.kind is Kind.SUBSCRIPTION and one.name in topics and one.zid != self.zid
+        }
+        with suppress(zenoh.ZError):
+            wait_for_processes(self.session, self.domain, zids, _LAST_MESSAGES_S)
 
     def _on_parameter(self, name: str) -> None:
         if name in ("/", _USE_SIM_TIME):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from typing import TYPE_CHECKING
 
@@ -20,9 +21,10 @@ class LocalTopic:
         transport: held while one of the publishers uses the transport.
         publishers: of this process.
         subscriptions: of this process.
+        sent_s: when a reliable message last went to other processes, by `time.monotonic`.
     """
 
-    __slots__ = ("lock", "publishers", "subscriptions", "transport")
+    __slots__ = ("lock", "publishers", "sent_s", "subscriptions", "transport")
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
@@ -33,6 +35,7 @@ class LocalTopic:
         self.transport = threading.Lock()
         self.publishers: tuple[Publisher, ...] = ()
         self.subscriptions: tuple[Subscription, ...] = ()
+        self.sent_s = -math.inf
 
     def add_publisher(self, publisher: Publisher) -> None:
         """Add a publisher."""
@@ -69,3 +72,10 @@ class LocalTopics:
         """Return the topic, made when it is new."""
         with self._lock:
             return self._topics.setdefault(name, LocalTopic())
+
+    def sent_since(self, monotonic_s: float) -> frozenset[str]:
+        """Return the topics of which reliable messages went to other processes since then."""
+        with self._lock:
+            return frozenset(
+                name for name, topic in self._topics.items() if topic.sent_s >= monotonic_s
+            )

@@ -52,6 +52,7 @@ class Publisher:
         self._copy_local = copy_local
         self._is_mute = is_mute
         self._closed = is_mute()
+        self._reliable = reliable
         self._last: Any = None
         self._latching = threading.RLock()
         self._sequence = 0
@@ -179,6 +180,8 @@ class Publisher:
         with self._transport:
             if not self._closed:
                 self._sender.put(payload, attachment=attachment)
+                if self._reliable:
+                    self._local.sent_s = time.monotonic()
 
     def _attachment(self) -> Attachment:
         return Attachment(self._sequence, time.time_ns(), self.gid)
