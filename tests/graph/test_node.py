@@ -17,6 +17,7 @@ from gazelle.graph import (
     offer_loggers,
 )
 from gazelle.graph import node as node_module
+from gazelle.graph.control import ask_process, shut_down_node
 from gazelle.interfaces import (
     message_type,
     ros1_message_type,
@@ -80,6 +81,18 @@ def test_older_node_that_is_heard_of_late_ends_too(
     other._namesakes._on_entity(older.entity, True)
     assert inbox.wait_for(1) == ["new node registered with same name"]
     assert not newer.closed
+
+
+def test_nobody_is_asked_to_make_way_any_more_once_the_graph_is_left(
+    graph: Graph, other: Graph
+) -> None:
+    """The thread that asks may be late."""
+    older = graph.create_node("n")
+    other.close()
+    session, zid = other.session, graph.zid
+    assert not shut_down_node(session, other.domain, zid, "/n", "reason")
+    assert ask_process(session, other.domain, zid) == (0, "")
+    assert not older.closed
 
 
 def test_younger_node_does_not_make_way(graph: Graph, other: Graph) -> None:

@@ -112,3 +112,10 @@ def test_who_left_the_graph_waits_for_nobody(graph: Graph, join: Callable[..., G
     assert client.parameters.settle(60.0)
     client.close()
     assert not client.parameters.settle(60.0)
+
+
+def test_a_parameter_that_is_asked_for_after_the_end_says_so(graph: Graph, other: Graph) -> None:
+    graph.parameters.set("/p", 1)
+    other.close()
+    with pytest.raises(GraphError, match="the graph is closed"):
+        other.parameters.get("/p")

@@ -123,8 +123,15 @@ def shut_down_node(
 
 
 def _ask(session: zenoh.Session, domain: int, zid: str, request: dict[str, Any]) -> dict[str, Any]:
+    import zenoh
+
     key = control_key(domain, zid)
-    for reply in session.get(key, payload=to_json(request), timeout=_ASK_S):
+    try:
+        replies = session.get(key, payload=to_json(request), timeout=_ASK_S)
+    except zenoh.ZError:
+        # The graph was left meanwhile: a thread may ask that was begun before.
+        return {}
+    for reply in replies:
         answer = answer_in(reply)
         if answer is not None:
             return answer

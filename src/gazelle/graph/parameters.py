@@ -167,11 +167,17 @@ class ParameterShare:
         may have much to do; without one, another process takes it over within a second, or this
         one as soon as it can.
         """
+        import zenoh
+
         payload = to_json(request)
         longest = time.monotonic() + _SLOW_OWNER_S
         deadline = time.monotonic() + self._no_owner_s
         while True:
-            for reply in self._session.get(self._key, payload=payload, timeout=_ASK_S):
+            try:
+                replies = self._session.get(self._key, payload=payload, timeout=_ASK_S)
+            except zenoh.ZError as error:
+                raise GraphError("the graph is closed") from error
+            for reply in replies:
                 answer = answer_in(reply)
                 if answer is not None:
                     self._apply_own(request, answer)

@@ -13,12 +13,19 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["BoolArray", "FloatArray", "JointSpace", "Validity"]
+__all__ = [
+    "BoolArray",
+    "FloatArray",
+    "JointSpace",
+    "SweptMotions",
+    "SweptValidity",
+    "Validity",
+]
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -47,6 +54,29 @@ class Validity(Protocol):
 
         Returns an empty string where nothing does.
         """
+        ...
+
+
+class SweptMotions(NamedTuple):
+    """What a kernel needs to check motions itself, as `collision.sweep_kernels.sweep` does.
+
+    Attributes:
+        lower: (n,) least that is allowed.
+        upper: (n,) most that is allowed.
+        bounds: arguments of `sweep` from the fourth on.
+    """
+
+    lower: FloatArray
+    upper: FloatArray
+    bounds: tuple[NDArray[Any], ...]
+
+
+@runtime_checkable
+class SweptValidity(Validity, Protocol):
+    """A `Validity` that lets kernels check motions."""
+
+    def swept_motions(self) -> SweptMotions | None:
+        """Return what kernels need, None where only this object can tell."""
         ...
 
 

@@ -14,7 +14,7 @@ from gazelle.motion.collision.contacts import CollisionContact, SceneContacts
 from gazelle.motion.collision.continuous import Sweeper, Verdict
 from gazelle.motion.model import JointGroup
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
+from gazelle.motion.space import FloatArray, SweptMotions
 
 __all__ = ["CollisionChecker"]
 
@@ -106,6 +106,12 @@ class CollisionChecker:
         if verdict is Verdict.DOUBTFUL:
             return not any(self._contacts.touches(q) for q in doubtful)
         return verdict is Verdict.FREE
+
+    def swept_motions(self) -> SweptMotions | None:
+        """Return what kernels need to check motions, None where something overlaps for good."""
+        if self._constant:
+            return None
+        return SweptMotions(self._lower, self._upper, self._sweeper.bounds)
 
     def why(self, q: FloatArray) -> str:
         """Return what forbids `q`: joints outside their limits, pairs that collide."""

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,6 +100,16 @@ class Sweeper:
         other._set_up(scene, frames, _Reaches(scene, self._variables, bodies, frames.numbers))
         return other
 
+    @property
+    def bounds(self) -> tuple[NDArray[Any], ...]:
+        """The arguments of `sweep_kernels.sweep` from the fourth on; it writes to some."""
+        return (
+            *self._tree,
+            self._positions, self._indices, self._followers, self._leaders, self._rules,
+            self._members, self._pairs, *self._motions, self._apart, self._solids, self._kinds,
+            self._vertices, self._axes, self._order, self._R, self._p, self._work, self._doubts,
+        )  # fmt: skip
+
     def state(self, q: FloatArray) -> Verdict:
         """Return what is known of a state."""
         return self._swept(q, np.zeros(len(q)), 1.0)[0]
@@ -130,12 +140,7 @@ class Sweeper:
     def _swept(self, q0: FloatArray, way: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
         q0 = np.ascontiguousarray(q0, dtype=np.float64)
         while True:
-            found, value = sweep(
-                q0, way, step, *self._tree,
-                self._positions, self._indices, self._followers, self._leaders, self._rules,
-                self._members, self._pairs, *self._motions, self._apart, self._solids, self._kinds,
-                self._vertices, self._axes, self._order, self._R, self._p, self._work, self._doubts,
-            )  # fmt: skip
+            found, value = sweep(q0, way, step, *self.bounds)
             if found != TOO_LONG:
                 break
             self._doubts = np.empty(2 * len(self._doubts))
@@ -183,9 +188,9 @@ class Sweeper:
             tree(*self._tree, self._positions, self._R, self._p)
         axes = np.zeros((len(pairs), 4))
         for number in range(len(pairs)):
-            state, _ = pair_clear(
+            state, _, _ = pair_clear(
                 number, pairs, self._members, self._solids, self._kinds, self._vertices,
-                self._R, self._p, 0.0, axes, self._work,
+                self._R, self._p, 0.0, 0, np.full(24, np.inf), axes, self._work,
             )  # fmt: skip
             if state != APART:
                 return True
@@ -284,6 +289,7 @@ class _Motions(NamedTuple):
     lines: FloatArray
     turns: FloatArray
     moves: FloatArray
+    above: NDArray[np.bool_]
 
 
 class _Reaches:
@@ -325,10 +331,9 @@ class _Reaches:
                 np.int64,
             ),
             np.array([_line(joint) for joint in self._joints]).reshape(-1, 6),
-            np.array([self._moved(joint, 1.0, 1.0) for joint in self._joints]).reshape(
-                -1, len(variables)
-            ),
+            np.array([self._turned(joint) for joint in self._joints]).reshape(-1, len(variables)),
             self._moves,
+            self._above,
         )
 
     def apart(self, pairs: IntArray) -> NDArray[np.bool_]:
@@ -352,6 +357,14 @@ class _Reaches:
             points = np.array([joint.T_parent_joint.position_m])
             extra = np.array([reach + self._travel_m(joint)])
             link = joint.parent
+
+    def _turned(self, joint: RobotJoint) -> FloatArray:
+        """Return how far a joint turns when a variable changes by one; 0 where it does not turn."""
+        found = np.zeros(len(self._places))
+        leader, factor, _ = self._robot.mimic_of(joint.variables[0])
+        if joint.kind is JointKind.TURNING and leader in self._places:
+            found[self._places[leader]] = factor
+        return found
 
     def _moved(self, joint: RobotJoint, reach: float, turn: float) -> FloatArray:
         found = np.zeros(len(self._places))

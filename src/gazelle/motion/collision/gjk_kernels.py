@@ -294,7 +294,7 @@ def _nearest(W, count, v, weights, best):
 
 
 @njit(cache=True, nogil=True)
-def separation(one, other, solids, kinds, vertices, R, p, enough, axis, work):
+def separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, work):
     """Say how two solids lie to each other.
 
     Args:
@@ -306,6 +306,7 @@ def separation(one, other, solids, kinds, vertices, R, p, enough, axis, work):
         R: rotations of the frames.
         p: positions of the frames.
         enough: distance in metres that is asked for.
+        least: where they are not further apart than this it does not matter how far.
         axis: unit vector from the other to the one to begin with; the best one when it returns.
         work: scratch of (9, 4).
 
@@ -374,7 +375,7 @@ def separation(one, other, solids, kinds, vertices, R, p, enough, axis, work):
             last = length
             if length <= rounding - _DEEP_M:
                 return OVERLAP, length - rounding
-            if clear > 0.0 and length - rounding - slack <= enough:
+            if clear > 0.0 and length - rounding - slack <= least:
                 return APART, clear
             x, y, z = v[0] / length, v[1] / length, v[2] / length
         if clear > 0.0:

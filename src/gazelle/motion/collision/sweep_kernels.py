@@ -24,6 +24,14 @@ __all__ = ["COLLIDES", "FREE", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
 
 FREE, COLLIDES, UNDECIDED, TOO_LONG = 0, 1, 2, 3
 
+_NEVER_M = 1e300
+_ONLY_A_LOOK = -1.0
+# Of so many pairs of solids on the way of so short a piece all are looked at, the exact ones.
+_FEW = 64
+_SHORT = 0.05
+_LOOK_EVERY = 0.4
+_MOST_LOOKS = 63
+
 
 @njit(cache=True, nogil=True)
 def _ball(number, solids, kinds, R, p, out, at):
@@ -35,18 +43,22 @@ def _ball(number, solids, kinds, R, p, out, at):
 
 
 @njit(cache=True, nogil=True)
-def _clear(one, other, solids, kinds, vertices, R, p, enough, axis, work):
-    """Return `separation` of two solids, their balls looked at first."""
+def _clear(one, other, solids, kinds, vertices, R, p, enough, passing, axis, work):
+    """Return `separation` of two solids, their balls looked at first, and whether it is enough."""
     _ball(one, solids, kinds, R, p, work, 0)
     _ball(other, solids, kinds, R, p, work, 1)
     square = 0.0
     for k in range(3):
         work[2, k] = work[0, k] - work[1, k]
         square += work[2, k] * work[2, k]
+        # How far the solids' centres are from those of the links or things they are of.
+        passing[18 + k] = work[0, k] - passing[12 + k]
+        passing[21 + k] = work[1, k] - passing[15 + k]
+    passing[7], passing[11] = solids[one, 20], solids[other, 20]
     gap = math.sqrt(square)
     clear = gap - solids[one, 20] - solids[other, 20]
     if clear > enough:
-        return APART, clear
+        return APART, clear, True
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
         if gap > 1e-9:
             for k in range(3):
@@ -55,33 +67,64 @@ def _clear(one, other, solids, kinds, vertices, R, p, enough, axis, work):
             axis[0] = 1.0
     else:
         clear = slab_m(one, other, solids, kinds, vertices, R, p, axis)
-        if clear > enough:
-            return APART, clear
-    return separation(one, other, solids, kinds, vertices, R, p, enough, axis, work)
+        if _is_enough(clear, enough, passing, axis):
+            return APART, clear, True
+    least = min(enough, passing[0])
+    state, clear = separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, work)
+    return state, clear, state == APART and _is_enough(clear, enough, passing, axis)
 
 
 @njit(cache=True, nogil=True)
-def _boxes(members, solids, kinds, R, p, centres, halves):
-    """Write boxes around links and things whose sides are along the robot's axes."""
-    for body in range(len(members)):
-        number = members[body, 0]
-        frame = kinds[number, 1]
-        for k in range(3):
-            x, y, z = R[frame, k, 0], R[frame, k, 1], R[frame, k, 2]
-            centres[body, k] = (
-                x * solids[number, 17] + y * solids[number, 18] + z * solids[number, 19]
-            ) + p[frame, k]
-            halves[body, k] = (abs(x) * solids[number, 21] + abs(y) * solids[number, 22]) + abs(
-                z
-            ) * solids[number, 23]
+def _is_enough(clear, enough, passing, axis):
+    """Tell whether two solids are so far apart across `axis` that they do not meet.
+
+    They may come closer by `enough` in any direction; across this one less, see `_pass`.
+    """
+    if clear > enough:
+        return True
+    if clear <= passing[0]:
+        return False
+    x, y, z = axis[0], axis[1], axis[2]
+    along = x * passing[1] + y * passing[2] + z * passing[3]
+    around = 0.0
+    for at in (4, 8):
+        u, v, w = passing[at], passing[at + 1], passing[at + 2]
+        a, b, c = y * w - z * v, z * u - x * w, x * v - y * u
+        across = math.sqrt(a * a + b * b + c * c)
+        # A floor has no end, and it does not turn.
+        if across > 0.0:
+            around += across * passing[at + 3]
+            off = 18 if at == 4 else 21
+            part = a * passing[off] + b * passing[off + 1] + c * passing[off + 2]
+            along += part if at == 4 else -part
+    return clear > abs(along) + around + passing[0]
 
 
 @njit(cache=True, nogil=True)
-def pair_clear(pair, pairs, members, solids, kinds, vertices, R, p, enough, axes, work):
+def _box(body, members, solids, kinds, R, p, centres, halves):
+    """Write the box around a link or thing whose sides are along the robot's axes."""
+    number = members[body, 0]
+    frame = kinds[number, 1]
+    for k in range(3):
+        x, y, z = R[frame, k, 0], R[frame, k, 1], R[frame, k, 2]
+        centres[body, k] = (
+            x * solids[number, 17] + y * solids[number, 18] + z * solids[number, 19]
+        ) + p[frame, k]
+        halves[body, k] = (abs(x) * solids[number, 21] + abs(y) * solids[number, 22]) + abs(
+            z
+        ) * solids[number, 23]
+
+
+@njit(cache=True, nogil=True)
+def pair_clear(
+    pair, pairs, members, solids, kinds, vertices, R, p, enough, few, passing, axes, work
+):
     """Say how two links or things lie to each other, with the distance that is certain.
 
-    Of several solids the one around all is looked at first, and no other where it is apart: how
-    far exactly is seen in the halves of a motion sooner than in its many solids.
+    Says, too, whether that is enough, see `_is_enough`.
+
+    Of several solids the one around all is looked at first, and no other where that is apart and
+    there are more than `few`: how far exactly is seen in the halves of a motion sooner.
     """
     a, b = pairs[pair, 0], pairs[pair, 1]
     first, last = members[a, 1], members[a, 1] + members[a, 2]
@@ -92,33 +135,50 @@ def pair_clear(pair, pairs, members, solids, kinds, vertices, R, p, enough, axes
     x, y, z = axes[pair, 0], axes[pair, 1], axes[pair, 2]
     for k in range(3):
         work[9, k] = R[frame, k, 0] * x + R[frame, k, 1] * y + R[frame, k, 2] * z
-    state, clear = _clear(around, about, solids, kinds, vertices, R, p, enough, work[9], work)
+    state, clear, is_enough = _clear(
+        around, about, solids, kinds, vertices, R, p, enough, passing, work[9], work
+    )
     x, y, z = work[9, 0], work[9, 1], work[9, 2]
     for k in range(3):
         axes[pair, k] = R[frame, 0, k] * x + R[frame, 1, k] * y + R[frame, 2, k] * z
-    if state == APART or (around == first and about == begin):
-        return state, clear
+    are_many = (last - first) * (end - begin) > few
+    if is_enough or (state == APART and are_many) or (around == first and about == begin):
+        return state, clear, is_enough
     if end - begin > last - first:
         first, last, begin, end, about = begin, end, first, last, around
-    least, worst = 1e300, APART
+        _swap(passing)
+    least, worst, are_enough = 1e300, APART, True
     for i in range(first, last):
         _forget(work)
-        state, clear = _clear(i, about, solids, kinds, vertices, R, p, enough, work[9], work)
-        if state == APART and clear > enough:
+        state, clear, is_enough = _clear(
+            i, about, solids, kinds, vertices, R, p, enough, passing, work[9], work
+        )
+        if is_enough:
             least = min(least, clear)
             continue
         for j in range(begin, end):
             _forget(work)
-            state, clear = _clear(i, j, solids, kinds, vertices, R, p, enough, work[9], work)
+            state, clear, is_enough = _clear(
+                i, j, solids, kinds, vertices, R, p, enough, passing, work[9], work
+            )
             if state == OVERLAP:
-                return OVERLAP, clear
+                return OVERLAP, clear, False
             least = min(least, clear)
-            if clear <= enough:
+            if not is_enough:
                 # No more than this can be shown: whether any two overlap is all that is left.
-                enough = 0.0
+                are_enough, enough, passing[0] = False, 0.0, _NEVER_M
             if state != APART:
                 worst = state
-    return worst, least
+    return worst, least, are_enough
+
+
+@njit(cache=True, nogil=True)
+def _swap(passing):
+    """Let the first be the second, and the other way round."""
+    for k in range(3):
+        passing[1 + k] = -passing[1 + k]
+        passing[4 + k], passing[8 + k] = passing[8 + k], passing[4 + k]
+        passing[12 + k], passing[15 + k] = passing[15 + k], passing[12 + k]
 
 
 @njit(cache=True, nogil=True)
@@ -127,15 +187,15 @@ def _forget(work):
 
 
 @njit(cache=True, nogil=True)
-def _carried(way, moves, motions, rates, below):
+def _carried(way, moves, turns, rates, below):
     """Write how far each joint turns on a way, rad, and how far it carries each link or thing.
 
-    Both are bounds; beside the second stands how far the joints behind it carry the same, m.
+    The second is a bound; beside it stands how far the joints behind it carry the same, m.
     """
     for j in range(moves.shape[1]):
         rates[j] = 0.0
         for k in range(len(way)):
-            rates[j] += abs(way[k]) * motions[j, k]
+            rates[j] += way[k] * turns[j, k]
     for body in range(moves.shape[0]):
         behind = 0.0
         for j in range(moves.shape[1] - 1, -1, -1):
@@ -147,30 +207,83 @@ def _carried(way, moves, motions, rates, below):
 
 
 @njit(cache=True, nogil=True)
-def _carried_from(half, joints, joint_lines, rates, below, members, solids, R, p, centres, out):
-    """Write how far each joint carries each link or thing from where it is, m.
+def _axes(joints, joint_lines, R, p, lines):
+    """Write the axis of each joint that turns, and a point of it."""
+    for j in range(len(joints)):
+        link = joints[j]
+        if link < 0:
+            continue
+        for k in range(3):
+            lines[j, k] = _along(R, link, k, joint_lines, j, 0)
+            lines[j, 3 + k] = _along(R, link, k, joint_lines, j, 3) + p[link, k]
+
+
+@njit(cache=True, nogil=True)
+def _carried_from(body, half, joints, lines, rates, below, members, solids, centres, out):
+    """Write how far each joint carries a link or thing from where it is, m.
 
     A joint that turns carries no point further than the point is away from its axis: how far that
     is now, and how much further the joints behind it can carry it.
     """
     for j in range(len(joints)):
-        link = joints[j]
-        x, y, z, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        if link >= 0:
-            x = _along(R, link, 0, joint_lines, j, 0)
-            y = _along(R, link, 1, joint_lines, j, 0)
-            z = _along(R, link, 2, joint_lines, j, 0)
-            u = _along(R, link, 0, joint_lines, j, 3) + p[link, 0]
-            v = _along(R, link, 1, joint_lines, j, 3) + p[link, 1]
-            w = _along(R, link, 2, joint_lines, j, 3) + p[link, 2]
-        for body in range(len(members)):
-            most = half * below[body, j, 0]
-            if link >= 0 and most > 0.0:
-                a, b, c = centres[body, 0] - u, centres[body, 1] - v, centres[body, 2] - w
-                k, m, n = y * c - z * b, z * a - x * c, x * b - y * a
-                away = math.sqrt(k * k + m * m + n * n) + solids[members[body, 0], 20]
-                most = min(most, half * rates[j] * (away + half * below[body, j, 1]))
-            out[body, j] = most
+        most = half * below[body, j, 0]
+        if joints[j] >= 0 and most > 0.0:
+            x, y, z = lines[j, 0], lines[j, 1], lines[j, 2]
+            a = centres[body, 0] - lines[j, 3]
+            b = centres[body, 1] - lines[j, 4]
+            c = centres[body, 2] - lines[j, 5]
+            k, m, n = y * c - z * b, z * a - x * c, x * b - y * a
+            away = math.sqrt(k * k + m * m + n * n) + solids[members[body, 0], 20]
+            most = min(most, half * abs(rates[j]) * (away + half * below[body, j, 1]))
+        out[body, j] = most
+
+
+@njit(cache=True, nogil=True)
+def _pass(
+    pair, one, other, half, apart, above, joints, rates, lines, carried, centres, out
+):  # fmt: skip
+    """Write how two links or things pass each other while joints turn.
+
+    Across one direction two come closer by what the speed of now has there, and by what that speed
+    can change: no point of a link is accelerated by more than, for each joint, how fast the joint
+    carries it, times how fast that joint and twice those before it turn. All is seen from the
+    last link that both hang from.
+
+    Writes what the change of speed does, m, `_NEVER_M` where it is not known; the way of one centre
+    from the other, m; the turns of both, rad, with a place for how far points are from the centre;
+    where the centres are, and places for those of solids.
+    """
+    out[0] = _NEVER_M
+    for k in range(1, 12):
+        out[k] = 0.0
+    for k in range(3):
+        out[12 + k], out[15 + k] = centres[one, k], centres[other, k]
+    changed, turned_one, turned_other = 0.0, 0.0, 0.0
+    for j in range(len(joints)):
+        if not apart[pair, j]:
+            continue
+        if joints[j] < 0:
+            return
+        body = one if above[one, j] else other
+        turn = half * rates[j]
+        x, y, z = turn * lines[j, 0], turn * lines[j, 1], turn * lines[j, 2]
+        a = centres[body, 0] - lines[j, 3]
+        b = centres[body, 1] - lines[j, 4]
+        c = centres[body, 2] - lines[j, 5]
+        sign, at = (1.0, 4) if body == one else (-1.0, 8)
+        out[1] += sign * (y * c - z * b)
+        out[2] += sign * (z * a - x * c)
+        out[3] += sign * (x * b - y * a)
+        out[at] += x
+        out[at + 1] += y
+        out[at + 2] += z
+        before = turned_one if body == one else turned_other
+        changed += carried[body, j] * (abs(turn) + 2.0 * before)
+        if body == one:
+            turned_one += abs(turn)
+        else:
+            turned_other += abs(turn)
+    out[0] = changed / 2.0
 
 
 @njit(cache=True, nogil=True)
@@ -193,10 +306,19 @@ def _to_the_front(pair, order):
 
 
 @njit(cache=True, nogil=True)
+def _first_looks(length):
+    """Return at how many states to look first: most motions that are not free show it there."""
+    looks = 0
+    while looks < _MOST_LOOKS and length > _LOOK_EVERY * (looks + 1):
+        looks = 2 * looks + 1
+    return looks
+
+
+@njit(cache=True, nogil=True)
 def sweep(
     q0, way, step, parents, A, a, joint_kinds, joint_axes, places, B, b,
     positions, indices, followers, leaders, rules,
-    members, pairs, joints, joint_lines, motions, moves, apart,
+    members, pairs, joints, joint_lines, turns, moves, above, apart,
     solids, kinds, vertices, axes, order, R, p, work, unsure,
 ):  # fmt: skip
     """Say whether a motion from `q0` along `way` is free; its beginning is not looked at.
@@ -224,8 +346,9 @@ def sweep(
         pairs: numbers of links or things that must not touch.
         joints: number of the frame each joint moves with, -1 where it does not turn.
         joint_lines: axis and a point of it in that frame.
-        motions: (j, n) how far each turns for one rad of a variable.
+        turns: (j, n) how far each turns for one rad of a variable.
         moves: (bodies, j, n) how far a joint carries a link or thing at most, m, for one rad or m.
+        above: (bodies, j) whether it moves it.
         apart: (pairs, j) whether a joint moves one of both, and not both.
         solids: of all links and things, see `convex_rows.ConvexRows`.
         kinds: likewise.
@@ -245,37 +368,44 @@ def sweep(
     for k in range(n):
         length += way[k] * way[k]
     length = math.sqrt(length)
-    bodies, turns = moves.shape[0], moves.shape[1]
-    rates, below = np.empty(turns), np.empty((bodies, turns, 2))
-    carried = np.zeros((bodies, turns))
+    bodies, moving = moves.shape[0], moves.shape[1]
+    rates, below, lines = np.empty(moving), np.empty((bodies, moving, 2)), np.empty((moving, 6))
+    carried, passing = np.zeros((bodies, moving)), np.zeros(24)
     if length > 0.0:
-        _carried(way, moves, motions, rates, below)
-    most = 4 * int(length / step) + 16
+        _carried(way, moves, turns, rates, below)
+    first_looks = _first_looks(length)
+    most = 4 * int(length / step) + 16 + first_looks
     middles, halves = np.empty(most), np.empty(most)
     begins, ends = np.empty(most, np.int64), np.empty(most, np.int64)
-    lists = np.empty(max(64 * most, 4 * count), np.int64)
+    lists = np.empty(4 * count + 4096, np.int64)
+    seen = np.full(len(members), -1)
     box_centres, box_halves = np.empty((len(members), 3)), np.empty((len(members), 3))
     for i in range(count):
         lists[i] = order[i]
-    # The middle of all, the end, then the middles of both halves, and so on.
-    middles[0], halves[0], begins[0], ends[0] = 0.5, 0.5, 0, count
-    if length == 0.0:
-        middles[0], halves[0] = 1.0, 0.0
-    here, waiting, used, doubts = 0, 1, count, 0
+    # The end; some states, whether any two overlap there; then the middle of all, the middles of
+    # both halves, and so on, and whatever is near there.
+    for i in range(first_looks + 2):
+        begins[i], ends[i] = 0, count
+        halves[i] = _ONLY_A_LOOK
+    middles[0], halves[0] = 1.0, 0.0
+    for i in range(1, first_looks + 1):
+        part = 1
+        while 2 * part <= i:
+            part *= 2
+        middles[i] = (2 * (i - part) + 1) / (2.0 * part)
+    middles[first_looks + 1], halves[first_looks + 1] = 0.5, 0.5
+    here, waiting, used, doubts = 0, first_looks + 2 if length > 0.0 else 1, count, 0
     while here < waiting:
         t, half = middles[here], halves[here]
         is_leaf = 2.0 * half * length <= step
+        few = _FEW if 2.0 * half * length <= _SHORT else 0
         for k in range(n):
             positions[indices[k]] = q0[k] + way[k] * t
         for k in range(len(followers)):
             positions[followers[k]] = rules[k, 0] * positions[indices[leaders[k]]] + rules[k, 1]
         tree(parents, A, a, joint_kinds, joint_axes, places, B, b, positions, R, p)
-        _boxes(members, solids, kinds, R, p, box_centres, box_halves)
         if not is_leaf:
-            _carried_from(
-                half, joints, joint_lines, rates, below, members, solids, R, p, box_centres,
-                carried,
-            )  # fmt: skip
+            _axes(joints, joint_lines, R, p, lines)
         kept, is_sure = used, True
         if used + ends[here] - begins[here] > len(lists):
             longer = np.empty(2 * len(lists) + count, np.int64)
@@ -284,9 +414,19 @@ def sweep(
         for place in range(begins[here], ends[here]):
             pair = lists[place]
             one, other = pairs[pair, 0], pairs[pair, 1]
+            for body in (one, other):
+                # Of a deep half few pairs are left, and most links are in none of them.
+                if seen[body] != here:
+                    seen[body] = here
+                    _box(body, members, solids, kinds, R, p, box_centres, box_halves)
+                    if not is_leaf:
+                        _carried_from(
+                            body, half, joints, lines, rates, below, members, solids, box_centres,
+                            carried,
+                        )  # fmt: skip
             enough = 0.0
             if not is_leaf:
-                for k in range(turns):
+                for k in range(moving):
                     if apart[pair, k]:
                         enough += carried[one, k] + carried[other, k]
             is_far = False
@@ -296,13 +436,20 @@ def sweep(
                 is_far = is_far or gap > enough
             if is_far:
                 continue
-            state, clear = pair_clear(
-                pair, pairs, members, solids, kinds, vertices, R, p, enough, axes, work
+            passing[0] = _NEVER_M
+            if not is_leaf:
+                _pass(
+                    pair, one, other, half, apart, above, joints, rates, lines, carried,
+                    box_centres, passing,
+                )  # fmt: skip
+            state, _, is_enough = pair_clear(
+                pair, pairs, members, solids, kinds, vertices, R, p, enough, few, passing, axes,
+                work,
             )  # fmt: skip
             if state == OVERLAP:
                 _to_the_front(pair, order)
                 return COLLIDES, t
-            if state == APART and clear > enough:
+            if is_enough or half == _ONLY_A_LOOK:
                 continue
             lists[kept] = pair
             kept += 1
@@ -313,13 +460,7 @@ def sweep(
                     return TOO_LONG, t
                 unsure[doubts] = t
                 doubts += 1
-            if here == 0 and half > 0.0:
-                middles[1], halves[1], begins[1], ends[1] = 1.0, 0.0, 0, count
-                waiting = 2
         elif kept > used:
-            if here == 0:
-                middles[1], halves[1], begins[1], ends[1] = 1.0, 0.0, used, kept
-                waiting = 2
             for side in range(2):
                 middles[waiting] = t + (half if side else -half) / 2.0
                 halves[waiting] = half / 2.0

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from gazelle.motion.planning.settings import PlannerSettings
-from gazelle.motion.space import FloatArray, JointSpace, Validity
+from gazelle.motion.planning.validation import FINE_STEP, SWEPT_STEP, ends_of
+from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 
 __all__ = ["GoalSource", "Problem", "Projection", "Waypoints"]
 
@@ -43,6 +44,7 @@ class Problem:
         source: draws further goals.
         project: set where path constraints leave too little room for drawing by chance.
         why_no_goal: why the last goal that was drawn cannot be one.
+        checked: both ends of motions that stand the last check already, see `ends_of`.
     """
 
     space: JointSpace
@@ -56,6 +58,7 @@ class Problem:
     source: GoalSource | None = None
     project: Projection | None = None
     why_no_goal: str = ""
+    checked: set[tuple[bytes, bytes]] = field(default_factory=set)
     _drawn: int = 0
 
     def is_over(self) -> bool:
@@ -74,6 +77,18 @@ class Problem:
             return q
         projected = self.project(q)
         return q if projected is None else projected
+
+    @cached_property
+    def swept_motions(self) -> SweptMotions | None:
+        """What kernels need to check motions, None where only `validity` can tell."""
+        if self.project is not None or not isinstance(self.validity, SweptValidity):
+            return None
+        return self.validity.swept_motions()
+
+    @property
+    def fine_step(self) -> float:
+        """Longest motion between two states of the last check."""
+        return FINE_STEP if self.swept_motions is None else SWEPT_STEP
 
     @property
     def has_no_more_goals(self) -> bool:
@@ -108,9 +123,12 @@ class Problem:
         distance = float(np.sqrt(way @ way))
         arrives = distance <= most
         end = q + (way if arrives else way * (most / distance))
-        if distance == 0.0 or self.validity.motion_is_valid(q, end, self.step):
-            return [end], arrives
-        return [], False
+        if distance > 0.0:
+            if not self.validity.motion_is_valid(q, end, self.step):
+                return [], False
+            if self.step <= self.fine_step:
+                self.checked.add(ends_of(q, end))
+        return [end], arrives
 
     def connect(self, q: FloatArray, target: FloatArray) -> Waypoints | None:
         """Return the waypoints of a motion from `q` to `target`, None where it is not allowed."""

@@ -5,14 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.motion.planning.problem import Problem, Waypoints
-from gazelle.motion.planning.tree import Tree
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, connect_trees
+from gazelle.motion.planning.tree import Tree, warm_up_trees
+from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 
-__all__ = ["rrt_connect"]
+__all__ = ["rrt_connect", "warm_up"]
 
 _DRAWS_PER_GOAL = 20
 _DOMAIN = 3.0
 _DRAWS = 20
+_MOST_STEPS = 10_000
+
+_Ends = tuple[int, int]
 
 
 def rrt_connect(problem: Problem) -> Waypoints | None:
@@ -27,23 +31,27 @@ def rrt_connect(problem: Problem) -> Waypoints | None:
     if direct is not None:
         return direct
     near, far = Tree(problem.space, [problem.start]), Tree(problem.space, problem.goals)
-    draws = 0
+    motions = _swept_motions(problem)
     while not problem.is_over():
-        draws += 1
-        if draws % _DRAWS_PER_GOAL == 0 and (goal := problem.another_goal()) is not None:
-            far.add(goal, -1)
-        # The smaller tree grows, so that a tree in a narrow place is not left behind.
-        grown, other = (near, far) if len(near) <= len(far) else (far, near)
-        target, here = _drawn(problem, grown)
-        node, arrived = _grow(problem, grown, here, target, problem.range)
-        if node < 0:
-            grown.confine(here, _DOMAIN * problem.range)
-            continue
-        meeting, arrived = _grow(problem, other, other.nearest(grown[node]), grown[node], np.inf)
-        if arrived:
-            ends = (node, meeting) if grown is near else (meeting, node)
+        if motions is None:
+            ends = _draw_all(problem, near, far)
+        else:
+            ends = _draw_swept(problem, near, far, motions)
+        if ends is not None:
             return _joined(near.branch(ends[0]), far.branch(ends[1]))
+        if (goal := problem.another_goal()) is not None:
+            far.add(goal, -1)
     return None
+
+
+def warm_up(space: JointSpace, validity: Validity) -> None:
+    """Compile or load the kernels, before the time that somebody has for planning."""
+    warm_up_trees()
+    motions = validity.swept_motions() if isinstance(validity, SweptValidity) else None
+    if motions is not None:
+        tree = Tree(space, [])
+        no_draws = np.empty((0, _DRAWS, space.size))
+        _connect(space, tree, tree, no_draws, 1.0, 1.0, motions)
 
 
 def _straight(problem: Problem) -> Waypoints | None:
@@ -55,12 +63,73 @@ def _straight(problem: Problem) -> Waypoints | None:
     return None
 
 
-def _drawn(problem: Problem, tree: Tree) -> tuple[FloatArray, int]:
-    """Return a configuration to grow towards, and the node to grow."""
-    if problem.project is not None:
-        q = problem.sample()
-        return q, tree.nearest(q)
-    return tree.drawn(problem.rng.random((_DRAWS, problem.space.size)))
+def _swept_motions(problem: Problem) -> SweptMotions | None:
+    """Return what a kernel needs to check the motions of a problem, None where it cannot."""
+    is_long = problem.range > _MOST_STEPS * problem.step
+    return None if is_long else problem.swept_motions
+
+
+def _draw_swept(problem: Problem, near: Tree, far: Tree, motions: SweptMotions) -> _Ends | None:
+    """Draw some times in a kernel; the nodes that met, None where none did."""
+    left = problem.rng.random((_DRAWS_PER_GOAL, _DRAWS, problem.space.size))
+    while len(left):
+        state, draw, node, meeting = _connect(
+            problem.space, near, far, left, problem.range, problem.step, motions
+        )
+        if state == ARRIVED:
+            return node, meeting
+        if state == DOUBTFUL and (ends := _draw(problem, near, far, left[draw])) is not None:
+            return ends
+        left = left[draw + 1 :]
+    return None
+
+
+def _connect(
+    space: JointSpace,
+    near: Tree,
+    far: Tree,
+    chances: FloatArray,
+    reach: float,
+    step: float,
+    motions: SweptMotions,
+) -> tuple[int, int, int, int]:
+    state, draw, node, meeting, near.arrays, far.arrays = connect_trees(
+        *near.arrays, *far.arrays, space.continuous, space.low, space.width, chances,
+        float(reach), float(_DOMAIN * reach), motions.lower, motions.upper, float(step),
+        motions.bounds,
+    )  # fmt: skip
+    return state, draw, node, meeting
+
+
+def _draw_all(problem: Problem, near: Tree, far: Tree) -> _Ends | None:
+    """Draw some times; the nodes that met, None where none did."""
+    for _ in range(_DRAWS_PER_GOAL):
+        chances = None
+        if problem.project is None:
+            chances = problem.rng.random((_DRAWS, problem.space.size))
+        ends = _draw(problem, near, far, chances)
+        if ends is not None or problem.is_over():
+            return ends
+    return None
+
+
+def _draw(problem: Problem, near: Tree, far: Tree, chances: FloatArray | None) -> _Ends | None:
+    """Draw once, by these chances or near the path constraints; the nodes that met, if they did."""
+    # The smaller tree grows, so that a tree in a narrow place is not left behind.
+    grown, other = (near, far) if len(near) <= len(far) else (far, near)
+    if chances is None:
+        target = problem.sample()
+        here = grown.nearest(target)
+    else:
+        target, here = grown.drawn(chances)
+    node, arrived = _grow(problem, grown, here, target, problem.range)
+    if node < 0:
+        grown.confine(here, _DOMAIN * problem.range)
+        return None
+    meeting, arrived = _grow(problem, other, other.nearest(grown[node]), grown[node], np.inf)
+    if not arrived:
+        return None
+    return (node, meeting) if grown is near else (meeting, node)
 
 
 def _grow(

@@ -14,9 +14,9 @@ from gazelle.motion.planning.failure import ErrorCode, PlanningError
 from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import Chosen, choose
 from gazelle.motion.planning.problem import GoalSource, Problem, Waypoints
+from gazelle.motion.planning.rrt_connect import warm_up
 from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.planning.shortcut import shortcut
-from gazelle.motion.planning.tree import warm_up
 from gazelle.motion.planning.validation import (
     FINE_STEP,
     first_faulty_motion,
@@ -66,7 +66,7 @@ def plan(
         PlanningError: there is no path, with MoveIt's error code and why.
         ValueError: an array has the wrong size or is not finite.
     """
-    warm_up()
+    warm_up(space, validity)
     began = time.perf_counter()
     settings = settings or PlannerSettings()
     narrow = _narrowed(space, constraints)
@@ -177,8 +177,8 @@ def _solved(problem: Problem, chosen: Chosen, began: float, time_limit_s: float)
         problem.step = max(FINE_STEP, problem.step * _FINER)
     why = f"{chosen.name} found no path within {time_limit_s:g} s"
     if finish.fault is not None:
-        fault = why_faulty(problem.space, problem.validity, finish.fault)
-        why += f" that stands the check every {FINE_STEP} rad: {fault}"
+        fault = why_faulty(problem.space, problem.validity, finish.fault, problem.fine_step)
+        why += f" that stands the check every {problem.fine_step} rad: {fault}"
     elif time.perf_counter() < began + time_limit_s:
         why = f"{chosen.name} gave up before {time_limit_s:g} s were over"
         raise PlanningError(ErrorCode.PLANNING_FAILED, why)
@@ -201,7 +201,7 @@ class _Finish:
             return raw if self._stands(raw) else None
         while True:
             mark = time.perf_counter()
-            short = shortcut(problem, raw)
+            short = self._shortcut(raw)
             self.simplifying_s += time.perf_counter() - mark
             if self._stands(short):
                 return short
@@ -212,10 +212,23 @@ class _Finish:
                 return raw
             problem.step = max(FINE_STEP, problem.step * _FINER)
 
+    def _shortcut(self, raw: Waypoints) -> Waypoints:
+        """Cut short, with motions that stand the last check where finer steps cost little."""
+        problem = self._problem
+        step = problem.step
+        if problem.swept_motions is not None:
+            problem.step = min(step, FINE_STEP)
+        short = shortcut(problem, raw)
+        problem.step = step
+        return short
+
     def _stands(self, waypoints: Waypoints) -> bool:
         mark = time.perf_counter()
         problem = self._problem
-        fault = first_faulty_motion(problem.space, problem.validity, np.array(waypoints))
+        rows = np.array(waypoints)
+        fault = first_faulty_motion(
+            problem.space, problem.validity, rows, problem.fine_step, problem.checked
+        )
         self.checking_s += time.perf_counter() - mark
         if fault is not None:
             self.fault = fault

@@ -7,17 +7,21 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.motion.planning.tree_kernels import drawn, nearest
 from gazelle.motion.space import FloatArray, JointSpace
 
-__all__ = ["Tree", "warm_up"]
+__all__ = ["Tree", "TreeArrays", "warm_up_trees"]
 
 _TURN = 2.0 * math.pi
 
+TreeArrays = tuple[FloatArray, NDArray[np.int64], FloatArray, int]
+"""Nodes, (m, n), the parent of each, how far each grows, and how many of them there are."""
+
 
 @cache
-def warm_up() -> None:
+def warm_up_trees() -> None:
     """Compile or load the kernels of trees, before the time that somebody has for planning."""
     joint = JointSpace(("j",), *np.array([[0.0], [1.0]]), *np.zeros((4, 1)))
     tree = Tree(joint, [np.zeros(1)])
@@ -29,7 +33,7 @@ class Tree:
     """Nodes in one growing array; a brute search of some thousand beats any index.
 
     Attributes:
-        parents: node above each, -1 for roots.
+        parents: node above each, -1 for roots; longer than there are nodes.
     """
 
     def __init__(self, space: JointSpace, roots: Sequence[FloatArray]) -> None:
@@ -39,12 +43,13 @@ class Tree:
         self._difference = np.empty((256, space.size))
         self._domains = np.full(256, np.inf)
         self._turning = np.flatnonzero(space.continuous)
-        self.parents: list[int] = []
+        self._count = 0
+        self.parents = np.empty(256, np.int64)
         for root in roots:
             self.add(root, -1)
 
     def __len__(self) -> int:
-        return len(self.parents)
+        return self._count
 
     def __getitem__(self, index: int) -> FloatArray:
         node: FloatArray = self._nodes[index]
@@ -53,22 +58,34 @@ class Tree:
     @property
     def nodes(self) -> FloatArray:
         """All nodes, shape (m, n); a view that the next `add` may leave behind."""
-        return self._nodes[: len(self.parents)]
+        return self._nodes[: self._count]
+
+    @property
+    def arrays(self) -> TreeArrays:
+        """The nodes and what is known of them, for kernels that make the tree grow."""
+        return self._nodes, self.parents, self._domains, self._count
+
+    @arrays.setter
+    def arrays(self, arrays: TreeArrays) -> None:
+        self._nodes, self.parents, self._domains, self._count = arrays
+        if len(self._difference) < len(self._nodes):
+            self._difference = np.empty_like(self._nodes)
 
     def add(self, q: FloatArray, parent: int) -> int:
         """Add a node and return its index; `parent` -1 makes it a root."""
-        count = len(self.parents)
+        count = self._count
         if count == len(self._nodes):
             self._nodes = np.concatenate([self._nodes, np.empty_like(self._nodes)])
             self._difference = np.empty_like(self._nodes)
             self._domains = np.concatenate([self._domains, np.full(count, np.inf)])
-        self._nodes[count] = q
-        self.parents.append(parent)
+            self.parents = np.concatenate([self.parents, np.empty_like(self.parents)])
+        self._nodes[count], self.parents[count] = q, parent
+        self._count += 1
         return count
 
     def squared_distances(self, q: FloatArray) -> FloatArray:
         """Return the squared distance of every node to `q`, continuous joints the short way."""
-        count = len(self.parents)
+        count = self._count
         difference = np.subtract(self._nodes[:count], q, out=self._difference[:count])
         for joint in self._turning:
             column = difference[:, joint]
@@ -78,7 +95,7 @@ class Tree:
 
     def nearest(self, q: FloatArray) -> int:
         """Return the index of the node nearest to `q`."""
-        return int(nearest(self._nodes, len(self.parents), self._space.continuous, q)[0])
+        return int(nearest(self._nodes, self._count, self._space.continuous, q)[0])
 
     def drawn(self, chances: FloatArray) -> tuple[FloatArray, int]:
         """Return a draw that the node nearest to it may grow towards, and the node.
@@ -88,7 +105,7 @@ class Tree:
         """
         space = self._space
         q, node = drawn(
-            self._nodes, len(self.parents), space.continuous, self._domains, space.low,
+            self._nodes, self._count, space.continuous, self._domains, space.low,
             space.width, chances,
         )  # fmt: skip
         return q, int(node)
@@ -102,5 +119,5 @@ class Tree:
         nodes = []
         while index >= 0:
             nodes.append(self._nodes[index].copy())
-            index = self.parents[index]
+            index = int(self.parents[index])
         return nodes[::-1]

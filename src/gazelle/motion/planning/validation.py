@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Container
 
 import numpy as np
 
 from gazelle.motion.space import FloatArray, JointSpace, Validity
 
-__all__ = ["FINE_STEP", "first_fault", "first_faulty_motion", "why_faulty"]
+__all__ = ["FINE_STEP", "SWEPT_STEP", "ends_of", "first_fault", "first_faulty_motion", "why_faulty"]
 
 FINE_STEP = 0.005
 """Longest motion between two states of the last check, rad or m."""
+
+SWEPT_STEP = 0.001
+"""The same where bounds tell of most motions: what only grazes something is not allowed either."""
 
 _TOLERANCE = 1e-3
 
@@ -31,12 +35,28 @@ def first_fault(
     return "" if fault is None else why_faulty(space, validity, fault, step)
 
 
+def ends_of(first: FloatArray, last: FloatArray) -> tuple[bytes, bytes]:
+    """Return what a motion is known by among others."""
+    return first.tobytes(), last.tobytes()
+
+
 def first_faulty_motion(
-    space: JointSpace, validity: Validity, states: FloatArray, step: float = FINE_STEP
+    space: JointSpace,
+    validity: Validity,
+    states: FloatArray,
+    step: float = FINE_STEP,
+    checked: Container[tuple[bytes, bytes]] = (),
 ) -> FloatArray | None:
     """Return both ends of the first motion of a line that is not allowed; see `first_fault`.
 
     Both ends are the same where a state itself is not.
+
+    Args:
+        space: see `first_fault`.
+        validity: likewise.
+        states: likewise.
+        step: likewise.
+        checked: motions that are known to be allowed, as `ends_of` gives them.
     """
     for q in states:
         if space.outside(q, tolerance=_TOLERANCE):
@@ -44,7 +64,8 @@ def first_faulty_motion(
     if not validity.is_valid(states[0]):
         return states[[0, 0]]
     for first, last in itertools.pairwise(states):
-        if not validity.motion_is_valid(first, last, step):
+        known = ends_of(first, last) in checked
+        if not known and not validity.motion_is_valid(first, last, step):
             return np.array([first, last])
     return None
 
