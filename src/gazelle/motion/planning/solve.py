@@ -47,8 +47,9 @@ def plan(
 ) -> Path:
     """Return a path from a configuration to one of the goals.
 
-    Every path is checked once more with motions of 0.005 rad before it is returned. The same
-    question with the same seed gives the same path, unless the time limit cut the search short.
+    Every path is checked once more before it is returned, with motions of 0.005 rad, or of 0.001
+    where `validity` lets kernels tell of most. The same question with the same seed gives the same
+    path, unless the time limit cut the search short.
 
     Args:
         space: joints and their limits.
