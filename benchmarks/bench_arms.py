@@ -1,11 +1,12 @@
-"""Speed of arm planning on problems of MotionBenchMaker, or of files like its own.
+"""Speed of arm planning among furniture: two arms of our own, or MotionBenchMaker's files.
 
-    python benchmarks/bench_arms.py FOLDER [FOLDER ...] [--count N]
+    python benchmarks/bench_arms.py [FOLDER ...] [--count N]
 
-A folder has one robot's ``.urdf`` and ``.srdf`` and ``problems/FAMILY/sceneNNNN.yaml`` with
-``requestNNNN.yaml``: MoveIt's planning scenes and motion plan requests as MotionBenchMaker
-(Chamzas et al., 2022) writes them. ``resources/panda`` and ``resources/ur5`` of VAMP's repository
-are such folders, once ``problems.tar.bz2`` in them is unpacked.
+Without a folder the problems are those of ``arm_families.py``. A folder has one robot's ``.urdf``
+and ``.srdf`` and ``problems/FAMILY/sceneNNNN.yaml`` with ``requestNNNN.yaml``: MoveIt's planning
+scenes and motion plan requests as MotionBenchMaker (Chamzas et al., 2022) writes them.
+``resources/panda`` and ``resources/ur5`` of VAMP's repository are such folders, once
+``problems.tar.bz2`` in them is unpacked.
 
 Prints, for each family: problems solved of those whose start and goal are free; paths that hold
 every 0.002 rad in a check that knows nothing of bounds (wanted: all); median, 95th percentile and
@@ -18,13 +19,14 @@ from __future__ import annotations
 import argparse
 import statistics
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import yaml
 
+from arm_families import ARMS, FAMILIES, arm_named, problem_of
 from gazelle.description.loader import load_models
 from gazelle.description.model import Box, Cylinder, Sphere
 from gazelle.description.srdf import load_srdf
@@ -35,6 +37,9 @@ from gazelle.motion.model import RobotModel
 from gazelle.motion.planning import PlanningError, plan
 from gazelle.motion.scene import AllowedCollisions, PlacedShape, PlanningScene, WorldObject
 from gazelle.motion.space import FloatArray
+
+Problem = tuple[PlanningScene, str, FloatArray, FloatArray]
+"""Scene, group, start and goal."""
 
 _FINE_STEP = 0.002
 _LIMIT_S = 60.0
@@ -52,23 +57,39 @@ class _Result(NamedTuple):
 def main() -> None:
     """Print a table of each folder's robot."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    parser.add_argument("folders", nargs="*", type=Path, metavar="FOLDER")
     parser.add_argument("--count", type=int, default=100, help="problems of each family")
     options = parser.parse_args()
     for folder in options.folders:
-        _robot(folder, options.count)
+        robot = robot_in(folder)
+        _table(robot.name, _of_folder(robot, folder, options.count))
+    if not options.folders:
+        for name in ARMS:
+            _table(name, _own(name, options.count))
 
 
-def _robot(folder: Path, count: int) -> None:
-    robot = robot_in(folder)
-    print(f"{robot.name:26}  solved   holds  median     p95    most ms   scene    most ms")
+def _table(name: str, families: Iterable[tuple[str, Iterable[Problem]]]) -> None:
+    print(f"{name:26}  solved   holds  median     p95    most ms   scene    most ms")
     everything: list[_Result] = []
-    for family in sorted((folder / "problems").iterdir()):
-        numbers = [file.stem[5:] for file in sorted(family.glob("scene*.yaml"))][:count]
-        results = [found for number in numbers if (found := _result(robot, family, number))]
-        _print(family.name, results)
+    for family, problems in families:
+        results = [found for problem in problems if (found := _result(*problem))]
+        _print(family, results)
         everything += results
     _print("all", everything)
+
+
+def _own(name: str, count: int) -> Iterator[tuple[str, Iterable[Problem]]]:
+    robot = arm_named(name)
+    for family in FAMILIES:
+        yield family, (problem_of(robot, family, number) for number in range(count))
+
+
+def _of_folder(
+    robot: RobotModel, folder: Path, count: int
+) -> Iterator[tuple[str, Iterable[Problem]]]:
+    for family in sorted((folder / "problems").iterdir()):
+        numbers = [file.stem[5:] for file in sorted(family.glob("scene*.yaml"))][:count]
+        yield family.name, (problem_in(robot, family, number) for number in numbers)
 
 
 def robot_in(folder: Path) -> RobotModel:
@@ -84,9 +105,7 @@ def robot_in(folder: Path) -> RobotModel:
     return RobotModel.build(model, srdf, diagnostics=told)
 
 
-def problem_in(
-    robot: RobotModel, family: Path, number: str
-) -> tuple[PlanningScene, str, FloatArray, FloatArray]:
+def problem_in(robot: RobotModel, family: Path, number: str) -> Problem:
     """Return scene, group, start and goal of one problem."""
     scene = _scene(robot, _read(family / f"scene{number}.yaml"))
     request = _read(family / f"request{number}.yaml")
@@ -140,14 +159,15 @@ def _pose(pose: Mapping[str, Any]) -> Pose:
     return Pose(tuple(pose["position"]), tuple(pose["orientation"]))
 
 
-def _result(robot: RobotModel, family: Path, number: str) -> _Result | None:
-    scene, group, start, goal = problem_in(robot, family, number)
+def _result(
+    scene: PlanningScene, group: str, start: FloatArray, goal: FloatArray
+) -> _Result | None:
     begin = time.process_time()
     checker = CollisionChecker(scene, group)
     built = time.process_time()
     if not (checker.is_valid(start) and checker.is_valid(goal)):
         return None
-    space = robot.group(group).space
+    space = scene.robot.group(group).space
     mark = time.process_time()
     try:
         path = plan(space, checker, start, [goal], time_limit_s=_LIMIT_S)
