@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Runs the tests on every Python that is promised and found here, each in a fresh environment.
 
-    python .ci/every_python.py [--quick] [--lowest] [--others] [--second-look] [PYTHON ...]
-        [-- PYTEST ARGUMENTS]
+    python .ci/every_python.py [--quick] [--lowest] [--others] [PYTHON ...] [-- PYTEST ARGUMENTS]
 
 PYTHON is a version (3.12) or a program; without one, all that the classifiers of pyproject.toml
 promise are looked for: on PATH, among pyenv's versions and among uv's. Each gets the newest
@@ -66,11 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
     # What is asked for by name need not be promised yet.
     kept = {v: p for v, p in found.items() if options.pythons or v[:2] in wanted}
     runs = runs_of(kept, lowest=options.lowest, others=options.others)
-    look = options.second_look
-    outcomes = [
-        _outcome(run, project, pytest_arguments, quick=options.quick, second_look=look)
-        for run in runs
-    ]
+    outcomes = [_outcome(run, project, pytest_arguments, quick=options.quick) for run in runs]
     missing = [] if options.pythons else sorted(wanted - {version[:2] for version in kept})
     print("\n".join(_table(outcomes, missing)))
     return int(not all(outcome.ok for outcome in outcomes) or bool(options.pythons and not runs))
@@ -130,7 +125,6 @@ def _options(arguments: list[str]) -> tuple[argparse.Namespace, list[str]]:
     parser.add_argument("--quick", action="store_true", help="only the tests marked quick")
     parser.add_argument("--lowest", action="store_true", help="only the lowest packages allowed")
     parser.add_argument("--others", action="store_true", help="all Pythons but the one that runs")
-    parser.add_argument("--second-look", action="store_true", help="what fails runs again, alone")
     return parser.parse_args(arguments[:end]), arguments[end + 1 :]
 
 
@@ -158,7 +152,6 @@ def _outcome(
     pytest_arguments: list[str],
     *,
     quick: bool,
-    second_look: bool,
 ) -> Outcome:
     begin = time.monotonic()
     print(f"\n== Python {_text(run.version)}, {_packages(run)} packages ==", flush=True)
@@ -182,10 +175,6 @@ def _outcome(
         tests = [*python, "pytest", "-o", f"cache_dir={folder}/pytest"]
         command = [*tests, "-n", "auto", *(["-m", "quick"] if quick else [])]
         code, last = _followed([*command, *pytest_arguments], venv)
-        if code and second_look:
-            again = ["--last-failed", "--last-failed-no-failures", "none"]
-            code, words = _followed([*tests, *again], venv)
-            last += f"; again, alone: {words}"
     return Outcome(run, code == 0, last, time.monotonic() - begin)
 
 
