@@ -1,7 +1,7 @@
 """Speed of motion planning: 100 random problems of each of three arms among ten obstacles.
 
 Prints medians of CPU milliseconds: the search, its shortcuts and both together (wanted: 10 at
-most), the last check every 0.005 rad, and the time parameterisation with its checks. Problems with
+most), the last check, and the time parameterisation with its checks. Problems with
 a straight solution count too; the line below leaves them out. With OMPL installed
 (``pip install "gazelle-sim[ompl]"``) its RRTConnect solves the same problems over the same
 collision checker. LUCK is left out where the sample workspaces are missing.

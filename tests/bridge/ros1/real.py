@@ -18,7 +18,7 @@ NO_ROS1 = "ROS 1 is not installed (Debian: apt-get install ros-core python3-rosb
 @cache
 def has_ros1() -> bool:
     """Tell whether the real programs of ROS 1 are here."""
-    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, std_srvs.srv"]
+    words = ["/usr/bin/python3", "-c", "import rospy, rostopic, rosbag, nav_msgs.msg, std_srvs.srv"]
     try:
         subprocess.run(words, check=True, capture_output=True, env={"PATH": "/usr/bin"})
     except (OSError, subprocess.CalledProcessError):
