@@ -10,6 +10,7 @@ from gazelle.motion.planning.failure import ErrorCode, PlanningError
 from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import PLANNERS
 from gazelle.motion.planning.problem import GoalSource
+from gazelle.motion.planning.rrt_connect import warm_up
 from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.planning.solve import plan
 from gazelle.motion.planning.validation import FINE_STEP, first_fault
@@ -26,4 +27,5 @@ __all__ = [
     "configured",
     "first_fault",
     "plan",
+    "warm_up",
 ]

@@ -9,9 +9,10 @@ from typing import Any
 from gazelle.description.moveit import MoveItConfig
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
+from gazelle.motion import kinematics, planning
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.constraints import PathConstraint
-from gazelle.motion.kinematics import Solver, warm_up
+from gazelle.motion.kinematics import Solver
 from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
@@ -119,10 +120,10 @@ class ProblemMaker:
 
     def warm_up(self, scene: PlanningScene) -> None:
         """Build collision models and compile kernels, so that no request has to wait for them."""
-        warm_up()
+        kinematics.warm_up()
         self.checker(scene)
         for group in self.robot.groups.values():
-            self.checker(scene, group.name)
+            planning.warm_up(group.space, self.checker(scene, group.name))
             if group.tip_link:
                 solver, q = self._solver(group), group.take(scene.positions)
                 solver.ik(solver.fk(q), seed_q=q, attempts=1)
