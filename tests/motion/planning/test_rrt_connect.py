@@ -88,3 +88,18 @@ def test_what_the_kernel_cannot_tell_is_asked_for(
     assert expected is not None and found is not None
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
     assert swept.motions == asked.motions > 1
+
+
+@pytest.mark.parametrize("step", [0.0, -1.0, np.nan])
+def test_steps_of_no_length_are_refused(step: float, ur_like: RobotModel) -> None:
+    """A kernel would make room for a negative number of pieces."""
+    with pytest.raises(ValueError, match="checks are more than 0 apart"):
+        PlannerSettings(step=step)
+    case = random_case(ur_like, "ur_like", 7)
+    with pytest.raises(ValueError, match="not more than 0"):
+        case.checker.motion_is_valid(case.start, case.goal, step)
+
+
+def test_a_range_below_zero_is_refused() -> None:
+    with pytest.raises(ValueError, match="range is -1: the longest motion is 0 or more"):
+        PlannerSettings(range=-1.0)

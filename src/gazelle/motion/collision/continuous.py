@@ -124,7 +124,12 @@ class Sweeper:
 
         Returns:
             the verdict, and the states that are in doubt, (m, n).
+
+        Raises:
+            ValueError: the step is not more than zero.
         """
+        if not step > 0.0:
+            raise ValueError(f"the step of a motion's check is {step:g}, not more than 0")
         way = q1 - q0
         pieces = math.ceil(float(np.sqrt(way @ way)) / (_MOST_STEPS * step)) or 1
         doubtful = [np.empty((0, len(q0)))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -23,6 +24,9 @@ class PlannerSettings:
         simplify: whether shortcuts are taken.
         native: parameters by name for planners of OMPL.
         projection: joints that KPIECE and its kin look at; OMPL chooses where there are none.
+
+    Raises:
+        ValueError: a motion or a step is of no length that there is.
     """
 
     range: float = 0.0
@@ -35,3 +39,11 @@ class PlannerSettings:
     simplify: bool = True
     native: Mapping[str, float] = field(default_factory=dict)
     projection: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.range >= 0.0:
+            raise ValueError(f"range is {self.range:g}: the longest motion is 0 or more")
+        if not 0.0 < self.step < math.inf:
+            raise ValueError(
+                f"step is {self.step:g}: checks are more than 0 apart, and finite"
+            )
