@@ -44,6 +44,4 @@ class PlannerSettings:
         if not self.range >= 0.0:
             raise ValueError(f"range is {self.range:g}: the longest motion is 0 or more")
         if not 0.0 < self.step < math.inf:
-            raise ValueError(
-                f"step is {self.step:g}: checks are more than 0 apart, and finite"
-            )
+            raise ValueError(f"step is {self.step:g}: checks are more than 0 apart, and finite")
