@@ -11,10 +11,12 @@ from tests.motion.problems import random_case
 
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.model import RobotModel
+from gazelle.motion.planning import FINE_STEP, plan
 from gazelle.motion.planning.problem import Problem
 from gazelle.motion.planning.rrt_connect import rrt_connect
 from gazelle.motion.planning.rrt_connect_kernels import DOUBTFUL
 from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.validation import ends_of
 from gazelle.motion.space import FloatArray, SweptValidity, Validity
 
 
@@ -23,13 +25,17 @@ class _Asked:
 
     def __init__(self, checker: CollisionChecker) -> None:
         self._checker = checker
-        self.motions = 0
+        self.asked: list[tuple[tuple[bytes, bytes], float]] = []
+
+    @property
+    def motions(self) -> int:
+        return len(self.asked)
 
     def is_valid(self, q: FloatArray) -> bool:
         return self._checker.is_valid(q)
 
     def motion_is_valid(self, q0: FloatArray, q1: FloatArray, step: float) -> bool:
-        self.motions += 1
+        self.asked.append((ends_of(q0, q1), step))
         return self._checker.motion_is_valid(q0, q1, step)
 
     def why(self, q: FloatArray) -> str:
@@ -103,3 +109,14 @@ def test_steps_of_no_length_are_refused(step: float, ur_like: RobotModel) -> Non
 def test_a_range_below_zero_is_refused() -> None:
     with pytest.raises(ValueError, match="range is -1: the longest motion is 0 or more"):
         PlannerSettings(range=-1.0)
+
+
+def test_the_last_check_does_not_repeat_what_shortcuts_were_checked_for(
+    ur_like: RobotModel,
+) -> None:
+    case = random_case(ur_like, "ur_like", 7)
+    swept = _Swept(case.checker)
+    path = plan(case.space, swept, case.start, [case.goal], time_limit_s=1e6)
+    assert len(path.waypoints) > 2
+    fine = [ends for ends, step in swept.asked if step <= FINE_STEP]
+    assert fine and len(set(fine)) == len(fine)

@@ -218,7 +218,7 @@ class _Finish:
         problem = self._problem
         step = problem.step
         if problem.swept_motions is not None:
-            problem.step = min(step, FINE_STEP)
+            problem.step = min(step, problem.fine_step)
         short = shortcut(problem, raw)
         problem.step = step
         return short
