@@ -20,6 +20,7 @@ from gazelle.motion.collision.solids import Solid
 from gazelle.motion.collision.sweep_kernels import (
     COLLIDES,
     FREE,
+    MOST_STEPS,
     TOO_LONG,
     pair_clear,
     sweep,
@@ -37,7 +38,6 @@ IntArray = NDArray[np.int64]
 
 _UNLIMITED_M = 1e9
 _MOST_DOUBTS = 256
-_MOST_STEPS = 10_000
 _SCRATCH = (10, 4)
 
 
@@ -131,7 +131,7 @@ class Sweeper:
         if not step > 0.0:
             raise ValueError(f"the step of a motion's check is {step:g}, not more than 0")
         way = q1 - q0
-        pieces = math.ceil(float(np.sqrt(way @ way)) / (_MOST_STEPS * step)) or 1
+        pieces = math.ceil(float(np.sqrt(way @ way)) / (MOST_STEPS * step)) or 1
         doubtful = [np.empty((0, len(q0)))]
         for piece in range(pieces):
             begin = q0 + way * (piece / pieces)

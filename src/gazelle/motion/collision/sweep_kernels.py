@@ -20,9 +20,12 @@ from gazelle.compiling import njit
 from gazelle.motion.collision.gjk_kernels import APART, OVERLAP, separation, slab_m
 from gazelle.motion.kinematics.kernels import tree
 
-__all__ = ["COLLIDES", "FREE", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
+__all__ = ["COLLIDES", "FREE", "MOST_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
 
 FREE, COLLIDES, UNDECIDED, TOO_LONG = 0, 1, 2, 3
+
+MOST_STEPS = 10_000
+"""Longer motions are looked at piece by piece, or room for their parts would be too large."""
 
 _NEVER_M = 1e300
 _ONLY_A_LOOK = -1.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.motion.collision.sweep_kernels import MOST_STEPS
 from gazelle.motion.planning.problem import Problem, Waypoints
 from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, connect_trees
 from gazelle.motion.planning.tree import Tree, warm_up_trees
@@ -14,7 +15,6 @@ __all__ = ["rrt_connect", "warm_up"]
 _DRAWS_PER_GOAL = 20
 _DOMAIN = 3.0
 _DRAWS = 20
-_MOST_STEPS = 10_000
 
 _Ends = tuple[int, int]
 
@@ -65,7 +65,7 @@ def _straight(problem: Problem) -> Waypoints | None:
 
 def _swept_motions(problem: Problem) -> SweptMotions | None:
     """Return what a kernel needs to check the motions of a problem, None where it cannot."""
-    is_long = problem.range > _MOST_STEPS * problem.step
+    is_long = problem.range > MOST_STEPS * problem.step
     return None if is_long else problem.swept_motions
 
 
