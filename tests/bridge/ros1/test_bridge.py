@@ -156,6 +156,23 @@ def test_name_that_ros1_uses_gets_an_ending(
     peer.close()
 
 
+def test_rosout_of_a_roscore_that_is_still_starting_does_not_end_ours(
+    graph: Graph, master: EmbeddedMaster, make_bridge: Callable[..., Bridge],
+    eventually: Eventually,
+) -> None:  # fmt: skip
+    ours = graph.create_node("rosout", rosout=False)
+    ours.create_publisher("/a", "std_msgs/msg/String")
+    make_bridge(MasterAddress(HERE, int(master.uri.rstrip("/").rpartition(":")[2])))
+    eventually(lambda: "/a" in {topic for _, topic in master.state().publishers})
+    peer = Peer(master.uri, "/rosout")
+    peer.call("registerPublisher", "/rosout_agg", "rosgraph_msgs/Log", peer.uri)
+    assert {("/rosout_gazelle", "/a"), ("/rosout", "/rosout_agg")} <= master.state().publishers
+    peer.call("registerPublisher", "/hello", STRING, peer.uri)
+    eventually(lambda: graph.publishers_info("/hello"))
+    assert not ours.closed
+    peer.close()
+
+
 def test_parameters_of_both_sides_become_one(
     graph: Graph, master: EmbeddedMaster, make_bridge: Callable[..., Bridge],
     eventually: Eventually,

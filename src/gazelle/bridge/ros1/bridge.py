@@ -32,7 +32,10 @@ __all__ = ["Bridge"]
 _POLL_S = 0.5
 _IDLE_S = 5.0
 _NOTHING: frozenset[str] = frozenset()
-_OF_REAL_ROSOUT = frozenset({"/rosout_agg"})
+_TOPICS_OF_ROSOUT = frozenset({"/rosout_agg"})
+# roscore starts its own a moment after the master answers; registered under this name before it,
+# ours would be told to end by it.
+_NODES_OF_ROSCORE = frozenset({"/rosout"})
 
 
 class Bridge:
@@ -69,7 +72,8 @@ class Bridge:
         except GraphError:
             self._node.shutdown()
             raise
-        self._skipped = _NOTHING if self.master.is_embedded else _OF_REAL_ROSOUT
+        self._skipped = _NOTHING if self.master.is_embedded else _TOPICS_OF_ROSOUT
+        self._reserved = _NOTHING if self.master.is_embedded else _NODES_OF_ROSCORE
         self._book = TypeBook(self._notice, self._explain)
         self._services = ServiceTypes(
             self.master.ask, self._settling.touch, self._book, self._notice
@@ -121,7 +125,8 @@ class Bridge:
         self._register_again(state)
         entities = [one for one in self._graph.discovery.known() if one.zid != self._graph.zid]
         taken = frozenset(node for node in _nodes(state) if node not in self._presences)
-        wishes = wishes_of(entities, taken - {BRIDGE_NAME}, self._skipped, self._book)
+        taken = (taken | self._reserved) - {BRIDGE_NAME}
+        wishes = wishes_of(entities, taken, self._skipped, self._book)
         self._settle_presences(wishes)
         own = frozenset({*self._presences, BRIDGE_NAME})
         services = self._services.of(one for one in state.services if one[0] not in own)
