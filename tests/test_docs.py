@@ -10,6 +10,7 @@ from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.docs import catalogue_markdown
 
 ROOT = Path(__file__).parents[1]
+_TEST = re.compile(r"`((?:tests|benchmarks)/[\w/.]+)`")
 
 
 def test_diagnostics_page_is_generated_from_the_catalogue() -> None:
@@ -40,6 +41,13 @@ def test_every_code_reported_has_an_entry() -> None:
     pattern = re.compile(r'\.report\(\s*"([a-z0-9]+\.[a-z0-9-]+)"')
     named = {code for code in pattern.findall(source) if code.split(".")[0] in areas}
     assert named <= set(all_entries())
+
+
+def test_tests_that_pages_name_are_there() -> None:
+    pages = {path.name: path.read_text(encoding="utf-8") for path in ROOT.glob("docs/**/*.md")}
+    named = {(page, name) for page, text in pages.items() for name in _TEST.findall(text)}
+    assert len(named) > 40
+    assert not [one for one in sorted(named) if not (ROOT / one[1]).exists()]
 
 
 def _named(code: str, text: str) -> bool:

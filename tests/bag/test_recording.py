@@ -10,7 +10,7 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle.bag import BagError, open_bag
-from gazelle.bag.recording import Recorder, Ros1Files, Selection
+from gazelle.bag.recording import Limits, Recorder, Ros1Files, Selection
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 
@@ -102,3 +102,29 @@ def test_a_file_that_somebody_removes_is_written_anew(tmp_path: Path, free_port:
     # The second time at the end.
     assert said.count(text) == 2
     assert len(list(open_bag(folder / "a.bag").messages())) == 2
+
+
+def test_what_finds_no_place_in_the_buffer_is_told_and_the_newest_is_recorded(
+    tmp_path: Path, free_port: int
+) -> None:
+    selection, stop, said = Selection(("/named",)), threading.Event(), list[str]()
+    with Graph.open(port=free_port) as hub, Graph.open(port=free_port, role="client") as own:
+        out = hub.create_node("talker").create_publisher("/named", _INT)
+        recorder = Recorder(
+            own,
+            own.create_node("recorder"),
+            Ros1Files(lambda: str(tmp_path / "a")),
+            limits=Limits(buffer=80),
+            say=lambda level, text: said.append(f"{level}: {text}"),
+        )
+        recorder.begin(selection)
+        assert hub.discovery.wait_for(lambda _known: bool(out.matched), stretched())
+        # Nobody writes yet.
+        for number in range(100):
+            out.publish(_INT(data=number))
+        eventually(lambda: recorder.dropped == 90)
+        stop.set()
+        recorder.run(selection, stop)
+    kept = [one.data for one in open_bag(tmp_path / "a.bag").messages()]
+    assert [int.from_bytes(data, "little") for data in kept] == list(range(90, 100))
+    assert said[1:] == ["warn: rosbag record buffer exceeded.  Dropping oldest queued message."]

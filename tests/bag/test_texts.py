@@ -6,14 +6,17 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+from tests.graph.test_requests import HOSTILE
 from tests.patience import eventually, stretched
 
 from gazelle.bag import Connection, Encoding, Storage, create_bag, learn_definitions, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
+from gazelle.bag.texts import TextShare, fetch_text
 from gazelle.graph import Graph
-from gazelle.interfaces import full_text, md5sum
+from gazelle.interfaces import Generation, full_text, md5sum
 
 
 @pytest.fixture(autouse=True)
@@ -58,3 +61,26 @@ def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port:
         kept = found[one.topic]
         assert (kept.type_name, kept.definition) == (one.type_name, one.definition)
         assert kept.md5sum == one.md5sum
+
+
+def test_texts_of_definitions_are_asked_for_and_answered_with_anything(
+    free_port: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    answers = iter(HOSTILE)
+
+    def answer(query: Any) -> None:
+        with query:
+            query.reply(f"{space}/1/nowhere_msgs/Thing/abc", next(answers))
+
+    with Graph.open(port=free_port) as graph, Graph.open(port=free_port, role="client") as other:
+        space = f"@gazelle/{graph.domain}/definition"
+        share = TextShare(graph)
+        for words in ("1", "1/a/b", "3/a/b/c", "1/std_msgs/String/*/d", "²/a/b/c", "1/../x/*"):
+            assert not list(other.session.get(f"{space}/{words}", timeout=5.0)), words
+        share.close()
+        queryable = graph.session.declare_queryable(f"{space}/**", answer, complete=True)
+        for _data in HOSTILE:
+            fetch_text(other, "nowhere_msgs/Thing", Generation.ROS1)
+        queryable.undeclare()
+    assert next(answers, None) is None
+    assert "Traceback" not in capsys.readouterr().err

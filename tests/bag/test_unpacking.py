@@ -9,7 +9,9 @@ from pathlib import Path
 import lz4.frame
 import pytest
 
-from gazelle.bag import BagError, zstandard
+from gazelle.bag import BagError, create_bag, open_bag, ros1_connection, zstandard
+from gazelle.bag.records import Storage
+from gazelle.bag.ros1 import Compression
 from gazelle.bag.unpacking import unpack_file, unpacked
 
 PACK = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": zstandard.compress}
@@ -65,3 +67,31 @@ def test_a_file_does_not_grow_to_fill_the_disk(
     source.write_bytes(zstandard.compress(BOMB))
     with pytest.raises(BagError, match="the file holds more than 1000 times its own size"):
         unpack_file(source, tmp_path / "bag.mcap")
+
+
+@pytest.fixture
+def bomb(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A bag of a few kB with a message of 8 MiB, where 5 MiB are allowed."""
+    path = tmp_path / "a.bag"
+    writer = create_bag(path, Storage.ROS1, compression=Compression.BZ2)
+    words = writer.add(ros1_connection("/word", "std_msgs/String"))
+    writer.write(words, 1, (8 << 20).to_bytes(4, "little") + bytes(8 << 20))
+    writer.close()
+    assert path.stat().st_size < 8_000
+    monkeypatch.setenv("GAZELLE_LIMITS", "0.01")
+    tracemalloc.start()
+    return path
+
+
+def test_a_bag_of_a_few_bytes_that_holds_too_much_is_refused(bomb: Path) -> None:
+    with pytest.raises(BagError, match=r"is said to hold 838\d+ bytes, at most 5368709"):
+        list(open_bag(bomb).messages())
+    assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    tracemalloc.stop()
+
+
+def test_a_bag_without_an_index_that_holds_too_much_is_read_until_there(bomb: Path) -> None:
+    bomb.write_bytes(bomb.read_bytes()[:-60])
+    assert list(open_bag(bomb).messages()) == []
+    assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    tracemalloc.stop()

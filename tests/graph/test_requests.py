@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.patience import stretched
 
-from gazelle.errors import GraphError
-from gazelle.graph import Graph
-from gazelle.graph.keys import Entity, Qos, control_key, parameter_key, token
+from gazelle.errors import GazelleError, GraphError
+from gazelle.graph import Graph, Kind
+from gazelle.graph.keys import Entity, Qos, control_key, parameter_key, service_key, token
 from gazelle.graph.parameter_tree import ParameterTree, from_json
 from gazelle.graph.requests import answer_in, read_query
+from gazelle.interfaces import service_type
 
 KINDS = {"op": str, "count": int}
 MARKS = ["$bytes", "$datetime", "$date", "$dict", "op", "name", "value", "start", "revision"]
@@ -131,6 +134,53 @@ def test_a_process_answers_after_anything(graph: Graph, other: Graph, key: str) 
     assert other.parameters.get("/after") == 2
     assert not node.closed
     assert other.kill_node("/stays")
+
+
+def test_a_service_answers_after_anything(
+    graph: Graph, other: Graph, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kind = service_type("std_srvs/srv/SetBool")
+    graph.create_node("server").create_service(
+        "/set", kind, lambda request: kind.Response(success=request.data)
+    )
+    client = other.create_node("caller").create_client("/set", kind)
+    assert client.wait_for_service(stretched())
+    (entity,) = (one for one in other.entities() if one.kind is Kind.SERVICE and one.name == "/set")
+    key = service_key(graph.domain, "/set", entity.type_name, entity.type_hash)
+    for data in HOSTILE:
+        for attachment in (None, b"", data):
+            replies = list(other.session.get(key, payload=data, attachment=attachment, timeout=20))
+            assert len(replies) == 1, data
+    assert client.call(kind.Request(data=True)).success
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("is_error", [False, True])
+def test_a_client_survives_any_answer(graph: Graph, other: Graph, is_error: bool) -> None:
+    """The server is announced as one, and what it sends is none."""
+    kind = service_type("std_srvs/srv/SetBool")
+    client = other.create_node("caller").create_client("/set", kind)
+    entity = graph.create_node("server").create_service("/mute", kind, lambda _: None).entity
+    entity = replace(entity, name="/set", entity_id=entity.entity_id + 1)
+    key = service_key(graph.domain, "/set", entity.type_name, entity.type_hash)
+    answers = iter(HOSTILE)
+
+    def answer(query: Any) -> None:
+        with query:
+            (query.reply_err(next(answers)) if is_error else query.reply(key, next(answers)))
+
+    queryable = graph.session.declare_queryable(key, answer, complete=True)
+    announced = graph.session.liveliness().declare_token(token(graph.domain, entity))
+    assert client.wait_for_service(stretched())
+    for data in HOSTILE:
+        try:
+            found = client.call(kind.Request(), stretched())
+        except GazelleError as error:
+            assert str(error), data
+        else:
+            assert isinstance(found, kind.Response), data
+    announced.undeclare()
+    queryable.undeclare()
 
 
 def test_a_copy_follows_after_anything(

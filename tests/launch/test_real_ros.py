@@ -45,6 +45,7 @@ def test_a_launch_joins_the_master_it_finds(launch: Run, node: Run, master: Any)
     run = launch(body, ROS_MASTER_URI=master.uri)
     run.wait_for_line(rf"a ROS 1 master runs at {master.uri}/ \(pid {master.popen.pid}\): gazelle")
     run.wait_for_line("the bridge has joined the master")
+    run.wait_for_line("every user of this machine can reach it: ROS 1 asks nobody for a password")
     master.eventually(lambda: "/n" in master.graph.node_names())
     # What the launch sets counts, as with roslaunch.
     master.eventually(lambda: master.graph.parameters.get("/x") == 3)

@@ -32,6 +32,16 @@ def test_the_command_prints_its_url_and_ends_on_request(gazelle: Run) -> None:
         page.close()
         assert running.stop(number) == 0
         assert "Traceback" not in running.text
+        assert "everybody" not in running.text
+
+
+def test_address_that_others_reach_is_told(gazelle: Run) -> None:
+    running = gazelle("studio", "--port", "0", "--no-browser", "--host", "0.0.0.0")
+    running.wait_for_line(
+        "studio: everybody who reaches 0.0.0.0 and has this address steers the graph, and it goes "
+        "through the network unencrypted"
+    )
+    assert running.stop() == 0
 
 
 def test_killing_its_node_ends_it(gazelle: Run) -> None:

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 __all__ = ["TextShare", "fetch_text"]
 
-_ASK_S = 0.5
+# Whoever answers does it at once, unless its machine has much to do; without the text a type that
+# only its sender knows is not recorded.
+_ASK_S = 10.0
 _ANY = "*"
 _KEY = "@gazelle/{}/definition/{}"  # 1/pkg/Name/MD5 or 2/pkg/Name/HASH
 

@@ -341,7 +341,7 @@ class ServiceClient:
         if reply.ok is not None:
             data = reply.ok.payload.to_bytes()
             return wire.decode(wire.response_type(self.service_class), data)
-        text = reply.err.payload.to_string()
+        text = reply.err.payload.to_bytes().decode("utf-8", "replace")
         if str(reply.err.encoding) == _ERROR_ENCODING:
             raise ServiceCallError(f"service [{self.name}] responded with an error: {text}")
         if timeout_s is not None and text == "Timeout":

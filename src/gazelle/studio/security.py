@@ -43,6 +43,11 @@ class Guard(NamedTuple):
     token: str
 
     @property
+    def is_local(self) -> bool:
+        """Whether only this machine can reach it."""
+        return _is_local(self.bound)
+
+    @property
     def cookie(self) -> str:
         """Name of the cookie with the token; browsers send all of a host's to each of its ports."""
         return f"{_COOKIE}_{self.port}"
@@ -95,8 +100,8 @@ class Guard(NamedTuple):
 
 def guard_for(host: str, port: int) -> Guard:
     """Return the rules for an address; where others reach it the token is a new one each time."""
-    local = host.lower() in _LOCAL_NAMES
-    return Guard(host, port, token_of_user() if local else secrets.token_urlsafe(24))
+    token = token_of_user() if _is_local(host) else secrets.token_urlsafe(24)
+    return Guard(host, port, token)
 
 
 def token_of_user() -> str:
@@ -107,6 +112,10 @@ def token_of_user() -> str:
     """
     key = secret_of_user().password.encode()
     return hmac.new(key, b"studio", "sha256").hexdigest()[:_TOKEN_CHARACTERS]
+
+
+def _is_local(host: str) -> bool:
+    return host.lower() in _LOCAL_NAMES
 
 
 def _is_address(name: str) -> bool:

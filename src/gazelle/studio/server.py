@@ -81,6 +81,11 @@ class Server:
         return self._guard.port
 
     @property
+    def is_local(self) -> bool:
+        """Whether only this machine can reach it."""
+        return self._guard.is_local
+
+    @property
     def token(self) -> str:
         """What the URL must carry."""
         return self._guard.token

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,6 +18,7 @@ from gazelle.graph.actions import (
     Ros2Status,
     ServerGoal,
     actions_of,
+    news,
 )
 from gazelle.graph.actions.comm_state import TRANSITIONS, steps
 from gazelle.interfaces import message_type, ros1_message_type
@@ -90,6 +92,37 @@ def test_goal_feedback_and_result_reach_the_client(
     assert goal.status.name == "SUCCEEDED"
     assert list(goal.result.sequence) == [0, 1, 1]
     assert (goal.is_done, done.items) == (True, [goal])
+
+
+@BOTH
+def test_sleeping_feedback_callback_keeps_the_newest_and_the_result(
+    served: Served, client: ActionClient, eventually: Any, generation: Any,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(news, "MOST_WAITING", 10)
+    served.offer(generation)
+    assert client.wait_for_server(stretched(10))
+    begun, goes_on = threading.Event(), threading.Event()
+    seen: list[int] = []
+
+    def sleep(feedback: Any) -> None:
+        begun.set()
+        goes_on.wait(stretched())
+        seen.append(feedback.sequence[0])
+
+    goal = client.send_goal({"order": 4}, on_feedback=sleep)
+    at_server = served.goal()
+    for number in range(100):
+        at_server.publish_feedback({"sequence": [number]})
+    assert begun.wait(stretched(30))
+    at_server.succeed({"sequence": [0, 1, 1]})
+    told = "a callback of the action /fibonacci is slower than /fibonacci/"
+    printed: list[str] = []
+    eventually(lambda: printed.append(capsys.readouterr().err) or told in "".join(printed))
+    goes_on.set()
+    assert goal.wait(stretched(30))
+    assert seen[-1] == 99 and len(seen) < 100
+    assert list(goal.result.sequence) == [0, 1, 1]
 
 
 @BOTH

@@ -31,10 +31,20 @@ def main(argv: list[str]) -> int:
         with Server(studio, host=options.host, port=options.port) as server:
             offer(server)
             print(f"Studio: {server.url}", flush=True)
+            if not server.is_local:
+                _warn_of_network(options.host)
             if options.browser:
                 _open_browser(server.url)
             _wait(stop)
     return 0
+
+
+def _warn_of_network(host: str) -> None:
+    print(
+        f"studio: everybody who reaches {host} and has this address steers the graph, and it goes "
+        "through the network unencrypted; 'ssh -L' to a page on 127.0.0.1 keeps it to yourself",
+        file=sys.stderr,
+    )
 
 
 def _show_panels(studio: Studio, files: list[str]) -> None:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import itertools
 import threading
-import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.comm_state import CommState, steps
+from gazelle.graph.actions.news import News
 from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import ActionlibStatus
 from gazelle.graph.actions.types import ActionTypes
-from gazelle.graph.delivery import Mailbox
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
-    from gazelle.graph.subscription import Subscription
 
 __all__ = ["ActionlibClient"]
 
@@ -40,12 +38,16 @@ class ActionlibClient:
         self._lock = threading.RLock()
         self._goal = node.create_publisher(f"{name}/goal", types.Envelope["goal"])
         self._cancel = node.create_publisher(f"{name}/cancel", types.GoalId)
-        # One queue for all topics: a result must not overtake the feedback before it.
-        self._news = Mailbox(self._take, size=0, name=f"action {name}")
-        self._topics = (
-            self._listen(f"{name}/status", types.StatusArray, self._on_status),
-            self._listen(f"{name}/feedback", types.Envelope["feedback"], self._on_feedback),
-            self._listen(f"{name}/result", types.Envelope["result"], self._on_result),
+        self._news = News(node, name)
+        status, feedback, result = (f"{name}/{topic}" for topic in ("status", "feedback", "result"))
+        envelopes = types.Envelope
+        self._topics = tuple(
+            node.create_subscription(topic, message_type, take, inline=True)
+            for topic, message_type, take in (
+                (status, types.StatusArray, self._news.topic(status, self._on_status)),
+                (feedback, envelopes["feedback"], self._news.topic(feedback, self._on_feedback)),
+                (result, envelopes["result"], self._take_result),
+            )
         )
 
     @property
@@ -92,20 +94,8 @@ class ActionlibClient:
             one.unregister()
         self._news.close()
 
-    def _listen(
-        self, topic: str, message_type: Any, callback: Callable[[Any], None]
-    ) -> Subscription:
-        def take(message: Any) -> None:
-            self._news.put((callback, message))
-
-        return self._node.create_subscription(topic, message_type, take, inline=True)
-
-    def _take(self, item: tuple[Callable[[Any], None], Any]) -> None:
-        callback, message = item
-        try:
-            callback(message)
-        except Exception:  # noqa: BLE001 - a user's callback may raise anything
-            self._node.log("error", f"bad callback: {traceback.format_exc().rstrip()}")
+    def _take_result(self, message: Any) -> None:
+        self._news.put(lambda: self._on_result(message))
 
     def _find(self, goal_id: str) -> ClientGoal | None:
         with self._lock:

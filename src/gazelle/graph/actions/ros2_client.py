@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import traceback
 import uuid
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -11,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
 from gazelle.graph.actions.client_goal import ClientGoal
+from gazelle.graph.actions.news import News
 from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
-from gazelle.graph.delivery import Mailbox
 from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.keys import Kind
 from gazelle.graph.turns import Turn, Turns
@@ -42,12 +41,15 @@ class Ros2Client:
         self._send = node.create_client(f"{folder}/send_goal", types.SendGoal)
         self._cancel = node.create_client(f"{folder}/cancel_goal", types.CancelGoal)
         self._result = node.create_client(f"{folder}/get_result", types.GetResult)
-        # One queue for topics and results: a result must not overtake the feedback before it.
-        self._news = Mailbox(self._take, size=0, name=f"action {name}")
-        feedback, status = types.Envelope["feedback"], types.StatusArray
-        self._topics = (
-            node.create_subscription(f"{folder}/feedback", feedback, self._feedback, inline=True),
-            node.create_subscription(f"{folder}/status", status, self._status, inline=True),
+        self._news = News(node, name)
+        self._topics = tuple(
+            node.create_subscription(
+                topic, message_type, self._news.topic(topic, callback), inline=True
+            )
+            for topic, message_type, callback in (
+                (f"{folder}/feedback", types.Envelope["feedback"], self._on_feedback),
+                (f"{folder}/status", types.StatusArray, self._on_status),
+            )
         )
 
     @property
@@ -146,18 +148,6 @@ class Ros2Client:
                 goal.status = status
                 if goal.on_transition is not None:
                     goal.on_transition(goal)
-
-    def _take(self, work: Callable[[], None]) -> None:
-        try:
-            work()
-        except Exception:  # noqa: BLE001 - a user's callback may raise anything
-            self._node.log("error", f"bad callback: {traceback.format_exc().rstrip()}")
-
-    def _feedback(self, message: Any) -> None:
-        self._news.put(lambda: self._on_feedback(message))
-
-    def _status(self, message: Any) -> None:
-        self._news.put(lambda: self._on_status(message))
 
     def _on_feedback(self, message: Any) -> None:
         goal = self._goals.get(bytes(message.goal_id.uuid).hex())

@@ -1,0 +1,82 @@
+"""What an action's client hears, handled in one order: no result overtakes the feedback before."""
+
+from __future__ import annotations
+
+import traceback
+from collections import deque
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.graph.delivery import Mailbox
+
+if TYPE_CHECKING:
+    from gazelle.graph.node import Node
+
+__all__ = ["MOST_WAITING", "News"]
+
+MOST_WAITING = 1000
+"""Messages of one topic that wait while a callback takes its time; the oldest are dropped then."""
+
+
+class News:
+    """One queue for all that comes, with a thread of its own.
+
+    What is told once, such as a result, is never dropped. Feedback and status come all the time:
+    while a callback does not end, the newest `MOST_WAITING` of each topic are kept.
+    """
+
+    def __init__(self, node: Node, name: str) -> None:
+        """Start empty.
+
+        Args:
+            node: told what a user's callback raises, and that messages are dropped.
+            name: of the action.
+        """
+        self._node = node
+        self._name = name
+        self._mailbox = Mailbox(self._take, size=0, name=f"action {name}")
+
+    def put(self, work: Callable[[], None]) -> None:
+        """Have something done behind what came before it."""
+        self._mailbox.put(work)
+
+    def topic(self, name: str, callback: Callable[[Any], None]) -> Callable[[Any], None]:
+        """Return what takes the messages of a topic, from any thread.
+
+        Args:
+            name: of the topic, for messages.
+            callback: called with each message, in the queue's thread.
+        """
+        waiting: deque[Any] = deque()
+        is_told = False
+
+        def handle() -> None:
+            callback(waiting.popleft())
+
+        def take(message: Any) -> None:
+            nonlocal is_told
+            waiting.append(message)
+            if len(waiting) <= MOST_WAITING:
+                self._mailbox.put(handle)
+                return
+            # As many turns as messages: the oldest gives its turn to the one that follows it.
+            waiting.popleft()
+            if not is_told:
+                is_told = True
+                self._node.log(
+                    "warn",
+                    f"a callback of the action {self._name} is slower than {name}: {MOST_WAITING} "
+                    "messages wait, and the oldest are dropped from now on",
+                )
+
+        return take
+
+    def close(self) -> None:
+        """Handle nothing more."""
+        self._mailbox.close()
+
+    def _take(self, work: Callable[[], None]) -> None:
+        try:
+            work()
+        except Exception:  # noqa: BLE001 - a user's callback may raise anything
+            self._node.log("error", f"bad callback: {traceback.format_exc().rstrip()}")
