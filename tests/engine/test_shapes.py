@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -296,14 +297,19 @@ def angle_bracket(tmp_path):
     return write_stl(tmp_path / "angle.stl", part.vertices_m, part.faces)
 
 
-@pytest.mark.parametrize("static", [True, False])
-def test_without_coacd_resting_meshes_are_shells_and_moving_ones_hulls(
-    tmp_path, monkeypatch, static
-):
-    def no_coacd(mesh):
+@pytest.fixture
+def no_coacd(tmp_path, monkeypatch):
+    """Nothing splits meshes, and no pieces of them are kept."""
+
+    def hull(mesh):
         return ConvexParts((convex_hull(mesh.vertices_m),), False, "not installed")
 
-    monkeypatch.setattr("gazelle.engine.meshes.convex_parts", no_coacd)
+    monkeypatch.setattr("gazelle.engine.meshes.convex_parts", hull)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
+@pytest.mark.parametrize("static", [True, False])
+def test_without_coacd_resting_meshes_are_shells_and_moving_ones_hulls(tmp_path, no_coacd, static):
     diagnostics = Diagnostics()
     model = thing(mesh_shape(angle_bracket(tmp_path)), static=static)
     engine = Engine(World(models=(model,)), diagnostics=diagnostics)
@@ -316,11 +322,7 @@ def test_without_coacd_resting_meshes_are_shells_and_moving_ones_hulls(
         assert engine.model.ngeom == 1
 
 
-def test_hollow_shell_leaves_its_notch_free(build, tmp_path, monkeypatch):
-    def no_coacd(mesh):
-        return ConvexParts((convex_hull(mesh.vertices_m),), False, "not installed")
-
-    monkeypatch.setattr("gazelle.engine.meshes.convex_parts", no_coacd)
+def test_hollow_shell_leaves_its_notch_free(build, tmp_path, no_coacd):
     corner = thing(mesh_shape(angle_bracket(tmp_path)), Pose((0, 0, 0)), static=True)
     engine = build.engine(corner, build.ball(pose=Pose((0.8, 0.8, 0.5))), gravity_m_s2=(0, 0, 0))
     engine.set_model_velocity("ball", (-1.0, 0, 0), (0, 0, 0))
@@ -328,3 +330,14 @@ def test_hollow_shell_leaves_its_notch_free(build, tmp_path, monkeypatch):
     assert engine.model_pose("ball").position_m[0] == pytest.approx(0.6)
     engine.step(1000)
     assert engine.model_pose("ball").position_m[0] > 0.29
+
+
+def test_models_of_one_mesh_share_its_pieces(tmp_path):
+    path = angle_bracket(tmp_path)
+    models = tuple(
+        replace(thing(mesh_shape(path), Pose((3.0 * index, 0, 0)), static=True), name=f"m{index}")
+        for index in range(3)
+    )
+    model = Engine(World(models=models)).model
+    assert model.ngeom == 3 * model.nmesh
+    assert Engine(World(models=models[:1])).model.nmesh == model.nmesh

@@ -49,7 +49,12 @@ class ReadContext:
     def resolve(self, uri: str) -> Resolved:
         """Find the file or folder a URI means; without a workspace only plain paths are found."""
         if self.workspace is not None:
-            return self.workspace.resolve(uri, base_dir=self.base_dir)
+            # A building names its chair a hundred times, and a model that is missing as often.
+            key = ("resolved", uri, self.base_dir)
+            if key not in self.cache:
+                self.cache[key] = self.workspace.resolve(uri, base_dir=self.base_dir)
+            found: Resolved = self.cache[key]
+            return found
         text = uri.strip().removeprefix("file://")
         if "://" in text:
             return Resolved(None, note="there is no workspace to look in")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.description.model import Collision, JointType, Link, Model, World
+from gazelle.description.model import Collision, JointType, Link, MeshShape, Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.inertia import (
     MASSLESS_LEAF_INERTIA_KG_M2,
@@ -16,13 +17,13 @@ from gazelle.engine.inertia import (
 from gazelle.engine.joints import add_joint, add_mimic, add_root_joint, has_parallel_axes
 from gazelle.engine.library import mujoco
 from gazelle.engine.names import part_of, scoped
-from gazelle.engine.shapes import add_geom, geom_shapes
+from gazelle.engine.shapes import GeomAssets, add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
 from gazelle.engine.tyres import add_tyre
 from gazelle.engine.wheel_grip import with_wheel_grip
 from gazelle.geometry import IDENTITY_POSE
 
-__all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay"]
+__all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay", "mesh_collisions"]
 
 _KINEMATIC_FACTOR = 1e6
 
@@ -74,6 +75,7 @@ class SpecBuilder:
         step_s: length of a step.
         slipping: wheel joints whose links get a tyre.
         tyres: name of the tyre's body by link.
+        assets: of the geoms.
     """
 
     world: World
@@ -86,6 +88,11 @@ class SpecBuilder:
     decays: list[VelocityDecay] = field(default_factory=list)
     trees: dict[str, KinematicTree] = field(default_factory=dict)
     used_names: set[str] = field(default_factory=set)
+    assets: GeomAssets = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Start with an empty spec."""
+        self.assets = GeomAssets(self.spec)
 
     def add_model(self, model: Model) -> None:
         """Add a model's links, joints, mimics and collisions."""
@@ -101,8 +108,7 @@ class SpecBuilder:
         }
         moved = _moved_masses(tree, inertias)
         mass = sum(item.mass_kg for item in inertias.values() if item is not None)
-        # A machine's base is a machine's part: finely made and only touched from outside.
-        scenery = len(fixed) == len(tree.links)
+        scenery = _is_scenery(tree, fixed)
         for entry in tree.links:
             body = self._add_body(model, entry, bodies)
             bodies[entry.link.name] = body
@@ -228,7 +234,7 @@ class SpecBuilder:
         for index, shape in enumerate(shapes):
             name = part_of(collision_name, index)
             pose = collision.T_link_collision @ shape.T_collision_geom
-            element = add_geom(self.spec, body, name, shape, pose)
+            element = add_geom(body, name, shape, pose, self.assets)
             heaviest = float("inf") if static else max(mass_kg, MASSLESS_LEAF_KG)
             self.geoms.append(
                 BuiltGeom(
@@ -251,6 +257,30 @@ class SpecBuilder:
             chosen, number = f"{name}#{number}", number + 1
         self.used_names.add(chosen)
         return chosen
+
+
+def mesh_collisions(world: World) -> Iterator[tuple[MeshShape, bool]]:
+    """Yield the meshes that collide, and whether they are scenery.
+
+    Raises:
+        NotFoundError: a joint names a link that its model does not have.
+        LimitError: more joints move one after the other than anything real has.
+    """
+    for model in world.models:
+        shapes = [one.shape for link in model.links for one in link.collisions]
+        meshes = [shape for shape in shapes if isinstance(shape, MeshShape)]
+        if meshes:
+            tree = kinematic_tree(model)
+            scenery = _is_scenery(tree, _fixed_links(model, tree))
+            yield from ((shape, scenery) for shape in meshes)
+
+
+def _is_scenery(tree: KinematicTree, fixed: frozenset[str]) -> bool:
+    """Tell whether nothing of a model moves.
+
+    A machine's base is a machine's part: finely made and only touched from outside.
+    """
+    return len(fixed) == len(tree.links)
 
 
 def _unmovable(inertia: BodyInertia) -> BodyInertia:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.bodies import SpecBuilder, VelocityDecay
+from gazelle.engine.bodies import SpecBuilder, VelocityDecay, mesh_collisions
 from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.idle_words import report_idle_words
 from gazelle.engine.joints import implicit_damping, keeps_turning
@@ -21,6 +21,7 @@ from gazelle.engine.locks import add_lock
 from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.names import root_joint, rotor_joint, scoped
+from gazelle.engine.piece_workers import split_ahead
 from gazelle.engine.tyres import correct_weights
 from gazelle.engine.welds import add_weld
 from gazelle.errors import EngineError
@@ -126,6 +127,7 @@ def assemble_world(
         NotFoundError: a joint names a link that is not there.
     """
     _check_names(world)
+    split_ahead(mesh_collisions(world))
     spec = _new_spec(world, step_s)
     builder = SpecBuilder(world, spec, diagnostics, step_s, extras.slipping)
     for model in world.models:

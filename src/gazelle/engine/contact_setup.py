@@ -33,6 +33,7 @@ from gazelle.engine.surfaces import (
     contact_spring,
     hard_spring,
     is_plain,
+    least_friction,
     surface_key,
 )
 from gazelle.engine.tree import KinematicTree
@@ -72,12 +73,12 @@ def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
     geoms = builder.geoms
     kinds = [_kind(geom) for geom in geoms]
     groups, crowded = assign_groups(kinds)
-    ranks = _priorities(geoms)
+    mus = [least_friction(geom.collision.surface) for geom in geoms]
+    ranks = _priorities(mus)
     spring = hard_spring(builder.step_s)
-    for geom, kind in zip(geoms, kinds, strict=True):
+    for geom, kind, mu in zip(geoms, kinds, mus, strict=True):
         element = geom.element
         element.contype, element.conaffinity = groups[kind].contype, groups[kind].conaffinity
-        mu = _smallest_mu(geom)
         element.priority = ranks[mu]
         element.condim = 3 if mu > MIN_MU else 1
         element.friction = [max(mu, MIN_MU), 0.0, 0.0]
@@ -115,16 +116,9 @@ def _touches_itself(model: Model, link: Link) -> bool:
     return model.self_collide if link.self_collide is None else link.self_collide
 
 
-def _smallest_mu(geom: BuiltGeom) -> float:
-    surface = geom.collision.surface
-    pair = combine(surface, surface)
-    return min(pair.mu1, pair.mu2)
-
-
-def _priorities(geoms: Sequence[BuiltGeom]) -> dict[float, int]:
+def _priorities(mus: Sequence[float]) -> dict[float, int]:
     """Rank friction coefficients: the smaller the higher."""
-    ordered = sorted({_smallest_mu(geom) for geom in geoms}, reverse=True)
-    return {mu: rank for rank, mu in enumerate(ordered)}
+    return {mu: rank for rank, mu in enumerate(sorted(set(mus), reverse=True))}
 
 
 def _exclude(builder: SpecBuilder, crowded: frozenset[str]) -> None:

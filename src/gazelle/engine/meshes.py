@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import math
 from functools import lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,6 +21,7 @@ from gazelle.geometry import (
     Mesh,
     MeshError,
     MeshPart,
+    Pose,
     convex_hull,
     convex_parts,
     is_closed,
@@ -25,8 +29,21 @@ from gazelle.geometry import (
     load_mesh,
     mesh_volume_m3,
 )
+from gazelle.geometry.array_cache import cache_folder, keep_arrays, kept_arrays
+from gazelle.geometry.loading import MOST_MESH_BYTES
+from gazelle.limits import read_limited
 
-__all__ = ["Piece", "convex_pieces", "polyline_pieces"]
+__all__ = [
+    "Decomposition",
+    "MeshKey",
+    "Piece",
+    "convex_pieces",
+    "decomposed",
+    "kept_file",
+    "mesh_key",
+    "pieces_folder",
+    "polyline_pieces",
+]
 
 _UNSPLIT = "a run splits it into convex pieces"
 
@@ -36,6 +53,9 @@ CONVEX_SHARE = 0.9
 """A moving mesh that fills this share of its hull collides as its hull."""
 
 _LEAST_THICKNESS_RATIO = 2e-7
+# To be raised with every change of what the pieces of a mesh are.
+_KEPT_VERSION = 1
+_OF_SEVERAL_FILES = frozenset({".gltf"})
 
 
 class Piece(NamedTuple):
@@ -45,12 +65,26 @@ class Piece(NamedTuple):
     round_shape: RoundShape | None = None
 
 
-class _Decomposition(NamedTuple):
+class Decomposition(NamedTuple):
+    """The pieces of a mesh, and what is worth telling about them."""
+
     pieces: tuple[Piece, ...]
     note: str
 
 
-class _MeshKey(NamedTuple):
+class MeshKey(NamedTuple):
+    """What the pieces of a mesh depend on.
+
+    Attributes:
+        path: the file.
+        modified_ns: when it was written.
+        scale: factors along its axes.
+        submesh: the part of it, empty for all.
+        center: the part's middle is moved to the origin.
+        scenery: it never moves, nor does anything else of its model.
+        splitting: see `without_splitting`.
+    """
+
     path: Path
     modified_ns: int
     scale: tuple[float, float, float]
@@ -78,10 +112,7 @@ def convex_pieces(
     if shape.path is None:
         return ()
     try:
-        modified = shape.path.stat().st_mtime_ns
-        part = (shape.submesh, shape.center_submesh)
-        key = _MeshKey(shape.path, modified, shape.scale, *part, scenery, is_splitting())
-        result = _decomposed(key)
+        result = decomposed(mesh_key(shape, shape.path, scenery=scenery))
     except (MeshError, OSError, ValueError) as error:
         diagnostics.report(
             "engine.bad-mesh",
@@ -109,8 +140,97 @@ def polyline_pieces(shape: Polyline) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
-@lru_cache(maxsize=256)
-def _decomposed(key: _MeshKey) -> _Decomposition:
+def mesh_key(shape: MeshShape, path: Path, *, scenery: bool) -> MeshKey:
+    """Return what the pieces of a mesh depend on.
+
+    Raises:
+        OSError: there is no such file.
+    """
+    part = (shape.submesh, shape.center_submesh)
+    modified_ns = path.stat().st_mtime_ns
+    return MeshKey(path, modified_ns, shape.scale, *part, scenery, is_splitting())
+
+
+@lru_cache(maxsize=4096)
+def decomposed(key: MeshKey) -> Decomposition:
+    """Return the pieces of a mesh, from disk where they were kept there.
+
+    Raises:
+        OSError: the file cannot be read.
+        MeshError: it is no mesh.
+        ValueError: it has no such part, or none that has a hull.
+    """
+    file = kept_file(key)
+    kept = _kept(file) if file is not None else None
+    if kept is not None:
+        return kept
+    found = _computed(key)
+    if file is not None and not found.note.endswith(_UNSPLIT):
+        _keep(file, found)
+    return found
+
+
+def pieces_folder() -> Path:
+    """Return where the pieces of meshes are kept."""
+    return cache_folder() / "pieces"
+
+
+def kept_file(key: MeshKey) -> Path | None:
+    """Return the file in which the pieces are kept; None when there can be none.
+
+    It is named after what the mesh's file holds, so a mesh that comes back is known again.
+    """
+    # A pipe can be read once only.
+    if key.path.suffix.lower() in _OF_SEVERAL_FILES or not key.path.is_file():
+        return None
+    try:
+        data = read_limited(key.path, MOST_MESH_BYTES)
+    except OSError:
+        return None  # who reads the mesh is told
+    words = (_KEPT_VERSION, *key[2:6], find_spec("coacd") is not None)
+    digest = hashlib.sha256(repr(words).encode())
+    digest.update(data)
+    return pieces_folder() / f"{digest.hexdigest()}.npz"
+
+
+def _kept(file: Path) -> Decomposition | None:
+    arrays = kept_arrays(file)
+    if arrays is None or arrays.keys() != {"points_m", "counts", "round_shapes", "note"}:
+        return None
+    ends = np.cumsum(arrays["counts"])
+    points = np.split(arrays["points_m"], ends[:-1]) if len(ends) else []
+    shapes = [_round_shape(row) for row in arrays["round_shapes"]]
+    pieces = tuple(Piece(*both) for both in zip(points, shapes, strict=True))
+    return Decomposition(pieces, str(arrays["note"]))
+
+
+def _keep(file: Path, found: Decomposition) -> None:
+    shapes = np.full((len(found.pieces), 9), np.nan)
+    for row, piece in zip(shapes, found.pieces, strict=True):
+        if piece.round_shape is not None:
+            radius, half_length, pose = piece.round_shape
+            row[0] = radius
+            row[1] = np.nan if half_length is None else half_length
+            row[2:5], row[5:9] = pose.position_m, pose.quat_xyzw
+    points = [piece.points_m for piece in found.pieces]
+    arrays = {
+        "points_m": np.concatenate(points) if points else np.empty((0, 3)),
+        "counts": np.array([len(one) for one in points], np.int64),
+        "round_shapes": shapes,
+        "note": np.array(found.note),
+    }
+    keep_arrays(file, arrays)
+
+
+def _round_shape(row: Array) -> RoundShape | None:
+    radius, half_length, *pose = row.tolist()
+    if math.isnan(radius):
+        return None
+    T_mesh_shape = Pose(tuple(pose[:3]), tuple(pose[3:]))
+    return RoundShape(radius, None if math.isnan(half_length) else half_length, T_mesh_shape)
+
+
+def _computed(key: MeshKey) -> Decomposition:
     mesh = load_mesh(key.path).scaled(key.scale)
     if key.submesh:
         part = mesh.submesh(key.submesh, key.center)
@@ -119,7 +239,7 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
         mesh = part
     hull, share = _hull_and_share(mesh)
     if share >= CONVEX_SHARE:
-        return _Decomposition((_piece(hull),), "")
+        return Decomposition((_piece(hull),), "")
     filled = f"it fills {100 * share:.0f} % of its hull" if share > 0 else "it is not closed"
     pieces: list[Piece] = []
     notes: dict[str, None] = {}
@@ -129,10 +249,10 @@ def _decomposed(key: _MeshKey) -> _Decomposition:
         if note:
             notes.setdefault(note)
     if _UNSPLIT in notes:
-        return _Decomposition(tuple(pieces), f"{filled}; {_UNSPLIT}")
+        return Decomposition(tuple(pieces), f"{filled}; {_UNSPLIT}")
     how = f" ({'; '.join(notes)})" if notes else ""
     count = f"{len(pieces)} convex piece{'s' * (len(pieces) != 1)}"
-    return _Decomposition(tuple(pieces), f"{filled} and collides as {count}{how}")
+    return Decomposition(tuple(pieces), f"{filled} and collides as {count}{how}")
 
 
 def _hull_and_share(mesh: Mesh) -> tuple[MeshPart, float]:

@@ -28,7 +28,7 @@ from gazelle.engine.meshes import Piece, convex_pieces, polyline_pieces
 from gazelle.engine.terrain import read_terrain
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 
-__all__ = ["GeomShape", "add_geom", "geom_shapes"]
+__all__ = ["GeomAssets", "GeomShape", "add_geom", "geom_shapes"]
 
 Array = NDArray[np.float64]
 _CONE_CORNERS = 32
@@ -94,22 +94,49 @@ def geom_shapes(
     return tuple(shape for shape in shapes if _has_volume(shape, collision, name, diagnostics))
 
 
-def add_geom(spec: Any, body: Any, name: str, shape: GeomShape, T_body_geom: Pose) -> Any:
+class GeomAssets:
+    """Meshes and height fields of a spec's geoms.
+
+    Geoms that are the hull of the very same points have one mesh: a building's hundred chairs
+    are kept and compiled once.
+    """
+
+    def __init__(self, spec: Any) -> None:
+        """Start without any."""
+        self._spec = spec
+        # The points are held: an address is no name for what is gone.
+        self._meshes: dict[int, tuple[Array, str]] = {}
+
+    def mesh(self, hull_m: Array, name: str) -> str:
+        """Return the name of the mesh with these points; a new one is named after its geom."""
+        known = self._meshes.get(id(hull_m))
+        if known is None:
+            mesh = self._spec.add_mesh(name=f"mesh {name}")
+            mesh.uservert = hull_m.ravel()
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
+            known = self._meshes[id(hull_m)] = (hull_m, mesh.name)
+        return known[1]
+
+    def height_field(
+        self, heights: Array, terrain_m: tuple[float, float, float, float], name: str
+    ) -> str:
+        """Return the name of a new height field."""
+        field = self._spec.add_hfield(name=f"terrain {name}")
+        field.nrow, field.ncol = heights.shape
+        field.size = list(terrain_m)
+        field.userdata = heights.ravel()
+        return str(field.name)
+
+
+def add_geom(body: Any, name: str, shape: GeomShape, T_body_geom: Pose, assets: GeomAssets) -> Any:
     """Add one geom, and the asset it needs, to a body; contacts are left to the caller."""
     geom = body.add_geom(name=name, type=shape.kind)
     geom.pos = list(T_body_geom.position_m)
     geom.quat = list(T_body_geom.quat_wxyz)
     if shape.hull_m is not None:
-        mesh = spec.add_mesh(name=f"mesh {name}")
-        mesh.uservert = shape.hull_m.ravel()
-        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-        geom.meshname = mesh.name
+        geom.meshname = assets.mesh(shape.hull_m, name)
     elif shape.heights is not None and shape.terrain_m is not None:
-        field = spec.add_hfield(name=f"terrain {name}")
-        field.nrow, field.ncol = shape.heights.shape
-        field.size = list(shape.terrain_m)
-        field.userdata = shape.heights.ravel()
-        geom.hfieldname = field.name
+        geom.hfieldname = assets.height_field(shape.heights, shape.terrain_m, name)
     else:
         geom.size = [*shape.size, 0.0, 0.0, 0.0][:3]
     return geom

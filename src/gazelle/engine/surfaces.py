@@ -17,6 +17,7 @@ __all__ = [
     "contact_spring",
     "hard_spring",
     "is_plain",
+    "least_friction",
     "restitution_of",
     "surface_key",
 ]
@@ -266,6 +267,11 @@ def _max_vel(surface: Surface) -> float:
     if limit is None:
         return math.inf if surface.kp is None else DEFAULT_MAX_VEL_M_S
     return limit if limit > 0 else math.inf
+
+
+def least_friction(surface: Surface) -> float:
+    """Return the smaller of a surface's two friction coefficients, 1 where it names none."""
+    return min(_friction(surface))
 
 
 def _friction(surface: Surface) -> tuple[float, float]:

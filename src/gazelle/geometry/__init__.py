@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gazelle.geometry.convex import (
     ConvexParts,
+    announce,
     announcing,
     convex_hull,
     convex_parts,
@@ -70,6 +71,7 @@ __all__ = [
     "MeshNote",
     "MeshPart",
     "Pose",
+    "announce",
     "announcing",
     "box_mass_properties",
     "box_mesh",

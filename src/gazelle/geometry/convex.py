@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import NamedTemporaryFile
-from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.geometry.array_cache import cache_folder, keep_arrays, kept_arrays
 from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.mesh import Mesh, MeshPart
 from gazelle.geometry.shading import group_points
 
 __all__ = [
     "ConvexParts",
+    "announce",
     "announcing",
-    "cache_folder",
     "convex_hull",
     "convex_parts",
     "is_splitting",
@@ -158,10 +155,11 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
     return ConvexParts(parts, True, f"{len(parts)} convex pieces")
 
 
-def cache_folder() -> Path:
-    """Return ``$XDG_CACHE_HOME/gazelle``, by default ``~/.cache/gazelle``."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "gazelle"
+def announce(text: str) -> None:
+    """Tell of work that takes seconds to who listens, see `announcing`."""
+    listener = _announce.get()
+    if listener is not None:
+        listener[0](text)
 
 
 def _tell(mesh: Mesh) -> None:
@@ -220,23 +218,14 @@ def _cache_file(mesh: Mesh, threshold: float) -> Path:
 
 
 def _load(file: Path) -> tuple[MeshPart, ...]:
+    arrays = kept_arrays(file)
+    if arrays is None:
+        return ()
     try:
-        with np.load(file, allow_pickle=False) as data:
-            return tuple(convex_hull(data[name]) for name in sorted(data.files))
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return tuple(convex_hull(arrays[name]) for name in sorted(arrays))
+    except ValueError:
         return ()
 
 
 def _save(file: Path, parts: tuple[MeshPart, ...]) -> None:
-    """Write beside and rename, so that a reader never sees half a file."""
-    # Typed loosely: NumPy before 2.2 knows no other argument, and would save one as an array.
-    arrays: dict[str, Any] = {
-        f"part{index:05d}": part.vertices_m for index, part in enumerate(parts)
-    }
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
-            np.savez(target, **arrays)
-        Path(target.name).replace(file)
-    except OSError:
-        return  # a read-only home only costs the time of the next run
+    keep_arrays(file, {f"part{index:05d}": part.vertices_m for index, part in enumerate(parts)})

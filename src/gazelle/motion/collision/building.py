@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.library import compiled, drained_warnings, mujoco
-from gazelle.engine.shapes import add_geom
+from gazelle.engine.shapes import GeomAssets, add_geom
 from gazelle.errors import EngineError
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.motion.collision.solids import Solid, link_solids, object_solids
@@ -149,6 +149,7 @@ class _Builder:
         self._colliding = {str(body.owner): body for body in bodies}
         self._diagnostics = diagnostics
         self._spec = _new_spec()
+        self._assets = GeomAssets(self._spec)
         self._bodies: dict[str, Any] = {}
         self._owners: dict[str, Owner] = {}
         self._geom_owners: list[Owner] = []
@@ -207,7 +208,7 @@ class _Builder:
         self._owners[body.name] = owner
         for solid in colliding.solids:
             name = f"geom {len(self._geom_owners)}"
-            geom = add_geom(self._spec, body, name, solid.shape, solid.T_owner_shape)
+            geom = add_geom(body, name, solid.shape, solid.T_owner_shape, self._assets)
             geom.margin = colliding.margin_m
             self._geom_owners.append(owner)
 
