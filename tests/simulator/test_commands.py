@@ -6,7 +6,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GazelleError
-from gazelle.simulator.commands import CommandQueue
+from gazelle.simulator.commands import MOST_WAITING, Backlog, CommandQueue
 
 
 def _never(error: Exception) -> None:
@@ -157,3 +157,37 @@ def test_what_a_posted_command_raises_is_told_and_the_next_one_acts() -> None:
     queue.disown()
     assert [type(error) for error in told] == [ZeroDivisionError]
     assert done == [1]
+
+
+def test_a_command_that_was_given_up_never_begins() -> None:
+    """Its caller was told that it was not taken."""
+    queue, done = CommandQueue(_never), []
+    queue.own()
+    thread = threading.Thread(target=lambda: _call_in_vain(queue, done))
+    thread.start()
+    thread.join(stretched())
+    queue.apply()
+    queue.disown()
+    assert done == ["given up"]
+
+
+def _call_in_vain(queue: CommandQueue, done: list[str]) -> None:
+    with pytest.raises(GazelleError, match="did not take a command within"):
+        queue.call(lambda: done.append("acted"), timeout_s=0.01)
+    done.append("given up")
+
+
+def test_of_the_messages_that_wait_for_a_busy_world_the_oldest_go_first() -> None:
+    """As many as a topic sends while a world loads something, stands still or is stopped."""
+    queue, told, done = CommandQueue(_never), [], []
+    backlog = Backlog(queue, done.append, lambda: told.append("told"))
+    queue.own()
+    poster = threading.Thread(target=lambda: [backlog.put(n) for n in range(MOST_WAITING + 50)])
+    poster.start()
+    poster.join(stretched())
+    queue.apply()
+    assert done == list(range(50, MOST_WAITING + 50))
+    assert told == ["told"]
+    backlog.put("next")
+    queue.disown()
+    assert done[-1] == "next"

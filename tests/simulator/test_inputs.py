@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
+from tests.patience import eventually, stretched
 
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 from gazelle.graph.errors import ServiceRefusedError
-from gazelle.simulator import Simulation
+from gazelle.simulator import Mode, Simulation
 from gazelle.simulator.inputs import Inputs, problem_of, refusal
 from gazelle.simulator.messages import message_class, service_class
 
@@ -95,34 +98,148 @@ def test_service_refuses_a_number_that_cannot_be(
     world.run(seconds=0.01)
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, -0.001, 11.0])
+@pytest.mark.parametrize("value", [0.0, -1.0, -0.001, 1e-12, 11.0, 1e6])
 def test_step_that_cannot_be_is_refused(world: Simulation, value: float) -> None:
     request = _request("SetPhysicsProperties", time_step=value, max_update_rate=1000.0)
     response = world.server.node.call("/gazebo/set_physics_properties", request)
     assert not response.success
     assert response.status_message == (
-        f"SetPhysicsProperties: 'time_step' is {value:g}, it has to be more than 0 and at most 10; "
-        "nothing is changed"
+        f"/gazebo/set_physics_properties: field 'time_step' is {value:g}, it has to be at least "
+        "1e-09 and at most 10; nothing is changed"
     )
     assert world.server.engine.step_ns == 1_000_000
 
 
-def test_topic_leaves_a_number_out_that_cannot_be_and_tells_once(
-    world: Simulation, caplog: pytest.LogCaptureFixture
+@pytest.mark.parametrize(
+    ("service", "kind", "who", "field", "limit"),
+    [
+        ("set_model_state", "SetModelState", ("model_state.model_name", "box"),
+         "model_state.pose.position.x", "100000"),
+        ("set_model_state", "SetModelState", ("model_state.model_name", "box"),
+         "model_state.twist.linear.z", "10000"),
+        ("set_model_state", "SetModelState", ("model_state.model_name", "box"),
+         "model_state.twist.angular.y", "10000"),
+        ("set_link_state", "SetLinkState", ("link_state.link_name", "box::link"),
+         "link_state.pose.position.z", "100000"),
+        ("set_link_state", "SetLinkState", ("link_state.link_name", "box::link"),
+         "link_state.twist.linear.x", "10000"),
+        ("spawn_sdf_model", "SpawnModel", ("model_name", "new"),
+         "initial_pose.position.y", "100000"),
+    ],
+)  # fmt: skip
+def test_million_is_refused_where_nothing_has_it(
+    world: Simulation, service: str, kind: str, who: tuple[str, str], field: str, limit: str
 ) -> None:
-    state = message_class("gazebo_msgs/ModelState")(model_name="box")
-    state.pose.position.x = math.nan
+    request = _filled(_filled(_request(kind), *who), field, 1e6)
+    before = world.server.engine.state_hash()
+    response = world.server.node.call(f"/gazebo/{service}", request)
+    assert not response.success
+    assert response.status_message == (
+        f"/gazebo/{service}: field '{field}' is 1e+06, beyond the ±{limit}, which nothing in a "
+        "world can have; nothing is changed"
+    )
+    assert world.server.engine.state_hash() == before
+
+
+def test_gravity_of_a_million_is_refused(world: Simulation) -> None:
+    request = _request("SetPhysicsProperties", time_step=0.001, max_update_rate=1000.0)
+    request.gravity.z = -1e6
+    response = world.server.node.call("/gazebo/set_physics_properties", request)
+    assert response.status_message == (
+        "/gazebo/set_physics_properties: field 'gravity_z' is -1e+06, it has to be at least -100 "
+        "and at most 100; nothing is changed"
+    )
+    assert world.server.engine.gravity_m_s2[2] == -9.8
+
+
+@pytest.mark.parametrize("field", ["wrench.force.x", "wrench.torque.z"])
+def test_wrench_of_a_million_is_a_rockets_and_the_world_outlives_it(
+    world: Simulation, field: str
+) -> None:
+    request = _filled(_request("ApplyBodyWrench", body_name="box::link"), field, 1e6)
+    request.duration.sec = -1
+    assert world.server.node.call("/gazebo/apply_body_wrench", request).success
+    server = world.server
+    server.mode = Mode.REAL_TIME
+    running = threading.Thread(target=server.run)
+    running.start()
+    try:
+        eventually(lambda: server.paused or server.time_ns > 1_000_000_000)
+        call = server.node.call
+        assert call("/gazebo/delete_model", _request("DeleteModel", model_name="box")).success
+        server.unpause()
+        at_ns = server.time_ns
+        eventually(lambda: server.time_ns > at_ns + 20_000_000)
+    finally:
+        server.stop()
+        running.join(stretched())
+
+
+def test_link_that_no_world_can_be_built_with_is_refused_and_its_model_stays(
+    world: Simulation,
+) -> None:
+    light = {"mass": 1e-300, "ixx": 0.1, "iyy": 0.1, "izz": 0.1}
+    request = _request("SetLinkProperties", link_name="box::link", **light)
+    before = world.server.engine.state_hash()
+    response = world.server.node.call("/gazebo/set_link_properties", request)
+    assert not response.success
+    assert "MuJoCo cannot build the world" in response.status_message
+    assert world.server.engine.state_hash() == before
+
+
+def test_wrench_that_begins_when_its_model_has_gone_does_nothing(world: Simulation) -> None:
+    request = _request("ApplyBodyWrench", body_name="box::link")
+    request.wrench.force.x, request.start_time.sec, request.duration.sec = 1.0, 1, 1
+    assert world.server.node.call("/gazebo/apply_body_wrench", request).success
+    world.server.delete("box")
+    world.run(seconds=1.1)
+
+
+def test_engine_refuses_places_that_no_state_can_have(world: Simulation) -> None:
+    """Squares of them are no numbers: a world could neither go on from there nor go back."""
+    engine, far = world.server.engine, Pose((0.0, 1e300, 0.0))
+    before = engine.state_hash()
+    link = engine.description_of_link("box::link")
+    model = replace(engine.world.models[1], links=(replace(link, T_model_link=far),))
+    for attempt in (
+        lambda: engine.set_model_pose("box", far),
+        lambda: engine.link("box::link").set_pose(far),
+        lambda: engine.joint("wheel::spin").set_state(position=1e300),
+        lambda: engine.spawn(model, name="x"),
+    ):
+        with pytest.raises(EngineError, match=r"given 1e\+300: nothing is farther away than"):
+            attempt()
+    assert engine.state_hash() == before
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("pose.position.x", math.nan, "is nan"),
+        ("pose.position.x", -math.inf, "is -inf"),
+        ("pose.position.x", 1e300, "is 1e+300, beyond the ±100000"),
+        ("pose.position.x", 1e6, "is 1e+06, beyond the ±100000"),
+        ("twist.linear.z", math.inf, "is inf"),
+        ("twist.linear.z", 1e6, "is 1e+06, beyond the ±10000"),
+        ("twist.angular.x", 1e300, "is 1e+300, beyond the ±10000"),
+    ],
+)
+def test_topic_leaves_a_number_out_that_cannot_be_and_tells_once(
+    world: Simulation, caplog: pytest.LogCaptureFixture, field: str, value: float, words: str
+) -> None:
+    good = message_class("gazebo_msgs/ModelState")(model_name="box")
+    state = _filled(message_class("gazebo_msgs/ModelState")(model_name="box"), field, value)
     publisher = world.server.node.create_publisher("/gazebo/set_model_state", type(state))
     before = world.server.engine.state_hash()
     publisher.publish(state)
     publisher.publish(state)
     assert world.server.engine.state_hash() == before
     assert [record.message for record in caplog.records] == [
-        "[/gazebo/set_model_state] field 'pose.position.x' is nan, which nothing in a world can "
-        "have; the message is left out"
+        f"[/gazebo/set_model_state] field '{field}' {words}, which nothing in a world can have; "
+        "the message is left out"
     ]
-    state.pose.position.x = 1.0
-    publisher.publish(state)
+    good.pose.position.x = 1.0
+    publisher.publish(good)
     assert world.server.engine.model_pose("box").position_m[0] == 1.0
 
 
@@ -138,6 +255,12 @@ def test_limits_belong_to_what_a_number_means() -> None:
     assert problem_of(twist) == (
         "field 'linear.x' is 20000, beyond the ±10000, which nothing in a world can have"
     )
+    pose, wrench = message_class("geometry_msgs/Pose")(), message_class("geometry_msgs/Wrench")()
+    pose.position.y, wrench.force.z = -1e5, 1e7
+    assert (problem_of(pose), problem_of(wrench)) == ("", "")
+    pose.position.y, wrench.force.z = -1.001e5, 1.001e7
+    assert "field 'position.y' is -100100, beyond the ±100000" in problem_of(pose)
+    assert "field 'force.z' is 1.001e+07, beyond the ±1e+07" in problem_of(wrench)
     array = message_class("std_msgs/Float64MultiArray")(data=[0.0, 2e4, math.inf])
     assert problem_of(array) == "field 'data[2]' is inf, which nothing in a world can have"
     path = message_class("tf2_msgs/TFMessage")(

@@ -138,7 +138,8 @@ class Engine(EngineCore):
         """Add a model; everything else keeps its state. Returns its name.
 
         Raises:
-            EngineError: the name is taken, or MuJoCo cannot build the model.
+            EngineError: the name is taken, a place is beyond all bounds, or MuJoCo cannot build
+                the model.
         """
         name = name or model.name
         if self._world.model(name) is not None:
@@ -148,6 +149,8 @@ class Engine(EngineCore):
             )
         pose = model.T_world_model if T_world_model is None else T_world_model
         require_finite_pose(pose, f"model '{name}'")
+        for link in model.links:
+            require_finite_pose(pose @ link.T_model_link, f"link '{scoped(name, link.name)}'")
         added = replace(model, name=name, T_world_model=pose)
         self._rebuild(replace(self._world, models=(*self._world.models, added)))
         return name

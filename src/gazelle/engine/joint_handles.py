@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
-from gazelle.engine.finite import finite
+from gazelle.engine.finite import finite, place
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.records import Wrench
 from gazelle.errors import EngineError
@@ -192,7 +192,8 @@ class JointHandle:
         """Put the joint to a position and velocity at once; a lock holds it there from now on."""
         dof = self._driven()
         if position is not None:
-            self._engine.data.qpos[self._qpos] = self._finite(position)
+            wanted = place(position, f"joint '{self.name}'")
+            self._engine.data.qpos[self._qpos] = wanted
             self._engine.locks.move(self._element, position)
         if velocity is not None:
             self._engine.data.qvel[dof] = self._finite(velocity)

@@ -10,7 +10,10 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError
 
-__all__ = ["CommandQueue", "telling"]
+__all__ = ["MOST_WAITING", "Backlog", "CommandQueue", "error_text", "telling"]
+
+MOST_WAITING = 1000
+"""Messages of one topic that wait for the world at most."""
 
 _Result = TypeVar("_Result")
 _LOOK_S = 0.005
@@ -19,31 +22,38 @@ _LOOK_S = 0.005
 class _Call:
     """A command whose caller waits for the result."""
 
-    __slots__ = ("command", "done", "error", "result")
+    __slots__ = ("_claim", "command", "done", "error", "result")
 
     def __init__(self, command: Callable[[], Any]) -> None:
         self.command = command
         self.done = threading.Event()
+        self._claim = threading.Lock()
         self.result: Any = None
         self.error: BaseException | None = None
 
     def __call__(self) -> None:
+        if not self._claim.acquire(blocking=False):
+            return
         try:
             self.result = self.command()
         except Exception as error:  # noqa: BLE001 - it is raised again in the caller's thread
             self.error = error
         self.done.set()
 
+    def give_up(self) -> bool:
+        """Have it never begin, as its caller waits no more; False when it has begun."""
+        return self._claim.acquire(blocking=False)
+
+
+def error_text(error: Exception) -> str:
+    """Return an error's words, with the traceback of one that nobody foresaw."""
+    known = isinstance(error, GazelleError)
+    return str(error) if known else "".join(traceback.format_exception(error)).rstrip()
+
 
 def telling(log: Callable[[Any, str], None]) -> Callable[[Exception], None]:
-    """Return what tells a log of an error, with the traceback of one that nobody foresaw."""
-
-    def tell(error: Exception) -> None:
-        known = isinstance(error, GazelleError)
-        text = str(error) if known else "".join(traceback.format_exception(error)).rstrip()
-        log("ERROR", text)
-
-    return tell
+    """Return what tells a log of an error."""
+    return lambda error: log("ERROR", error_text(error))
 
 
 class CommandQueue:
@@ -79,7 +89,8 @@ class CommandQueue:
         """Have a command applied between steps, wait for it and return its result.
 
         Raises:
-            GazelleError: the world server was closed or did not answer in time.
+            GazelleError: the world server was closed or did not answer in time. A command that
+                has not begun by then never does.
             Exception: whatever `command` raised.
         """
         if self._take_world():
@@ -91,7 +102,8 @@ class CommandQueue:
         waiting = _Call(command)
         self._enqueue(waiting)
         if not waiting.done.wait(timeout_s):
-            raise GazelleError(f"the simulation did not take a command within {timeout_s:g} s")
+            done = "take" if waiting.give_up() else "end"
+            raise GazelleError(f"the simulation did not {done} a command within {timeout_s:g} s")
         if waiting.error is not None:
             raise waiting.error
         result: _Result = waiting.result
@@ -176,3 +188,48 @@ class CommandQueue:
 
     def _acts_now(self) -> bool:
         return self._owner is None or self._owner == threading.get_ident()
+
+
+class Backlog:
+    """Messages of one topic on their way into a world that is busy with something else.
+
+    A world may take seconds for a step or a command, or stand still altogether, and messages come
+    all the while: no more of them wait than `MOST_WAITING`, the oldest go first.
+    """
+
+    def __init__(
+        self, commands: CommandQueue, act: Callable[[Any], None], overflowed: Callable[[], None]
+    ) -> None:
+        """Begin with none.
+
+        Args:
+            commands: of the world.
+            act: takes a message, between two steps.
+            overflowed: called the first time that a message goes.
+        """
+        self._commands = commands
+        self._act = act
+        self._overflowed: Callable[[], None] | None = overflowed
+        self._waiting: deque[Any] = deque()
+        self._lock = threading.Lock()
+
+    def put(self, message: Any) -> None:
+        """Have a message acted on soon; from any thread, does not wait."""
+        with self._lock:
+            is_full = len(self._waiting) == MOST_WAITING
+            if is_full:
+                self._waiting.popleft()
+            self._waiting.append(message)
+            overflowed = self._overflowed if is_full else None
+            if is_full:
+                self._overflowed = None
+        if not is_full:
+            # One command for each that waits.
+            self._commands.post(self._take)
+        elif overflowed is not None:
+            overflowed()
+
+    def _take(self) -> None:
+        with self._lock:
+            message = self._waiting.popleft()
+        self._act(message)

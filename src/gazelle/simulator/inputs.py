@@ -1,6 +1,7 @@
 """What comes into a world from outside: whether its numbers can be, who sent it, and when.
 
-Every topic and service of the simulator comes through here (`gazelle.simulator.plugins.context`).
+Every topic and service of the simulator comes through here (`gazelle.simulator.plugins.context`),
+and every number of a viewer's request (`gazelle.simulator.viewing.fields`).
 A number that is none, or that nothing in a world can have, would spoil the whole state at the next
 step; so it is refused with the name of its field. The limits are far beyond robots: a position of
 100 km, a speed of 10 km/s, ten million newtons.
@@ -15,35 +16,54 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gazelle.errors import GazelleError
 from gazelle.graph.errors import ServiceRefusedError
 from gazelle.interfaces.definition import Array, attribute_name
 
-__all__ = ["Arrival", "Inputs", "problem_of", "refusal"]
+__all__ = [
+    "Arrival",
+    "InputRefusedError",
+    "Inputs",
+    "Limit",
+    "number_problem",
+    "problem_of",
+    "refusal",
+]
+
+
+class Limit:
+    """The largest number that a world takes, by what it means."""
+
+    ANY = 1e12
+    POSITION_M = 1e5
+    ANGLE_RAD = 1e6
+    SPEED = 1e4
+    LOAD = 1e7
+    MASS_KG = 1e9
+
 
 _FLOATS = frozenset({"float32", "float64"})
-_LARGEST = 1e12
-_POSITION_M = 1e5
-_ANGLE_RAD = 1e6
-_SPEED = 1e4
-_LOAD = 1e7
-_MASS_KG = 1e9
 _RECENT_NS = 1_000_000_000
 _MOST = 4
 # By type and field; everything inside of a field has its limit.
 _LIMITS = {
-    ("geometry_msgs/Pose", "position"): _POSITION_M,
-    ("geometry_msgs/Transform", "translation"): _POSITION_M,
-    ("geometry_msgs/Twist", "linear"): _SPEED,
-    ("geometry_msgs/Twist", "angular"): _SPEED,
-    ("geometry_msgs/Wrench", "force"): _LOAD,
-    ("geometry_msgs/Wrench", "torque"): _LOAD,
-    ("gazebo_msgs/ApplyBodyWrench_Request", "reference_point"): _POSITION_M,
-    ("gazebo_msgs/ApplyLinkWrench_Request", "reference_point"): _POSITION_M,
-    ("gazebo_msgs/ApplyJointEffort_Request", "effort"): _LOAD,
-    ("gazebo_msgs/SetModelConfiguration_Request", "joint_positions"): _ANGLE_RAD,
-    ("gazebo_msgs/SetLinkProperties_Request", "mass"): _MASS_KG,
-    ("trajectory_msgs/JointTrajectoryPoint", "positions"): _ANGLE_RAD,
+    ("geometry_msgs/Pose", "position"): Limit.POSITION_M,
+    ("geometry_msgs/Transform", "translation"): Limit.POSITION_M,
+    ("geometry_msgs/Twist", "linear"): Limit.SPEED,
+    ("geometry_msgs/Twist", "angular"): Limit.SPEED,
+    ("geometry_msgs/Wrench", "force"): Limit.LOAD,
+    ("geometry_msgs/Wrench", "torque"): Limit.LOAD,
+    ("gazebo_msgs/ApplyBodyWrench_Request", "reference_point"): Limit.POSITION_M,
+    ("gazebo_msgs/ApplyLinkWrench_Request", "reference_point"): Limit.POSITION_M,
+    ("gazebo_msgs/ApplyJointEffort_Request", "effort"): Limit.LOAD,
+    ("gazebo_msgs/SetModelConfiguration_Request", "joint_positions"): Limit.ANGLE_RAD,
+    ("gazebo_msgs/SetLinkProperties_Request", "mass"): Limit.MASS_KG,
+    ("trajectory_msgs/JointTrajectoryPoint", "positions"): Limit.ANGLE_RAD,
 }
+
+
+class InputRefusedError(GazelleError):
+    """Raised by a service whose request cannot be; the caller and the log hear why, and whose."""
 
 
 class Arrival(NamedTuple):
@@ -106,7 +126,16 @@ class _Part(NamedTuple):
 
 def problem_of(message: Any) -> str:
     """Return what is wrong with the first number of a message that cannot be, or nothing."""
-    return next(_problems(message, "", _LARGEST), "")
+    return next(_problems(message, "", Limit.ANY), "")
+
+
+def number_problem(value: float, name: str, limit: float = Limit.ANY) -> str:
+    """Return what is wrong with a field's number, or nothing."""
+    # False for what is no number, too.
+    if abs(value) <= limit:
+        return ""
+    text = f"is {value:g}, beyond the ±{limit:g}" if math.isfinite(value) else f"is {value:g}"
+    return f"field '{name}' {text}, which nothing in a world can have"
 
 
 def _problems(message: Any, prefix: str, limit: float) -> Iterator[str]:
@@ -126,10 +155,8 @@ def _problems(message: Any, prefix: str, limit: float) -> Iterator[str]:
 
 
 def _number(value: float, name: str, limit: float) -> Iterator[str]:
-    # False for what is no number, too.
-    if not abs(value) <= limit:
-        text = f"is {value:g}, beyond the ±{limit:g}" if math.isfinite(value) else f"is {value:g}"
-        yield f"field '{name}' {text}, which nothing in a world can have"
+    if problem := number_problem(value, name, limit):
+        yield problem
 
 
 def _numbers(values: Any, name: str, limit: float) -> Iterator[str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gazelle.description.model import Model
+from gazelle.errors import EngineError
+from gazelle.simulator.inputs import InputRefusedError
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
@@ -22,6 +24,9 @@ def replace_model(engine: Engine, model: Model) -> None:
 
     Pose, velocity and joint state stay; motor commands and efforts on its joints end, their
     plug-ins give them again.
+
+    Raises:
+        InputRefusedError: the engine cannot build it; everything is as it was.
     """
     name = model.name
     pose = engine.model_pose(name)
@@ -31,10 +36,18 @@ def replace_model(engine: Engine, model: Model) -> None:
         for item in engine.joint_names
         if item.startswith(f"{name}::") and engine.joint(item).is_driveable
     }
+    before = engine.save_state()
     engine.delete(name)
-    engine.spawn(model, name=name)
-    engine.set_model_pose(name, pose)
-    if not is_fixed(model):
-        engine.set_model_velocity(name, linear, angular)
-    for item, (position, velocity) in joints.items():
-        engine.joint(item).set_state(position, velocity)
+    try:
+        engine.spawn(model, name=name)
+        engine.set_model_pose(name, pose)
+        if not is_fixed(model):
+            engine.set_model_velocity(name, linear, angular)
+        for item, (position, velocity) in joints.items():
+            # One that is static now has none.
+            if engine.joint(item).is_driveable:
+                engine.joint(item).set_state(position, velocity)
+    except EngineError as error:
+        # It is gone by now, and nobody asked for that.
+        engine.restore_state(before)
+        raise InputRefusedError(str(error)) from error

@@ -11,12 +11,14 @@ if TYPE_CHECKING:
     from gazelle.engine import Engine
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["DIVERGENCE", "OnDivergence", "recover"]
+__all__ = ["DIVERGENCE", "OnDivergence", "Recovery"]
 
 DIVERGENCE = "on_divergence"
 """Of the node ``gazebo``: an `OnDivergence`."""
 
 _NS = 1e-9
+# Of simulated time; what diverges so soon again was not mended.
+_SOON_NS = 1_000_000_000
 _SHOWN_EFFORTS = 4
 
 
@@ -27,32 +29,54 @@ class OnDivergence(enum.StrEnum):
     REMOVE = "remove"
 
 
-def recover(server: WorldServer, error: SimulationDivergedError) -> None:
-    """Let a world go on after its engine went back to the last finite state.
+class Recovery:
+    """Lets a world go on after its engine went back to the last finite state."""
 
-    The model at fault comes to rest, and what acted on it ends: otherwise the next step would end
-    as this one did. By `DIVERGENCE` it is taken out of the world instead, which then goes on.
+    def __init__(self, server: WorldServer) -> None:
+        """Begin; nothing has diverged yet."""
+        self._server = server
+        self._last = ("", 0)
 
-    Args:
-        server: the world.
-        error: what the engine said.
-    """
-    engine = server.engine
-    model = error.link.partition("::")[0]
-    is_known = engine.world.model(model) is not None
-    lines = [str(error), *_acting(engine, model), *_sent(server)]
-    if is_known and server.on_divergence() is OnDivergence.REMOVE:
-        server.delete(model)
-        lines.append(f"'{model}' is taken out of the world, which goes on ({DIVERGENCE}: remove)")
-    else:
-        if is_known:
-            _calm(engine, model)
-        server.pause()
-        lines.append(
-            f"the world is back at {engine.time_ns * _NS:.3f} s and paused; '{model}' is at rest "
-            "and free of efforts and wrenches\n  fix: mend what is named here, then unpause"
+    def recover(self, error: SimulationDivergedError) -> None:
+        """Let the world go on.
+
+        The model at fault comes to rest, and what acted on it ends: otherwise the next step would
+        end as this one did. By `DIVERGENCE` it is taken out of the world instead, which then goes
+        on.
+
+        Args:
+            error: what the engine said.
+        """
+        server = self._server
+        engine = server.engine
+        model = error.link.partition("::")[0]
+        is_known = engine.world.model(model) is not None
+        lines = [str(error), *_acting(engine, model), *_sent(server)]
+        if is_known and server.on_divergence() is OnDivergence.REMOVE:
+            server.delete(model)
+            lines.append(
+                f"'{model}' is taken out of the world, which goes on ({DIVERGENCE}: remove)"
+            )
+        else:
+            if is_known:
+                _calm(server, model)
+            server.pause()
+            lines.append(self._paused(model))
+        server.node.log("ERROR", "\n  ".join(lines))
+
+    def _paused(self, model: str) -> str:
+        time_ns = self._server.engine.time_ns
+        text = f"the world is back at {time_ns * _NS:.3f} s and paused; '{model}' is at rest"
+        (before, at_ns), self._last = self._last, (model, time_ns)
+        if before == model and 0 <= time_ns - at_ns < _SOON_NS:
+            return (
+                f"{text}, as it was before: something drives it on, or it cannot be where it is\n"
+                "  fix: stop what drives it, put it elsewhere, delete it or reset the world, then "
+                "unpause"
+            )
+        return (
+            f"{text} and free of efforts and wrenches\n  fix: mend what is named here, then unpause"
         )
-    server.node.log("ERROR", "\n  ".join(lines))
 
 
 def _acting(engine: Engine, model: str) -> list[str]:
@@ -79,7 +103,8 @@ def _sent(server: WorldServer) -> list[str]:
     return [f"last commands: {', '.join(senders)}"]
 
 
-def _calm(engine: Engine, model: str) -> None:
+def _calm(server: WorldServer, model: str) -> None:
+    engine = server.engine
     for name in engine.joint_names:
         if name.startswith(f"{model}::"):
             joint = engine.joint(name)
@@ -89,3 +114,4 @@ def _calm(engine: Engine, model: str) -> None:
         if name.startswith(f"{model}::"):
             engine.link(name).clear_wrenches()
     engine.bring_to_rest(model)
+    server.calm(model)

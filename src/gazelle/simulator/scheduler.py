@@ -47,6 +47,7 @@ class Task:
         order: tasks due at the same step run in this order, then as they were added.
         wanted: asked before `action`; when it says no the task sleeps and is asked again at least
             every 50 ms, and whenever `Scheduler.look` is called.
+        has_failed: `action` raised something, in a world that goes on all the same.
     """
 
     name: str
@@ -54,6 +55,7 @@ class Task:
     action: Callable[[], None]
     order: int = ORDER_CONTROL
     wanted: Callable[[], bool] | None = None
+    has_failed: bool = False
     _start: int = 0
     _tick: int = 0
     _ratio: tuple[int, int] = (1, 1)
@@ -167,8 +169,15 @@ class Scheduler:
         # Looking after sleeping tasks waits for the next tick of others, but not for long.
         return min(due, self._next_look + self._look_steps()) if self._asleep else due
 
-    def run_due(self, iteration: int) -> int:
-        """Run every task due at or before `iteration`, in order; return how many ran."""
+    def run_due(
+        self, iteration: int, failed: Callable[[Task, Exception], None] | None = None
+    ) -> int:
+        """Run every task due at or before `iteration`, in order; return how many ran.
+
+        Args:
+            iteration: where the world stands.
+            failed: told what a task raised, the others run; None lets it through.
+        """
         self._now = iteration
         if self._asleep and iteration >= self._next_look:
             self.look()
@@ -182,7 +191,12 @@ class Scheduler:
             task._tick += 1
             heapq.heapreplace(heap, (task._due(), task.order, task._sequence, task))
             ran += 1
-            task.action()
+            try:
+                task.action()
+            except Exception as error:
+                if failed is None:
+                    raise
+                failed(task, error)
             heap = self._heap
         return ran
 

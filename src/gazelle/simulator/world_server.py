@@ -12,7 +12,7 @@ from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
-from gazelle.simulator.commands import CommandQueue, telling
+from gazelle.simulator.commands import CommandQueue, error_text, telling
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.disturbances import Disturbances
 from gazelle.simulator.frames import FrameWorker
@@ -24,8 +24,8 @@ from gazelle.simulator.plugins.gz_sensors import is_gz_world, publish_sensor
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.plugins.transport import publish_contact_sensor
 from gazelle.simulator.ports import NodePort
-from gazelle.simulator.recovery import OnDivergence, recover
-from gazelle.simulator.scheduler import Scheduler
+from gazelle.simulator.recovery import OnDivergence, Recovery
+from gazelle.simulator.scheduler import Scheduler, Task
 from gazelle.simulator.sensor_checks import check_sensor
 from gazelle.simulator.sensor_set import SensorSet, sensor_places
 
@@ -108,6 +108,7 @@ class WorldServer:
         self.mode = mode
         self.paused = paused
         self.on_divergence: Callable[[], OnDivergence] = lambda: OnDivergence.PAUSE
+        self._recovery = Recovery(self)
         self.scheduler = Scheduler(self.engine.step_ns)
         self.commands = CommandQueue(telling(self.node.log))
         self.inputs = Inputs()
@@ -156,14 +157,15 @@ class WorldServer:
         try:
             self._advance(count)
         except SimulationDivergedError as error:
-            recover(self, error)
+            self._recovery.recover(error)
             raise
         self.pace.restart(self.engine.time_ns)
 
     def run(self, iterations: int = 0) -> None:
         """Run until `stop`: at the wanted real-time factor, or as fast as possible.
 
-        In real time a state that becomes non-finite does not end it; see `recover`.
+        In real time a state that becomes non-finite does not end it; see `Recovery`; nor does
+        what a task raises, which is told the first time.
 
         Args:
             iterations: stop by itself after so many steps; 0 for never.
@@ -244,6 +246,11 @@ class WorldServer:
             resources.close()
         self.engine.delete(name)
 
+    def calm(self, model: str) -> None:
+        """End what is commanded on and on of a model that was brought to rest."""
+        for resources in (self._world_resources, *self._resources.values()):
+            resources.calm(model)
+
     def set_step(self, step_s: float) -> None:
         """Change the step; every task keeps its rate."""
         self.engine.set_step_size(round(step_s * 1e9))
@@ -304,9 +311,16 @@ class WorldServer:
         except SimulationDivergedError as error:
             if self.mode is not Mode.REAL_TIME:
                 raise
-            recover(self, error)
+            self._recovery.recover(error)
             self.pace.restart(self.engine.time_ns)
         self._tell_disturbances(0.0)
+
+    def _tell_failure(self, task: Task, error: Exception) -> None:
+        """Say what a task raised, once: it may do so at every step."""
+        if not task.has_failed:
+            task.has_failed = True
+            text = f"'{task.name}' failed at {self.time_ns * 1e-9:.3f} s; the world goes on"
+            self.node.log("ERROR", f"{text}\n{error_text(error)}")
 
     def _tell_disturbances(self, idle_s: float) -> None:
         for text in self._disturbances.look(self.time_ns * 1e-9, idle_s):
@@ -325,6 +339,8 @@ class WorldServer:
 
     def _advance(self, count: int, *, pausing: bool = False) -> None:
         engine, scheduler = self.engine, self.scheduler
+        is_lasting = pausing and self.mode is Mode.REAL_TIME
+        failed = self._tell_failure if is_lasting else None
         remaining = count
         while remaining > 0:
             self.commands.apply()
@@ -333,7 +349,7 @@ class WorldServer:
             steps = max(1, min(remaining, scheduler.next_due() - engine.iteration))
             engine.step(steps)
             remaining -= steps
-            scheduler.run_due(engine.iteration)
+            scheduler.run_due(engine.iteration, failed)
 
     def _wanted_factor(self) -> float:
         if self.mode is not Mode.REAL_TIME:

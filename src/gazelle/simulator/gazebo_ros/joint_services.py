@@ -11,6 +11,7 @@ from gazelle.description.model import Joint, JointType
 from gazelle.diagnostics import did_you_mean
 from gazelle.simulator.gazebo_ros.entities import Row
 from gazelle.simulator.gazebo_ros.timed import JointEfforts
+from gazelle.simulator.inputs import InputRefusedError
 from gazelle.simulator.rebuilding import replace_model
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ class JointServices:
     def __init__(self, server: WorldServer) -> None:
         self._server = server
         self._efforts = JointEfforts(server)
+        server.world_resources.on_calm(self._efforts.forget)
 
     def rows(self) -> list[Row]:
         """Return the services below ``/gazebo``."""
@@ -109,6 +111,10 @@ class JointServices:
         if name is None:
             response.status_message = self._unknown("ApplyJointEffort", request.joint_name)
             return
+        joint = self._server.engine.joint(name)
+        if not joint.is_driveable:
+            text = f"'{name}' ({joint.type.value}) has no single coordinate that an effort drives"
+            raise InputRefusedError(f"joint {text}")
         self._efforts.add(name, float(request.effort), request.start_time, request.duration)
         response.status_message = "ApplyJointEffort: effort set"
 

@@ -156,10 +156,12 @@ class LinkServices:
             axes.rotate(_xyz(request.wrench.torque)),
             np.cross(axes.rotate(_xyz(request.reference_point)), force),
         )
-        link, lasting = self._server.engine.link(name), duration_ns(request.duration)
+        engine, lasting = self._server.engine, duration_ns(request.duration)
 
         def push() -> None:
-            link.apply_wrench(force, torque, duration_ns=lasting)
+            # Its model may have gone since it was asked for.
+            if name in engine.link_names:
+                engine.link(name).apply_wrench(force, torque, duration_ns=lasting)
 
         at_time(self._server, request.start_time, push)
         response.success = True

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["PhysicsParameters"]
 
 _ACTING = ("time_step", "max_update_rate", "gravity_x", "gravity_y", "gravity_z")
+_NANOSECOND_S = 1e-9
 _ODE = "A word of ODE; kept and returned, MuJoCo does the physics."
 
 
@@ -44,9 +45,12 @@ class PhysicsParameters:
         for name in _ACTING:
             row, value = self._rows[name], float(values[name])
             low, high = float(row.minimum), float(row.maximum)
-            if not low <= value <= high or (name == "time_step" and value == 0.0):
-                least = f"more than {low:g}" if name == "time_step" else f"at least {low:g}"
-                return f"'{name}' is {value:g}, it has to be {least} and at most {high:g}"
+            if name == "time_step":
+                # Time is counted in whole ones.
+                low = _NANOSECOND_S
+            if not low <= value <= high:
+                text = f"it has to be at least {low:g} and at most {high:g}"
+                return f"field '{name}' is {value:g}, {text}"
         return ""
 
     def set(self, values: dict[str, Any]) -> tuple[str, ...]:
@@ -70,7 +74,7 @@ class PhysicsParameters:
         if gravity != engine.gravity_m_s2:
             engine.set_gravity((gravity[0], gravity[1], gravity[2]))
         step_s = float(values["time_step"])
-        if step_s > 0 and round(step_s * 1e9) != engine.step_ns:
+        if 0 < round(step_s / _NANOSECOND_S) != engine.step_ns:
             server.set_step(step_s)
         server.set_update_rate(float(values["max_update_rate"]))
 

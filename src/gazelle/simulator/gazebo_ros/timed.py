@@ -74,7 +74,13 @@ class JointEfforts:
         if self._active.pop(joint, None) is not None:
             self._server.engine.joint(joint).set_effort(0.0)
 
+    def forget(self, model: str) -> None:
+        """End all efforts on a model's joints; it was brought to rest."""
+        for joint in [one for one in self._active if one.startswith(f"{model}::")]:
+            del self._active[joint]
+
     def _write(self, joint: str) -> None:
         engine = self._server.engine
-        if joint in engine.joint_names:
+        # Its model may have gone since it was asked for, or another has its name.
+        if joint in engine.joint_names and engine.joint(joint).is_driveable:
             engine.joint(joint).set_effort(sum(self._active[joint]))

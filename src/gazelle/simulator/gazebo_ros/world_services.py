@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.simulator.gazebo_ros.entities import Row
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
+from gazelle.simulator.inputs import InputRefusedError
 from gazelle.simulator.messages import message_class
 
 if TYPE_CHECKING:
@@ -91,11 +92,8 @@ class WorldServices:
         }
         for field in message_class("gazebo_msgs/ODEPhysics").FIELDS:
             values[field.name] = getattr(request.ode_config, field.name)
-        problem = self._physics.problem_of(values)
-        if problem:
-            response.success = False
-            response.status_message = f"SetPhysicsProperties: {problem}; nothing is changed"
-            return
+        if problem := self._physics.problem_of(values):
+            raise InputRefusedError(problem)
         idle = self._physics.set(values)
         response.success = True
         response.status_message = "physics engine updated"

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
-from gazelle.simulator.inputs import Inputs, problem_of, refusal
+from gazelle.simulator.commands import MOST_WAITING, Backlog, CommandQueue
+from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
 from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import ParameterReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -27,7 +28,6 @@ from gazelle.simulator.scheduler import (
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
-    from gazelle.simulator.commands import CommandQueue
     from gazelle.simulator.control_registry import ControlRegistry
     from gazelle.simulator.frames import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
@@ -107,6 +107,7 @@ class Resources:
         self._host = host
         self._closers: list[Callable[[], None]] = []
         self._reset_actions: list[Callable[[], None]] = []
+        self._calm_actions: list[Callable[[str], None]] = []
 
     def publisher(
         self, topic: str, type_name: str, *, latch: bool = False, reliable: bool = True
@@ -143,14 +144,22 @@ class Resources:
         """
         host, told = self._host, set[str]()
 
+        def overflowed() -> None:
+            text = f"more than {MOST_WAITING} messages wait for the world; the oldest are left out"
+            host.node.log("WARN", f"[{topic}] {text}")
+
+        backlog = Backlog(host.commands, callback, overflowed)
+
         def queue(message: Any) -> None:
             problem = "" if takes_any_number else problem_of(message)
             if not problem:
                 host.inputs.note(topic, host.time_ns)
-                host.commands.post(lambda: callback(message))
+                backlog.put(message)
             elif (field := problem.partition(" is ")[0]) not in told:
                 told.add(field)
-                host.node.log("WARN", f"[{topic}] {problem}; the message is left out")
+                names = host.node.publisher_names(topic)
+                by = f" (published by {', '.join(names)})" if names else ""
+                host.node.log("WARN", f"[{topic}] {problem}; the message is left out{by}")
 
         wanted = None if type_name is None else message_class(type_name)
         made = self._host.node.create_subscription(
@@ -169,20 +178,23 @@ class Resources:
     ) -> None:
         """Answer a service; `handler(request, response)` fills the response between two steps.
 
-        A request whose numbers cannot be has no effect; the answer says so.
+        A request whose numbers cannot be has no effect, nor has one that `handler` refuses with
+        `InputRefusedError`; the answer says so, and the log whose it was.
         """
         host, service = self._host, service_class(type_name)
 
         def answer(request: Any, caller: str) -> Any:
             response = service.Response()
-            problem = "" if takes_any_number else problem_of(request)
-            if problem:
+            try:
+                if not takes_any_number and (problem := problem_of(request)):
+                    raise InputRefusedError(problem)
+                host.inputs.note(name, host.time_ns, caller)
+                host.commands.call(lambda: handler(request, response))
+            except InputRefusedError as refused:
                 by = f" (called by {caller})" if caller else ""
-                text = f"{name}: {problem}; nothing is changed{by}"
+                text = f"{name}: {refused}; nothing is changed{by}"
                 host.node.log("WARN", text)
                 return refusal(response, text)
-            host.inputs.note(name, host.time_ns, caller)
-            host.commands.call(lambda: handler(request, response))
             return response
 
         made = host.node.create_service(name, service, answer, with_caller=True)
@@ -207,6 +219,13 @@ class Resources:
         """Have something done after the world was reset."""
         self._reset_actions.append(action)
 
+    def on_calm(self, action: Callable[[str], None]) -> None:
+        """Have something done with the name of a model that diverged and was brought to rest.
+
+        Whoever commands its joints on and on ends that: what threw it once does so again.
+        """
+        self._calm_actions.append(action)
+
     def on_close(self, action: Callable[[], None]) -> None:
         """Have something done when the model goes."""
         self._closers.append(action)
@@ -216,11 +235,17 @@ class Resources:
         for action in self._reset_actions:
             action()
 
+    def calm(self, model: str) -> None:
+        """Run the actions for a model that was brought to rest."""
+        for action in self._calm_actions:
+            action(model)
+
     def close(self) -> None:
         """Release everything, last first; closing twice does nothing."""
         while self._closers:
             self._closers.pop()()
         self._reset_actions.clear()
+        self._calm_actions.clear()
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,7 @@ class JointControl:
         """Command nothing."""
         self._server = server
         self._tasks: dict[str, Task] = {}
+        server.world_resources.on_calm(self._forget)
 
     def push(self, name: str, effort: float) -> None:
         """Keep a force (N) or torque (N·m) on ``model::joint``.
@@ -71,6 +72,10 @@ class JointControl:
         if task is not None:
             self._server.scheduler.remove(task)
         self._server.engine.joint(name).set_feedback(0.0, 0.0, 0.0)
+
+    def _forget(self, model: str) -> None:
+        for name in [one for one in self._tasks if one.startswith(f"{model}::")]:
+            self._server.scheduler.remove(self._tasks.pop(name))
 
     def _drive(
         self, name: str, gains: Gains, error: Callable[[], float], *, of_velocity: bool = False

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GazelleError
 from gazelle.simulator.viewing.broadcast import Broadcast
+from gazelle.simulator.viewing.fields import Fields
 from gazelle.simulator.viewing.gz_topics import GzTopics
 from gazelle.simulator.viewing.requests import Requests
 
@@ -39,8 +40,6 @@ def offer_views(server: WorldServer, *, is_gz: bool = False) -> None:
 
 def _answer(requests: Requests, text: str) -> dict[str, Any]:
     try:
-        return {"value": requests.handle(json.loads(text))}
+        return {"value": requests.handle(Fields.read(text))}
     except GazelleError as error:
         return {"error": {"message": str(error)}}
-    except (TypeError, ValueError, KeyError) as error:
-        return {"error": {"message": f"not a request: {type(error).__name__}: {error}"}}

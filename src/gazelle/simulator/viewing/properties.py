@@ -11,7 +11,9 @@ from gazelle.description.model import Collision, Joint, Link, Model
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
+from gazelle.simulator.inputs import InputRefusedError, Limit
 from gazelle.simulator.rebuilding import replace_model
+from gazelle.simulator.viewing.fields import flag_of, number_of
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
@@ -20,6 +22,7 @@ __all__ = ["Row", "joint_rows", "link_rows", "model_rows", "set_property"]
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction")
+_UNLIMITED = {"lower": -math.inf, "upper": math.inf, "effort": math.inf, "velocity": math.inf}
 _SURFACE = {"mu1": "", "mu2": "", "kp": "N/m", "kd": "N·s/m", "restitution_coefficient": ""}
 _SURFACE_FIELDS = {"restitution_coefficient": "restitution"}
 
@@ -118,7 +121,7 @@ def set_property(
     elif joint:
         changed = _with_joint(model, joint, name, value)
     elif name in ("static", "self_collide"):
-        change: dict[str, Any] = {name: bool(value)}
+        change: dict[str, Any] = {name: flag_of(value, name)}
         changed = replace(model, **change)
     else:
         raise _unknown(name, ["static", "self_collide"])
@@ -171,12 +174,14 @@ def _with_link(model: Model, link_name: str, name: str, value: Any) -> Model:
 def _changed_link(link: Link, name: str, value: Any) -> Link:
     inertial = link.inertial
     if name == "gravity":
-        return replace(link, gravity=bool(value))
+        return replace(link, gravity=flag_of(value, name))
     if name == "mass" and inertial is not None:
-        return replace(link, inertial=replace(inertial, mass_kg=_positive(name, value)))
+        return replace(
+            link, inertial=replace(inertial, mass_kg=_positive(name, value, Limit.MASS_KG))
+        )
     if name in _TENSOR and inertial is not None:
         tensor: dict[str, Any] = dict(zip(_TENSOR, inertial.inertia_kg_m2, strict=True))
-        tensor[name] = _number(name, value)
+        tensor[name] = number_of(value, name)
         changed: Any = tuple(tensor.values())
         return replace(link, inertial=replace(inertial, inertia_kg_m2=changed))
     kind, _, rest = name.partition("/")
@@ -191,7 +196,7 @@ def _changed_surface(link: Link, path: str, value: Any) -> Link:
     if found is None or name not in _SURFACE:
         known = [f"collision/{one.name}/{name}" for one in link.collisions for name in _SURFACE]
         raise _unknown(f"collision/{path}", known)
-    change: dict[str, Any] = {_SURFACE_FIELDS.get(name, name): _number(name, value)}
+    change: dict[str, Any] = {_SURFACE_FIELDS.get(name, name): number_of(value, name)}
     surface = replace(found.surface, **change)
     changed = replace(found, surface=surface)
     return replace(
@@ -205,22 +210,16 @@ def _with_joint(model: Model, joint_name: str, name: str, value: Any) -> Model:
         raise NotFoundError("joint", joint_name, nearest=[one.name for one in model.joints])
     if joint.axis is None or name not in _AXIS:
         raise _unknown(name, [] if joint.axis is None else list(_AXIS))
-    unlimited = -math.inf if name == "lower" else math.inf
-    change: dict[str, Any] = {name: unlimited if value is None else _number(name, value)}
+    is_unlimited = value is None and name in _UNLIMITED
+    change: dict[str, Any] = {name: _UNLIMITED[name] if is_unlimited else number_of(value, name)}
     changed = replace(joint, axis=replace(joint.axis, **change))
     return replace(model, joints=tuple(changed if one is joint else one for one in model.joints))
 
 
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise GazelleError(f"{name} is {value!r}; it has to be a number")
-    return float(value)
-
-
-def _positive(name: str, value: Any) -> float:
-    number = _number(name, value)
+def _positive(name: str, value: Any, limit: float) -> float:
+    number = number_of(value, name, limit)
     if number <= 0.0:
-        raise GazelleError(f"{name} is {number:g}; it has to be above 0")
+        raise InputRefusedError(f"field '{name}' is {number:g}; it has to be above 0")
     return number
 
 

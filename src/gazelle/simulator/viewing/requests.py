@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,9 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
+from gazelle.simulator.inputs import InputRefusedError, Limit
 from gazelle.simulator.pace import Mode
+from gazelle.simulator.viewing.fields import Fields
 from gazelle.simulator.viewing.joint_control import Gains, JointControl
 from gazelle.simulator.viewing.properties import (
     joint_rows,
@@ -25,7 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Requests"]
 
-_Request = Mapping[str, Any]
 _LIGHT_COLOURS = ("diffuse", "specular")
 
 
@@ -42,7 +43,7 @@ class Requests:
         self._server = server
         self._touch = touch
         self._joints = JointControl(server)
-        self._methods: dict[str, Callable[[_Request], Any]] = {
+        self._methods: dict[str, Callable[[Fields], Any]] = {
             "factor": self._factor,
             "joint": self._joint,
             "light": self._light,
@@ -51,22 +52,22 @@ class Requests:
             "set_property": self._set_property,
         }
 
-    def handle(self, request: _Request) -> Any:
+    def handle(self, request: Fields) -> Any:
         """Do what is asked for and return JSON's kind of value.
 
         Raises:
             GazelleError: it is unknown, or cannot be done.
         """
-        name = str(request.get("op", ""))
+        name = request.text("op", "")
         method = self._methods.get(name)
         if method is None:
             hint = did_you_mean(name, self._methods) or f"there are: {', '.join(self._methods)}"
             raise GazelleError(f"unknown request '{name}'; {hint}")
         return method(request)
 
-    def _factor(self, request: _Request) -> Any:
+    def _factor(self, request: Fields) -> Any:
         """Change the wanted real-time factor; 0 is as fast as possible."""
-        wanted = float(request["wanted_rtf"])
+        wanted = request.number("wanted_rtf")
         if not 0.0 <= wanted <= 1000.0:
             raise GazelleError(f"wanted_rtf is {wanted:g}; it has to be from 0 to 1000")
         server = self._server
@@ -77,49 +78,37 @@ class Requests:
         server.pace.restart(server.time_ns)
         return {"wanted_rtf": wanted}
 
-    def _joint(self, request: _Request) -> Any:
+    def _joint(self, request: Fields) -> Any:
         """Give a joint a force, a position or a velocity; with none of them it is freed."""
-        name = f"{request['model']}::{request['joint']}"
-        gains = Gains(*(float(request.get(key, default)) for key, default in _GAINS.items()))
-        if request.get("force") is not None:
-            self._joints.push(name, float(request["force"]))
-        elif request.get("position") is not None:
-            self._joints.hold(name, float(request["position"]), gains)
-        elif request.get("velocity") is not None:
-            self._joints.turn(name, float(request["velocity"]), gains)
+        name = f"{request.text('model')}::{request.text('joint')}"
+        gains = Gains(*(request.number(key, default=default) for key, default in _GAINS.items()))
+        if "force" in request:
+            self._joints.push(name, request.number("force", Limit.LOAD))
+        elif "position" in request:
+            self._joints.hold(name, request.number("position", Limit.ANGLE_RAD), gains)
+        elif "velocity" in request:
+            self._joints.turn(name, request.number("velocity", Limit.SPEED), gains)
         else:
             self._joints.free(name)
         return {}
 
-    def _light(self, request: _Request) -> Any:
+    def _light(self, request: Fields) -> Any:
         """Change a light's colours, pose, direction, range or shadows."""
         sensors = self._server.sensors
-        name = str(request["name"])
+        name = request.text("name")
         light = next((one for one in sensors.lights if one.name == name), None)
         if light is None:
             names = [one.name for one in sensors.lights]
             raise NotFoundError("light", name, nearest=nearest_names(name, names))
-        changes: dict[str, Any] = {
-            key: _rgba(request[key]) for key in _LIGHT_COLOURS if key in request
-        }
-        if "pose" in request:
-            changes["T_parent_light"] = _pose(request["pose"])
-        if "direction" in request:
-            changes["direction"] = tuple(float(value) for value in request["direction"])
-        for key in ("range_m", "intensity"):
-            if key in request:
-                changes[key] = float(request[key])
-        if "cast_shadows" in request:
-            changes["cast_shadows"] = bool(request["cast_shadows"])
-        changed = replace(light, **changes)
+        changed = replace(light, **_light_changes(request))
         sensors.lights = tuple(changed if one is light else one for one in sensors.lights)
         self._touch()
         return {}
 
-    def _properties(self, request: _Request) -> Any:
+    def _properties(self, request: Fields) -> Any:
         """Return the inspector's rows of a model, a link or a joint."""
         engine, model = self._server.engine, self._model(request)
-        link, joint = str(request.get("link") or ""), str(request.get("joint") or "")
+        link, joint = request.text("link", ""), request.text("joint", "")
         if link:
             description = engine.description_of_link(f"{model.name}::{link}")
             rows = link_rows(engine, model, description)
@@ -129,29 +118,29 @@ class Requests:
             rows = model_rows(engine, model)
         return [row._asdict() for row in rows]
 
-    def _set_property(self, request: _Request) -> Any:
+    def _set_property(self, request: Fields) -> Any:
         """Change one row."""
-        link, joint = str(request.get("link") or ""), str(request.get("joint") or "")
+        link, joint = request.text("link", ""), request.text("joint", "")
         set_property(
             self._server.engine,
             self._model(request),
-            str(request["name"]),
-            request["value"],
+            request.text("name"),
+            request.any("value", None),
             link=link,
             joint=joint,
         )
         return {}
 
-    def _set_pose(self, request: _Request) -> Any:
+    def _set_pose(self, request: Fields) -> Any:
         """Put a model somewhere, at rest: what a gizmo does while it is dragged."""
         engine, model = self._server.engine, self._model(request)
-        engine.set_model_pose(model.name, _pose(request["pose"]))
+        engine.set_model_pose(model.name, _pose(request))
         if not model.static:
             engine.set_model_velocity(model.name, _STILL, _STILL)
         return {}
 
-    def _model(self, request: _Request) -> Model:
-        name = str(request["model"])
+    def _model(self, request: Fields) -> Model:
+        name = request.text("model")
         world = self._server.engine.world
         model = world.model(name)
         if model is None:
@@ -164,16 +153,30 @@ _GAINS = Gains()._asdict()
 _STILL = (0.0, 0.0, 0.0)
 
 
-def _pose(values: Any) -> Pose:
-    numbers = [float(value) for value in values]
-    if len(numbers) != 7:
-        raise GazelleError(f"a pose has 7 numbers (x y z qx qy qz qw), not {len(numbers)}")
-    x, y, z, qx, qy, qz, qw = numbers
+def _light_changes(request: Fields) -> dict[str, Any]:
+    changes: dict[str, Any] = {}
+    for key in _LIGHT_COLOURS:
+        if key in request:
+            # Red, green and blue alone are opaque.
+            changes[key] = (*request.numbers(key, (3, 4)), 1.0)[:4]
+    if "pose" in request:
+        changes["T_parent_light"] = _pose(request)
+    if "direction" in request:
+        direction = changes["direction"] = request.numbers("direction", (3,))
+        if not any(direction):
+            raise InputRefusedError("field 'direction' is of no length")
+    for key in ("range_m", "intensity"):
+        if key in request:
+            changes[key] = request.number(key)
+    if "cast_shadows" in request:
+        changes["cast_shadows"] = request.flag("cast_shadows")
+    return changes
+
+
+def _pose(request: Fields) -> Pose:
+    """Return the field ``pose``: x y z qx qy qz qw."""
+    x, y, z, qx, qy, qz, qw = request.numbers("pose", (7,), *[Limit.POSITION_M] * 3)
     length = sum(value * value for value in (qx, qy, qz, qw)) ** 0.5
     if not 1e-6 < length < 1e6:
-        raise GazelleError("the pose's quaternion has no direction")
+        raise InputRefusedError("the quaternion of field 'pose' has no direction")
     return Pose((x, y, z), (qx / length, qy / length, qz / length, qw / length))
-
-
-def _rgba(values: Any) -> tuple[float, ...]:
-    return tuple(float(value) for value in values)
