@@ -145,3 +145,14 @@ def test_many_missed_ticks_are_caught_up_one_by_one() -> None:
     scheduler, ticks = Scheduler(MS), []
     scheduler.add(Task("ten", Fraction(10), lambda: ticks.append(1)))
     assert scheduler.run_due(100) == 10
+
+
+def test_what_a_task_raises_is_told_and_the_others_run() -> None:
+    scheduler, ran, told = Scheduler(MS), [], []
+    bad = scheduler.add(Task("bad", Fraction(1), lambda: ran.append(1 // 0)))
+    scheduler.add(Task("good", Fraction(1), lambda: ran.append("good")))
+    assert scheduler.run_due(1, lambda task, error: told.append((task, str(error)))) == 2
+    assert ran == ["good"]
+    assert told == [(bad, "integer division or modulo by zero")]
+    with pytest.raises(ZeroDivisionError):
+        scheduler.run_due(2)

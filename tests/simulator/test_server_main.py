@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import contextlib
+import math
 import re
 import threading
 from collections.abc import Callable, Iterator, Mapping
@@ -8,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
+from gazelle.graph.errors import GraphError
 from gazelle.simulator.messages import message_class, service_class, twist_message
 from gazelle.simulator.server_main import ros_version_of, serve
 from gazelle.simulator.server_options import ServerOptions
@@ -256,6 +259,116 @@ def test_each_plug_in_of_ros_2_offers_its_own_services(
     call(graph, "/_gazelle/do", "gazelle_msgs/Do", request="{}")
     root = {one.name[1:] for one in graph.services() if one.name.count("/") == 1}
     assert root == services
+
+
+def test_refusals_name_the_caller(graph: Graph, start: Callable[..., None]) -> None:
+    heard: list[str] = []
+    graph.create_node("listener", rosout=False).create_subscription(
+        "/rosout", message_class("rcl_interfaces/Log"), lambda message: heard.append(message.msg)
+    )
+    start("-u")
+    state = message_class("gazebo_msgs/ModelState")(model_name="ground_plane")
+    state.pose.position.x = math.nan
+    fields: dict[str, Any]
+    for service, kind, fields, words in (
+        ("set_model_state", "SetModelState", {"model_state": state},
+         "field 'model_state.pose.position.x' is nan"),
+        ("set_physics_properties", "SetPhysicsProperties", {"time_step": -1.0},
+         "field 'time_step' is -1"),
+    ):  # fmt: skip
+        answer = call(graph, f"/gazebo/{service}", f"gazebo_msgs/{kind}", **fields)
+        assert not answer.success
+        text = answer.status_message
+        assert text.startswith(f"/gazebo/{service}: {words}")
+        assert re.search(r"; nothing is changed \(called by /caller\w*\)$", text)
+        eventually(lambda text=text: text in heard)
+
+
+# A milligram that a motor of no limit drives.
+_FEATHER = """<robot name="feather"><link name="world"/>
+  <joint name="spin" type="prismatic"><parent link="world"/><child link="rim"/>
+    <axis xyz="0 0 1"/><limit lower="-1e16" upper="1e16" effort="1e30" velocity="1e16"/></joint>
+  <link name="rim"><inertial><mass value="1e-6"/>
+    <inertia ixx="1e-9" ixy="0" ixz="0" iyy="1e-9" iyz="0" izz="1e-9"/></inertial></link></robot>"""
+
+
+def _throw_feather(graph: Graph) -> None:
+    named = {"model_name": "feather", "model_xml": _FEATHER}
+    assert call(graph, "/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", **named).success
+    lasting = message_class("builtin_interfaces/Duration")(sec=-1)
+    effort = {"joint_name": "feather::spin", "effort": 1e6, "duration": lasting}
+    kind = "gazebo_msgs/ApplyJointEffort"
+    assert call(graph, "/gazebo/apply_joint_effort", kind, **effort).success
+
+
+def _models(graph: Graph) -> list[str]:
+    kind = "gazebo_msgs/GetWorldProperties"
+    return list(call(graph, "/gazebo/get_world_properties", kind).model_names)
+
+
+def test_model_that_diverges_is_taken_out_where_the_parameter_says_so(
+    graph: Graph, start: Callable[..., None]
+) -> None:
+    graph.create_node("setter").parameters.set("/gazebo/on_divergence", "remove")
+    start("empty", started_by=1)
+    _throw_feather(graph)
+    eventually(lambda: _models(graph) == ["ground_plane"])
+    kind = "gazebo_msgs/GetPhysicsProperties"
+    assert not call(graph, "/gazebo/get_physics_properties", kind).pause
+
+
+def test_word_that_on_divergence_does_not_know_is_told_and_pauses(
+    graph: Graph, start: Callable[..., None], capfd: pytest.CaptureFixture[str]
+) -> None:
+    graph.create_node("setter").parameters.set("/gazebo/on_divergence", "explode")
+    start("empty", started_by=1)
+    _throw_feather(graph)
+    kind = "gazebo_msgs/GetPhysicsProperties"
+    eventually(lambda: call(graph, "/gazebo/get_physics_properties", kind).pause)
+    assert _models(graph) == ["ground_plane", "feather"]
+    said = "".join(capfd.readouterr())
+    assert "'on_divergence' is 'explode', none of ['pause', 'remove']; it is paused" in said
+
+
+def test_ros_2_refuses_a_word_that_on_divergence_does_not_know(
+    graph: Graph, start: Callable[..., None]
+) -> None:
+    start("--pause", "-s", "libgazebo_ros_init.so", started_by=2)
+    assert graph.wait_for_service("/gazebo/set_parameters", stretched())
+    service = service_class("rcl_interfaces/SetParameters")
+    client = graph.create_node("asks").create_client("/gazebo/set_parameters", service)
+    value, row = message_class("rcl_interfaces/ParameterValue"), "rcl_interfaces/Parameter"
+    answers = [
+        client.call(
+            service.Request(
+                parameters=[
+                    message_class(row)(name="on_divergence", value=value(type=4, string_value=word))
+                ]
+            ),
+            timeout_s=stretched(),
+        ).results[0]
+        for word in ("explode", "remove")
+    ]
+    assert [one.successful for one in answers] == [False, True]
+    assert answers[0].reason == (
+        "parameter 'on_divergence' is 'explode', none of ['pause', 'remove']"
+    )
+
+
+def test_world_that_diverges_as_fast_as_possible_ends_with_a_code_and_its_reason(
+    graph: Graph, capfd: pytest.CaptureFixture[str]
+) -> None:
+    codes: list[int] = []
+    words = Arguments(("--fast", "empty"))
+    running = threading.Thread(target=lambda: codes.append(serve(words, graph, threading.Event())))
+    running.start()
+    with contextlib.suppress(GraphError):
+        # It may have ended before it answers.
+        _throw_feather(graph)
+    running.join(stretched())
+    assert codes == [1]
+    said = "".join(capfd.readouterr())
+    assert re.search(r"FATAL.*the simulation diverged in step \d+: link 'feather::rim'", said)
 
 
 def test_iterations_end_the_server_by_itself(graph: Graph) -> None:
