@@ -16,7 +16,8 @@ from tests.shared_files import skip_module_without_shared
 from gazelle.geometry import Pose
 from gazelle.graph.world import shown_transport_name
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import twist_message
+from gazelle.simulator.messages import service_class, twist_message
+from gazelle.simulator.viewing import offer_views
 from gazelle.workspace import Workspace
 
 skip_module_without_shared()
@@ -174,6 +175,28 @@ def test_idle_it_stays_where_it_is(slambot: Bring) -> None:
     after = sim.model("slam_robot").pose
     assert math.dist(before.position_m, after.position_m) < 1e-3
     assert abs(math.degrees(after.rpy_rad[2] - before.rpy_rad[2])) < 0.1
+
+
+def test_it_outlives_half_a_newton_metre_on_each_joint_without_end(slambot: Bring) -> None:
+    sim = slambot()
+    offer_views(sim.server)
+    engine, kind = sim.server.engine, service_class("gazelle_msgs/Do")
+    joints = [name for name in engine.joint_names if engine.joint(name).is_driveable]
+    names = [name.split("::", 1) for name in joints if name.startswith("slam_robot::")]
+    assert names
+    start = sim.model("slam_robot").pose.position_m
+    for model, joint in names:
+        request = {"op": "joint", "model": model, "joint": joint, "force": 0.5}
+        text = json.dumps(request)
+        call = sim.server.node.call  # type: ignore[attr-defined]
+        assert json.loads(call("/_gazelle/do", kind.Request(request=text)).response) == {
+            "value": {}
+        }
+    sim.run(seconds=3.0)
+    end = sim.model("slam_robot").pose.position_m
+    assert math.dist(start, end) < 0.5
+    for model, joint in names:
+        assert math.isfinite(engine.joint(f"{model}::{joint}").position)
 
 
 @pytest.mark.tutorial

@@ -306,3 +306,10 @@ def test_a_stream_that_opens_after_its_page_has_gone_is_closed(
     eventually(lambda: not server.studio.pages)
     goes_on.set()
     assert closed.wait(stretched())
+
+
+def test_call_whose_id_is_a_list_is_answered_without_it(page: Page) -> None:
+    """One that is nested deeply can be read, and not be written again a few frames further in."""
+    answer = page.raw('{"op":"call","id":[[[7]]],"method":"no.such"}')
+    assert (answer["op"], answer["id"]) == ("error", None)
+    assert page.call("graph.get")["nodes"]

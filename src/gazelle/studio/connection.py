@@ -157,7 +157,7 @@ class Connection:
         self.post(json_text({"op": op, **key, "error": error_value(error)}))
 
     def _on_call(self, value: dict[str, Any]) -> None:
-        key = {"id": value.get("id")}
+        key = {"id": _plain(value.get("id"))}
         if len(self._calls) >= _MOST_CALLS:
             error = StudioError(f"more than {_MOST_CALLS} calls have no answer yet")
             self._fail("error", key, error)
@@ -169,7 +169,7 @@ class Connection:
         try:
             handler = METHODS.get(method) if isinstance(method, str) else None
             if handler is None:
-                raise unknown("method", str(method), METHODS)
+                raise unknown("method", str(_plain(method)), METHODS)
             text = await in_thread(
                 lambda: json_text(
                     {"op": "result", **key, "value": handler(self._studio, Params(method, params))}
@@ -184,9 +184,9 @@ class Connection:
         kind = STREAMS.get(name) if isinstance(name, str) else None
         error = self._why_not(number)
         if error is None and kind is None:
-            error = unknown("stream", str(name), STREAMS)
+            error = unknown("stream", str(_plain(name)), STREAMS)
         if error is not None or kind is None or not isinstance(number, int):
-            self._fail("failed", {"ch": number}, error or StudioError("'ch' is a number"))
+            self._fail("failed", {"ch": _plain(number)}, error or StudioError("'ch' is a number"))
             return
         channel = Channel(number, latest=kind.latest, outlet=self, workers=self._studio.workers)
         self._used.add(number)
@@ -259,6 +259,11 @@ class Connection:
     def _find(self, value: dict[str, Any]) -> _Open | None:
         number = value.get("ch")
         return self._channels.get(number) if isinstance(number, int) else None
+
+
+def _plain(key: Any) -> Any:
+    """Return an id to answer with; none for a list or an object, which may be nested deeply."""
+    return None if isinstance(key, list | dict) else key
 
 
 _OPERATIONS: dict[str, Callable[[Connection, dict[str, Any]], None]] = {

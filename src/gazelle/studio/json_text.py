@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.interfaces import Message, TVal
 from gazelle.interfaces.definition import attribute_name
 
-__all__ = ["LONGEST_ARRAY", "json_text", "message_value"]
+__all__ = ["LONGEST_ARRAY", "finite_number", "json_text", "message_value"]
 
 LONGEST_ARRAY = 200
 """Items of an array that an echo shows."""
@@ -23,6 +23,17 @@ def json_text(value: Any) -> str:
         return json.dumps(value, allow_nan=False, separators=(",", ":"), default=_plain)
     except ValueError:
         return json.dumps(_finite(value), separators=(",", ":"), default=_plain)
+
+
+def finite_number(value: Any) -> float | None:
+    """Return a JSON value as a number, None for what is none; JSON's may have any size."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 def message_value(message: Any, longest: int | None = LONGEST_ARRAY) -> Any:

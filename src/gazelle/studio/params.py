@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Mapping
 from typing import Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.studio.errors import StudioError
+from gazelle.studio.json_text import finite_number
 
 __all__ = ["Params"]
 
 _MISSING: Any = object()
+_LONGEST = 60
+# Whatever it is: lists may be nested so deeply that `repr` finds no end.
+_REPR = reprlib.Repr()
+_REPR.maxstring = _REPR.maxother = _REPR.maxlong = _LONGEST + 1
 
 
 class Params:
@@ -52,9 +58,10 @@ class Params:
         value = self._value(name, default, "a number")
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self._wrong(name, "a number", value)
-        if not math.isfinite(value) or not least <= value <= most:
+        number = finite_number(value)
+        if number is None or not least <= number <= most:
             raise self._wrong(name, f"a number from {least:g} to {most:g}", value)
-        return float(value)
+        return number
 
     def whole(
         self, name: str, default: int = _MISSING, *, least: int = 0, most: int = 2**31
@@ -89,11 +96,11 @@ class Params:
         """Return a list of finite numbers, of a certain length if one is given."""
         wanted = "a list of numbers" if count is None else f"a list of {count} numbers"
         value = self._value(name, default, wanted)
-        if not isinstance(value, list) or not all(_is_number(item) for item in value):
+        found = [finite_number(item) for item in value] if isinstance(value, list) else [None]
+        numbers = [number for number in found if number is not None]
+        if len(numbers) != len(found) or count not in (None, len(found)):
             raise self._wrong(name, wanted, value)
-        if count is not None and len(value) != count:
-            raise self._wrong(name, wanted, value)
-        return [float(item) for item in value]
+        return numbers
 
     def object(self, name: str, default: dict[str, Any] = _MISSING) -> dict[str, Any]:
         """Return a JSON object."""
@@ -121,10 +128,6 @@ class Params:
         return StudioError(f"{self.where}: parameter '{name}' is {wanted}, not {_shown(value)}")
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
 def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}…"
+    text = _REPR.repr(value)
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}…"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +88,63 @@ def test_wrench_and_pose_move_a_model(server: WorldServer, page: Any) -> None:
     assert {row["name"]: row["value"] for row in rows}["x"] == 4.0
     page.call("world.set_property", model="unit_box", link="link", name="mass", value=7.0)
     assert server.engine.link("unit_box::link").mass_kg == 7.0
+
+
+@pytest.mark.parametrize(
+    ("method", "params", "words"),
+    [
+        ("world.set_pose", {"pose": [1e300, 0, 0, 0, 0, 0, 1]}, "field 'pose[0]' is 1e+300"),
+        ("world.set_pose", {"pose": [0, 1e6, 0]}, "field 'pose[1]' is 1e+06, beyond the ±100000"),
+        ("world.set_pose", {"pose": [10**400, 0, 0]}, "'pose' is a list of numbers, not [1000"),
+        ("world.set_pose", {"link": "link", "pose": [0, 0, 1e300]}, "pose.position.z' is 1e+300"),
+        ("world.insert", {**_BOX, "pose": [1e300, 0, 0]}, "initial_pose.position.x' is 1e+300"),
+        ("world.insert", {"source": {"primitive": "sphere", "size": [1e300]}}, "a sphere's sizes"),
+        ("world.wrench", {"body": "unit_box::link", "force": [1e300, 0, 0]}, "wrench.force.x'"),
+        ("world.factor", {"wanted_rtf": 1e300}, "wanted_rtf"),
+        ("world.set_property", {"link": "link", "name": "mass", "value": 1e300}, "field 'mass' is"),
+    ],
+)
+def test_number_that_nothing_has_is_refused_and_the_world_goes_on(
+    server: WorldServer, page: Any, method: str, params: dict[str, Any], words: str
+) -> None:
+    page.call("world.insert", **_BOX, pose=[0.0, 0.0, 1.5])
+    before = server.engine.state_hash()
+    model = {} if method in ("world.insert", "world.factor") else {"model": "unit_box"}
+    with pytest.raises(AssertionError) as refused:
+        page.call(method, **model, **params)
+    assert words in json.loads(str(refused.value))["message"]
+    assert server.engine.state_hash() == before
+    page.call("world.step", count=10)
+
+
+# A body on a fork and a wheel of a few grams, as castors are.
+_CASTOR = """<robot name="castor">
+  <link name="body"><inertial><mass value="2"/>
+    <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial>
+    <collision><geometry><box size="0.3 0.2 0.1"/></geometry></collision></link>
+  <link name="fork"><inertial><mass value="0.02"/>
+    <inertia ixx="2e-6" ixy="0" ixz="0" iyy="2e-6" iyz="0" izz="2e-6"/></inertial></link>
+  <link name="wheel"><inertial><mass value="0.02"/>
+    <inertia ixx="2e-6" ixy="0" ixz="0" iyy="2e-6" iyz="0" izz="2e-6"/></inertial></link>
+  <joint name="turn" type="continuous"><parent link="body"/><child link="fork"/>
+    <origin xyz="0.1 0 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="roll" type="continuous"><parent link="fork"/><child link="wheel"/>
+    <origin xyz="0.02 0 -0.02"/><axis xyz="0 1 0"/></joint>
+</robot>"""
+
+
+def test_light_castors_that_a_person_pushes_without_end_stay_with_their_robot(
+    server: WorldServer, page: Any
+) -> None:
+    page.call("world.insert", source={"text": _CASTOR}, pose=[0.0, 0.0, 0.05])
+    for joint in ("turn", "roll"):
+        page.call("world.joint", model="castor", joint=joint, force=0.5)
+    page.call("world.step", count=3000)
+    place = server.engine.model_pose("castor").position_m
+    # A wheel beside its axle shakes the body along, some decimetres a second.
+    assert math.dist(place, (0.0, 0.0, 0.05)) < 3.0 and place[2] < 0.5
+    for joint in ("turn", "roll"):
+        assert abs(server.engine.joint(f"castor::{joint}").velocity) < 5000.0
 
 
 def test_contacts_are_frames_of_points(server: WorldServer, page: Any) -> None:

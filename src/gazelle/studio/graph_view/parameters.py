@@ -8,7 +8,7 @@ from gazelle.graph.parameter_values import ParameterType, value_from_message, va
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
-from gazelle.studio.json_text import message_value
+from gazelle.studio.json_text import finite_number, message_value
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
@@ -107,12 +107,16 @@ def _row(name: str, value: Any, descriptor: Any) -> dict[str, Any]:
 
 
 def _fitting(value: Any, present: int) -> Any:
-    is_whole = isinstance(value, int) and not isinstance(value, bool)
-    if present == ParameterType.DOUBLE and is_whole:
-        return float(value)
+    if present == ParameterType.DOUBLE:
+        return _double(value)
     if present == ParameterType.DOUBLE_ARRAY and isinstance(value, list):
-        return [float(item) if isinstance(item, int) else item for item in value]
+        return [_double(item) for item in value]
     return value
+
+
+def _double(value: Any) -> Any:
+    number = finite_number(value)
+    return value if number is None else number
 
 
 def _value(studio: Studio, name: str) -> Any:

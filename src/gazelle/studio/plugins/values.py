@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from gazelle.studio.json_text import json_text
+from gazelle.studio.json_text import finite_number, json_text
 from gazelle.studio.plugins.pictures import checked_picture
 from gazelle.studio.plugins.widgets import (
     Button,
@@ -113,10 +112,10 @@ def refitted(widget: Widget, value: Any) -> Any:
 
 
 def _number(widget: Slider | Number, value: Any) -> float:
-    value = _plain(value)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    number = finite_number(_plain(value))
+    if number is None:
         raise TypeError(f"'{widget.name}' takes a number, not {value!r}")
-    return round(value) if _is_whole(widget) else float(value)
+    return round(number) if _is_whole(widget) else number
 
 
 def _is_whole(widget: Slider | Number) -> bool:

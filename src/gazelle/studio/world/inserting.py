@@ -18,6 +18,8 @@ __all__ = ["insert", "primitive_sdf"]
 
 _MOST_TEXT = 16 << 20
 _MASS_KG = 1.0
+# Whoever places it farther away than this is refused by the world.
+_MOST_M = 1e5
 _PRIMITIVES = ("box", "cylinder", "sphere")
 _NUMBER = re.compile(r"_(\d+)$")
 _PLACE = re.compile(r"<[a-z_]+>(?=:\d+:\d+)")
@@ -59,6 +61,8 @@ def primitive_sdf(kind: str, size: list[float]) -> str:
     wanted = {"box": 3, "sphere": 1, "cylinder": 2}[kind]
     if len(size) != wanted or min(size) <= 0.0:
         raise StudioError(f"a {kind} has {wanted} sizes above 0, not {size}")
+    if max(size) > _MOST_M:
+        raise StudioError(f"a {kind}'s sizes are at most {_MOST_M:g} m, not {size}")
     words = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}[kind]
     values = [" ".join(f"{one:g}" for one in size)] if kind == "box" else [f"{v:g}" for v in size]
     inside = "".join(f"<{word}>{value}</{word}>" for word, value in zip(words, values, strict=True))
