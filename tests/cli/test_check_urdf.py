@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -127,3 +128,74 @@ def test_a_loop_below_the_root_is_refused(here: Path, capsys: pytest.CaptureFixt
     assert shown.out == ""
     assert "form a loop; the one of ROS would crash here" in shown.err
     assert "[urdf.two-parents]" in shown.err
+
+
+_MUCH = {
+    "nested": "<a>" * 10**6 + "</a>" * 10**6 + "</robot>",
+    "never-closed": "<a>" * 10**6,
+    "side-by-side": "<a/>" * 10**6 + "</robot>",
+}
+
+
+@pytest.mark.parametrize("rest", _MUCH.values(), ids=_MUCH)
+def test_a_million_elements_are_one_error_and_soon_refused(
+    here: Path, capsys: pytest.CaptureFixture[str], rest: str
+) -> None:
+    (here / "r.urdf").write_text(f'<robot name="r"><link name="a"/>{rest}', encoding="utf-8")
+    start = time.thread_time()
+    assert main(["r.urdf"]) == 255
+    assert time.thread_time() - start < 10.0
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.splitlines() == [
+        _FAILED,
+        "r.urdf: error: the document has "
+        f"{10**6 + 2} elements, the limit is 500000 [limits.elements]",
+        "  fix: if the file means it, set the environment variable GAZELLE_LIMITS=10 for ten times",
+    ]
+
+
+def test_a_million_attributes_are_one_error_and_soon_refused(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = " ".join(f'a{number}="1"' for number in range(10**6))
+    (here / "r.urdf").write_text(f'<robot name="r"><link {words}/></robot>', encoding="utf-8")
+    start = time.thread_time()
+    assert main(["r.urdf"]) == 255
+    assert time.thread_time() - start < 30.0
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.startswith(f"{_FAILED}\nr.urdf:1:17: error: <link> has 1000000 attributes")
+    assert len(shown.err) < 2000
+
+
+def test_a_text_of_fifty_megabytes_is_soon_read(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = _ROBOT.replace("</robot>", "x" * 50_000_000 + "</robot>")
+    (here / "r.urdf").write_text(text, encoding="utf-8")
+    start = time.thread_time()
+    assert main(["r.urdf"]) == 0
+    assert time.thread_time() - start < 10.0
+    shown = capsys.readouterr()
+    assert shown.out == _TREE
+    assert len(shown.err) < 2000
+
+
+def test_a_chain_of_twenty_thousand_links_is_not_printed(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The real program prints 800 MB of blanks for it."""
+    joint = '<joint name="{1}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'
+    links = "".join(f'<link name="{number}"/>' for number in range(20_001))
+    joints = "".join(joint.format(number, number + 1) for number in range(20_000))
+    (here / "r.urdf").write_text(f'<robot name="r">{links}{joints}</robot>', encoding="utf-8")
+    start = time.thread_time()
+    assert main(["r.urdf"]) == 255
+    assert time.thread_time() - start < 20.0
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.startswith(
+        "check_urdf: the tree is too deep, or its links have too many parents; "
+        "the one of ROS would print gigabytes, or crash\n"
+    )

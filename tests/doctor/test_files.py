@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 from tests.doctor.conftest import Examine, Write, codes
 
@@ -84,3 +86,34 @@ def test_every_one_of_several_files_is_examined(written: Write, examined: Examin
     found = examined(folder, "three.yaml", "one.yaml", "two.yaml").findings
     places = sorted(item.span.file.rpartition("/")[2] for item in found if item.span)
     assert places == ["one.yaml", "two.yaml"]
+
+
+URDF_CHAIN = """<link name="b{1}"/><joint name="j{1}" type="fixed"><parent link="b{0}"/>
+<child link="b{1}"/></joint>"""
+SDF_CHAIN = """<link name="b{1}"/><joint name="j{1}" type="revolute"><axis><xyz>0 0 1</xyz></axis>
+<parent>b{0}</parent><child>b{1}</child></joint>"""
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "part", "end", "most"),
+    [
+        ("chain.urdf", "<robot name='r'><link name='b0'/>", URDF_CHAIN, "</robot>", "1000 links"),
+        (
+            "chain.sdf",
+            "<sdf version='1.6'><model name='r'><link name='b0'/>",
+            SDF_CHAIN,
+            "</model></sdf>",
+            "500 moving joints",
+        ),
+    ],
+)
+def test_chain_of_twenty_thousand_links_is_soon_found_too_long(
+    written: Write, examined: Examine, name: str, start: str, part: str, end: str, most: str
+) -> None:
+    text = start + "\n".join(part.format(n, n + 1) for n in range(20_000)) + end
+    folder = written(**{name: text})
+    begun = time.thread_time()
+    report = examined(folder, name)
+    assert time.thread_time() - begun < 30.0
+    (found,) = (item for item in report.findings if item.code == "doctor.spawn-fails")
+    assert f"has a chain of more than {most}, up to joint 'j" in found.message

@@ -40,6 +40,6 @@ def main(argv: list[str]) -> int:
             sys.stdout.write(tree_text(robot))
             code = 0
         except EndlessTreeError as error:
-            print(f"check_urdf: {error}; the one of ROS would crash here", file=sys.stderr)
+            print(f"check_urdf: {error}", file=sys.stderr)
     report_findings(file)
     return code

@@ -26,7 +26,8 @@ class UrdfFile(NamedTuple):
     """A robot description and what our own reader thinks of it.
 
     Attributes:
-        text: what urdfdom is given; None when xacro failed, of which `diagnostics` tell.
+        text: what urdfdom is given; None when xacro failed or the document is above a limit, of
+            which `diagnostics` tell.
         diagnostics: everything found, also what urdfdom passes in silence.
     """
 
@@ -66,7 +67,9 @@ def read_urdf_file(word: str, mappings: dict[str, str]) -> UrdfFile:
         text = None if expanded is None else expanded.text
         tag = None if expanded is None else expanded.tag(diagnostics)
     else:
-        text = data.decode("utf-8", errors="replace")
+        # What would fill the memory here would do so in urdfdom's reader too.
+        is_too_much = any(item.code == "limits.elements" for item in diagnostics)
+        text = None if is_too_much else data.decode("utf-8", errors="replace")
         tag = None if tag is None else placed(tag)
     if tag is not None:
         folder = path.resolve().parent

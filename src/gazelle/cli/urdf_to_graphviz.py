@@ -54,7 +54,7 @@ def _draw(robot: Robot, output: str) -> int:
     try:
         source.write_text(graphviz_text(robot), encoding="utf-8")
     except EndlessTreeError as error:
-        return _fail(f"{error}; the one of ROS would crash here")
+        return _fail(str(error))
     except OSError as error:
         return _fail(f"cannot write '{source}': {error.strerror}")
     print(f"Created file {source}")

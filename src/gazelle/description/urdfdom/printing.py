@@ -16,7 +16,7 @@ _MOST_STEPS = 20_000_000
 
 
 class EndlessTreeError(ValueError):
-    """The real programs would print until they run out of memory and crash."""
+    """More would be printed than anybody reads; the text says what the real programs would do."""
 
 
 class _Place(NamedTuple):
@@ -80,9 +80,11 @@ def _below(robot: Robot) -> Iterator[_Place]:
         place = waiting.pop()
         steps += place.depth
         if place.depth > len(robot.joint_above):
-            raise EndlessTreeError(f"the joints around link '{place.link}' form a loop")
+            text = f"the joints around link '{place.link}' form a loop"
+            raise EndlessTreeError(f"{text}; the one of ROS would crash here")
         if steps > _MOST_STEPS:
-            raise EndlessTreeError("the tree is too deep, or its links have too many parents")
+            text = "the tree is too deep, or its links have too many parents"
+            raise EndlessTreeError(f"{text}; the one of ROS would print gigabytes, or crash")
         yield place
         waiting += _children(robot, place.link, place.depth + 1)
 
