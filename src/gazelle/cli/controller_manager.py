@@ -6,6 +6,7 @@ import os
 import sys
 import threading
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.tool import ToolError, joined
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.controller_manager_command import USAGE, command
@@ -25,5 +26,5 @@ def main(argv: list[str]) -> int:
             node = graph.create_node("controller_manager", namespace=namespace, anonymous=True)
             return command(node, line.rest, threading.Event())
     except ToolError as error:
-        print(f"ERROR: {error}", file=sys.stderr)
+        print(f"ERROR: {error_text(error)}", file=sys.stderr)
         return 1

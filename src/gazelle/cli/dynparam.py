@@ -260,6 +260,7 @@ def _from_yaml(path: str) -> dict[str, Any]:
     """
     import yaml
 
+    from gazelle.limits import read_text_limited
     from gazelle.limits.yaml_text import LimitedLoader
 
     class Loader(LimitedLoader):
@@ -271,7 +272,7 @@ def _from_yaml(path: str) -> dict[str, Any]:
     Loader.add_constructor(_TAG, construct)
     found: dict[str, Any] = {}
     try:
-        for document in yaml.load_all(Path(path).read_text(encoding="utf-8"), Loader=Loader):
+        for document in yaml.load_all(read_text_limited(path), Loader=Loader):
             found.update(document)
     except OSError as error:
         raise ToolError(f"cannot read '{path}': {error.strerror}") from None

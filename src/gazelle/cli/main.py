@@ -8,6 +8,7 @@ from importlib import import_module
 
 from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
+from gazelle.cli.error_text import error_text
 from gazelle.ending import drop_output
 from gazelle.errors import GazelleError, UserFileError, file_refusal_text
 
@@ -82,7 +83,7 @@ def _run(name: str, rest: list[str]) -> int:
         render(error.diagnostics)
         return 1
     except GazelleError as error:
-        print(f"{name}: {error}", file=sys.stderr)
+        print(f"{name}: {error_text(error)}", file=sys.stderr)
         return 1
     except OSError as error:
         text = file_refusal_text(error)

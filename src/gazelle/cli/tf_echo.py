@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.tool import Tool, ToolError, joined, run_tool
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.names import parse_command_line
@@ -47,7 +48,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     try:
         source, target, rate_hz, precision = _settings(list(arguments.rest), arguments.params)
     except ToolError as error:
-        print(error, file=sys.stderr)
+        print(error_text(error), file=sys.stderr)
         return _BAD_ARGUMENTS
     node = graph.create_node("tf_echo", namespace=arguments.namespace, anonymous=True)
     show = partial(transform_text, precision=precision)
@@ -94,7 +95,7 @@ def _client(words: list[str], params: Mapping[str, Any], text: _Text) -> int:
     try:
         source, target, rate_hz, precision = _settings(words, params)
     except ToolError as error:
-        print(error, file=sys.stderr)
+        print(error_text(error), file=sys.stderr)
         return _BAD_ARGUMENTS
     stop = threading.Event()
     with joined() as graph:

@@ -10,6 +10,7 @@ from importlib import import_module
 from optparse import OptionParser
 from typing import NamedTuple
 
+from gazelle.cli.error_text import error_text
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, NoGraphError
@@ -75,7 +76,7 @@ def run_tool(tool: Tool, words: list[str]) -> int:
         return 0
     except GazelleError as error:
         sys.stdout.flush()
-        print(f"ERROR: {error}", file=sys.stderr)
+        print(f"ERROR: {error_text(error)}", file=sys.stderr)
         return 1
 
 

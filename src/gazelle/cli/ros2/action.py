@@ -9,6 +9,7 @@ from typing import Any
 
 import yaml
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.text.ros2_filling import yaml_values
 from gazelle.cli.tool import ToolError
@@ -36,7 +37,7 @@ def main(argv: list[str]) -> int:
             return int(_VERBS[options.verb](options, graph))
     except GazelleError as error:
         sys.stdout.flush()
-        print(error, file=sys.stderr)
+        print(error_text(error), file=sys.stderr)
         return 1
 
 

@@ -123,7 +123,7 @@ def run_set(options: argparse.Namespace) -> int:
         try:
             answer = call_service(node, service, kind, transition=found[0])
         except ToolError as error:
-            print(f"Exception while calling service of node '{name}': {error}", file=sys.stderr)
+            fail(f"Exception while calling service of node '{name}': {error}")
             return 0
     if answer.success:
         print("Transitioning successful")

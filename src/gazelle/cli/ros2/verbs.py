@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError, UserFileError
 
@@ -81,7 +82,7 @@ def guarded(action: Callable[[], int | None]) -> int:
 def fail(text: str) -> int:
     """Print why a command ends early, behind what it has printed so far; return 1."""
     sys.stdout.flush()
-    print(text, file=sys.stderr, flush=True)
+    print(error_text(text), file=sys.stderr, flush=True)
     return 1
 
 

@@ -17,6 +17,7 @@ from gazelle.errors import GraphError
 from gazelle.graph import Graph
 from gazelle.graph.names import join
 from gazelle.launch.xml1.values import load_yaml
+from gazelle.limits import TEXT_BYTES, read_limited, read_text_limited
 
 __all__ = ["delete", "load", "set_value"]
 
@@ -130,7 +131,20 @@ def _file_value(parser: OptionParser, options: Values) -> str | bytes:
     path = Path(options.textfile or options.binfile)
     if not path.is_file():
         parser.error(f"file '{path}' does not exist")
-    return path.read_text(encoding="utf-8") if options.textfile else path.read_bytes()
+    if options.textfile:
+        return _file_text(path)
+    try:
+        return read_limited(path, TEXT_BYTES)
+    except OSError as error:
+        raise ToolError(f"cannot read [{path}]: {error.strerror}") from None
+
+
+def _file_text(path: Path) -> str:
+    try:
+        return read_text_limited(path)
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise ToolError(f"cannot read [{path}]: {reason}") from None
 
 
 def _text(file: str, *, verbose: bool) -> str:
@@ -143,7 +157,7 @@ def _text(file: str, *, verbose: bool) -> str:
         raise ToolError(f"file [{file}] does not exist")
     if verbose:
         print(f"reading parameters from [{file}]")
-    return path.read_text(encoding="utf-8")
+    return _file_text(path)
 
 
 def _trees(text: str, file: str, namespace: str) -> Iterator[tuple[dict[str, Any], str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
+from gazelle.cli.error_text import error_text
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
 
@@ -37,5 +38,5 @@ def main(argv: list[str]) -> int:
         return int(import_module(_VERBS[verb][0]).main(argv[1:]))
     except GazelleError as error:
         sys.stdout.flush()
-        print(f"[ERROR] [ros2bag]: {error}", file=sys.stderr)
+        print(f"[ERROR] [ros2bag]: {error_text(error)}", file=sys.stderr)
         return 1

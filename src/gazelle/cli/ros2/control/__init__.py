@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError, joined
 from gazelle.errors import GraphError
@@ -39,7 +40,7 @@ def main(argv: list[str]) -> int:
             _refuse_ros1(client)
             return int(getattr(module, options.verb)(client, options))
     except (ToolError, GraphError) as error:
-        print(error, file=sys.stderr)
+        print(error_text(error), file=sys.stderr)
         return 1
 
 

@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError
 
@@ -24,7 +25,7 @@ def main(argv: list[str]) -> int:
     try:
         return int(getattr(verbs, f"run_{options.verb}")(options))
     except ToolError as error:
-        print(error, file=sys.stderr)
+        print(error_text(error), file=sys.stderr)
         return 1
 
 
