@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from typing import Any
+
+import pytest
 
 from gazelle.graph import Graph, Node
 
@@ -116,3 +119,28 @@ def test_without_a_command_the_usage_is_printed(run) -> None:
     assert found.code == 64
     assert "\trostopic bw\tdisplay bandwidth used by topic\n" in found.out
     assert run("rostopic", "lst").err == "rostopic: no command 'lst'; did you mean 'list'?\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "shown"),
+    [
+        (("rostopic", "list"), "/a\n"),
+        (("rosnode", "list"), "/robot\n"),
+        (("rosservice", "list"), ""),
+        (("ros2", "topic", "list"), "/a\n"),
+        (("ros2", "node", "list"), "/robot\n"),
+        (("ros2", "service", "list"), ""),
+    ],
+    ids=" ".join,
+)
+def test_tokens_that_no_program_writes_are_listed_by_nobody(
+    graph: Graph, robot: Node, run: Any, words: tuple[str, ...], shown: str
+) -> None:
+    robot.create_publisher("/a", "std_msgs/String")
+    tokens = [
+        graph.session.liveliness().declare_token(f"@ros2_lv/{graph.domain}/z/{number}/0/NN/%/%/n")
+        for number in ("²", "9" * 5_000)
+    ]
+    assert run(*words) == (0, shown, "")
+    for one in tokens:
+        one.undeclare()

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 from tests.launch.conftest import node as written_node
 from tests.launch.conftest import write_package
@@ -175,6 +176,8 @@ def test_killed_user_node_is_reported_and_leaves_the_graph(launch: Launch, node:
     pid = int(re.search(r"process\[ros-2\]: started with pid \[(\d+)\]", run.text)[1])
     os.kill(pid, signal.SIGKILL)
     run.wait_for_line(r"\[ros-2\] process has died .* signal SIGKILL, exit code -9")
+    # Gone, and no zombie: the launch has asked for its exit code.
+    run.eventually(lambda: not psutil.pid_exists(pid))
     run.eventually(lambda: "/ros" not in run.graph.node_names())
     assert run.popen.poll() is None
     assert run.stop() == 0

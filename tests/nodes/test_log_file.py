@@ -50,6 +50,13 @@ def test_rosout_lines_have_ros_1s_layout() -> None:
     )
 
 
+def test_rosout_line_of_a_long_message_is_cut_and_says_how_long_it_was() -> None:
+    message = ros1_message_type("rosgraph_msgs/Log")(level=2, name="/a", msg="x" * 2_000_000)
+    line = line_of(message)
+    assert len(line) < 1_100_000
+    assert line.endswith("xxx… (2000000 characters in all)")
+
+
 def test_a_file_keeps_the_style_of_the_terminal(
     bench, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

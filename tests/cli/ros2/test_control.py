@@ -296,6 +296,22 @@ def test_a_manager_that_is_named_is_waited_for_and_said_once(ros1, capsys, monke
     assert capsys.readouterr().err.splitlines() == [line]
 
 
+def test_a_manager_is_given_ten_seconds_to_come(graph, run, monkeypatch):
+    given = []
+
+    def find(self, *, may_be_another, timeout_s):
+        given.append(timeout_s)
+        return False
+
+    monkeypatch.setattr(controller_manager_client.ManagerClient, "find", find)
+    code, text = run("list_controllers")
+    assert code == 1
+    assert text.startswith(
+        "Could not contact service /controller_manager/list_controllers; there is no"
+    )
+    assert given == [10.0]
+
+
 def test_without_a_manager_it_gives_up_and_says_what_is_missing(graph, run, monkeypatch):
     monkeypatch.setattr(control, "_PATIENCE_S", 0.2)
     code, text = run("list_controllers")

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import psutil
 import pytest
 
 from gazelle.cli.ros2.launch.command import launch_arguments, main
@@ -203,6 +204,18 @@ def test_death_of_a_process_is_told_and_others_go_on(ros2: Run) -> None:
     assert "[sick-1] bad" in ran.lines
     assert ran.stop(signal.SIGTERM) == 0
     assert ran.processes() == {}
+
+
+def test_killed_process_is_told_and_leaves_no_zombie(ros2: Run) -> None:
+    ran = ros2("bringup", "dies.launch.py")
+    line = ran.wait_for_line(r"\[INFO\] \[healthy-2\]: process started with pid")
+    pid = int(line.partition("pid [")[2].partition("]")[0])
+    # The launch must not be over when the process is looked for: nothing else runs in it.
+    ran.wait_for_line(r"\[ERROR\] \[sick-1\]: process has died")
+    os.kill(pid, signal.SIGKILL)
+    line = ran.wait_for_line(r"\[ERROR\] \[healthy-2\]: process has died")
+    assert f"process has died [pid {pid}, exit code -9, cmd 'sleep 60']." in line
+    ran.eventually(lambda: not psutil.pid_exists(pid))
 
 
 def test_launcher_that_is_killed_leaves_nothing(ros2: Run) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from gazelle.cli.ros2.topic import pub
 from gazelle.graph import Node
 
 TWIST = "geometry_msgs/msg/Twist"
@@ -90,6 +91,15 @@ def test_latched_for_those_who_come_later(robot: Node, run: Any, end_commands: A
     assert run("ros2", "topic", "pub", *words, "/n", "std_msgs/msg/Int32", "data: 4").code == 0
     later.join()
     assert heard == [4]
+
+
+def test_once_waits_without_a_limit_and_publishes_nothing(
+    robot: Node, run_until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pub, "_LOOK_S", 0.01)
+    waiting = "Waiting for at least 1 matching subscription(s)...\n"
+    out = run_until(waiting * 5, "ros2", "topic", "pub", "-1", "/n", "std_msgs/msg/Empty")
+    assert out.replace(waiting, "") == ""
 
 
 def test_waiting_has_a_limit(robot: Node, run: Any) -> None:

@@ -308,3 +308,15 @@ def ForEachVar(context: LaunchContext) -> None:
 def ForLoopIndex(context: LaunchContext) -> None:
     context.extend_locals({s.ForEachVar.get_local_arg_name("i"): "2"})
     assert _markup(context, "$(index i)") == "2"
+
+
+def test_command_that_prints_without_end_is_ended(
+    context: LaunchContext, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GAZELLE_LIMITS", "0.015625")
+    with pytest.raises(s.SubstitutionFailure) as failure:
+        s.Command("cat /dev/zero").perform(context)
+    assert str(failure.value) == (
+        "'cat /dev/zero' prints more than 1 MiB and was ended (if the file means it, set the "
+        "environment variable GAZELLE_LIMITS=10 for ten times). Command: cat /dev/zero"
+    )

@@ -27,6 +27,17 @@ def _found(body: str) -> list[str]:
     return [f"{item.message} [{item.code}]" for item in diagnostics]
 
 
+def test_command_of_a_parameter_that_prints_without_end_is_ended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("GAZELLE_LIMITS", "0.015625")
+    assert _found('<param name="a" command="cat /dev/zero"/>') == [
+        "Cannot load command parameter [a]: 'cat /dev/zero' prints more than 1 MiB and was ended "
+        "(if the file means it, set the environment variable GAZELLE_LIMITS=10 for ten times) "
+        "[launch.param-command-failed]"
+    ]
+
+
 @pytest.mark.parametrize("expression", ["9**9**9", "'a'*10**10", "[0]*10**10", "1 &lt;&lt; 10**9"])
 def test_evaluated_expressions_have_limits(expression: str) -> None:
     (found,) = _found(f'<param name="a" value="$(eval {expression})"/>')
