@@ -65,6 +65,9 @@ def test_unknown_model_names_what_is_spelled_alike(world: Simulation, gz: Run) -
     assert "arm" in found.err
     assert gz("model", "-p").err.startswith("A model name is required")
     assert gz("model", "-m", "arm", "-f", "no.sdf").err.startswith("Unable to open file[no.sdf]")
+    endless = gz("model", "-m", "arm", "-f", "/dev/zero").err
+    assert endless.startswith("Unable to open file[/dev/zero]: ")
+    assert "it is a device, not a file" in endless
     assert gz("model", "-m", "arm", "-x", "far").err == "--pose-x: 'far' is not a number\n"
 
 

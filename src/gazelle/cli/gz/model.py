@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
@@ -12,6 +11,7 @@ from gazelle.cli.gz.protobuf_text import protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, pose_line, world_link
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
+from gazelle.limits import read_text_limited
 
 __all__ = ["COMMAND", "run"]
 
@@ -70,7 +70,7 @@ def _spawn(link: WorldLink, name: str, options: Mapping[str, str]) -> None:
     if "spawn-file" in options:
         file = options["spawn-file"]
         try:
-            text = Path(file).read_text(encoding="utf-8")
+            text = read_text_limited(file)
         except (OSError, UnicodeDecodeError) as error:
             raise GzError(f"Unable to open file[{file}]: {error}") from None
     else:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from gazelle.cli.gz.new.messages import message_of
@@ -11,6 +10,7 @@ from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import WorldLink
 from gazelle.cli.sdf.sdf_file import say
 from gazelle.interfaces import message_type
+from gazelle.limits import read_text_limited
 
 __all__ = ["WORLD_SERVICES", "WorldService"]
 
@@ -81,7 +81,7 @@ def _read(file: str) -> str:
     if not file:
         raise GzError("a model to create: sdf: '<sdf …>' or sdf_filename: 'FILE'")
     try:
-        return Path(file).read_text(encoding="utf-8")
+        return read_text_limited(file)
     except (OSError, UnicodeDecodeError) as error:
         raise GzError(f"Unable to open file[{file}]: {error}") from None
 

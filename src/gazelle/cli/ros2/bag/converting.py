@@ -11,6 +11,7 @@ import yaml
 from gazelle.bag import BagError, BagMessage, Storage, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
 from gazelle.diagnostics import Diagnostics, render
+from gazelle.limits import read_text_limited
 from gazelle.limits.yaml_text import load_yaml
 
 __all__ = ["main"]
@@ -38,7 +39,7 @@ def main(argv: list[str]) -> int:
 
 def _outputs(path: Path) -> list[dict[str, Any]]:
     try:
-        bags = load_yaml(path.read_text(encoding="utf-8"))["output_bags"]
+        bags = load_yaml(read_text_limited(path))["output_bags"]
     except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
         raise BagError(f"{path}: it must hold `output_bags:`, a list: {error}") from None
     for one in bags:

@@ -47,19 +47,24 @@ class Graph:
     kinds: list[Kind] = field(default_factory=list)
     numbers: dict[str, int] = field(default_factory=dict)
     edges: list[Edge] = field(default_factory=list)
+    _into: dict[int, list[Edge]] = field(default_factory=dict)
+    _out_of: dict[int, list[Edge]] = field(default_factory=dict)
 
     def add_edge(self, tail: int | None, head: int | None, pose: Pose, weight: int = 1) -> None:
         """Add an edge; nothing happens when an end is missing."""
         if tail is not None and head is not None:
-            self.edges.append(Edge(tail, head, pose, weight))
+            edge = Edge(tail, head, pose, weight)
+            self.edges.append(edge)
+            self._into.setdefault(head, []).append(edge)
+            self._out_of.setdefault(tail, []).append(edge)
 
     def into(self, vertex: int) -> list[Edge]:
         """Return the edges that end at a vertex."""
-        return [edge for edge in self.edges if edge.head == vertex]
+        return self._into.get(vertex, [])
 
     def out_of(self, vertex: int) -> list[Edge]:
         """Return the edges that begin at a vertex."""
-        return [edge for edge in self.edges if edge.tail == vertex]
+        return self._out_of.get(vertex, [])
 
     def to_dot(self) -> str:
         """Return the graph in Graphviz' language as Ignition Math prints it."""
