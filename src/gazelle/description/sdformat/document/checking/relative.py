@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Set
+from functools import reduce
+
 from gazelle.description.sdformat.document.checking.entities import (
     Frame,
     Joint,
@@ -9,11 +12,11 @@ from gazelle.description.sdformat.document.checking.entities import (
     ModelScope,
     WorldScope,
 )
-from gazelle.description.sdformat.document.checking.graphs import Graph, Kind, Scope
+from gazelle.description.sdformat.document.checking.graphs import Edge, Graph, Kind, Scope
 from gazelle.description.sdformat.document.console import Code, SdfError
 from gazelle.geometry import Pose
 
-__all__ = ["placed_pose", "pose_in_scope", "relative_graph"]
+__all__ = ["check_places", "placed_pose", "pose_in_scope", "relative_graph"]
 
 _NO_POSE = Pose()
 _IN_MODEL = "a nested model, link, joint, or frame name"
@@ -30,9 +33,25 @@ def relative_graph(subject: ModelScope | WorldScope, errors: list[SdfError]) -> 
 
 def pose_in_scope(scope: Scope, vertex: int, errors: list[SdfError]) -> Pose | None:
     """Return the pose of a vertex in the scope's own frame; None, with errors, if unknown."""
+    path = _path(scope, vertex, errors, set())
+    return None if path is None else reduce(lambda pose, edge: edge.pose @ pose, path, _NO_POSE)
+
+
+def check_places(scope: Scope, vertices: Iterable[int], errors: list[SdfError]) -> None:
+    """Append what keeps vertices from having a pose in the scope's own frame."""
+    # A chain of many frames is not gone along to its end for each of them.
+    placed: set[int] = set()
+    for vertex in vertices:
+        path = _path(scope, vertex, errors, placed)
+        placed.update(edge.head for edge in path or ())
+
+
+def _path(scope: Scope, vertex: int, errors: list[SdfError], placed: Set[int]) -> list[Edge] | None:
+    """Return the edges from a vertex to the scope, or to one of `placed`, which have a way."""
     graph = scope.graph
-    pose, current, visited = _NO_POSE, vertex, {vertex}
-    while current != scope.vertex:
+    path: list[Edge] = []
+    current, visited = vertex, {vertex}
+    while current != scope.vertex and current not in placed:
         edges = graph.into(current)
         if not edges:
             message = (
@@ -48,7 +67,8 @@ def pose_in_scope(scope: Scope, vertex: int, errors: list[SdfError]) -> Pose | N
             )
             errors.append(SdfError(Code.POSE_RELATIVE_TO_GRAPH_ERROR, message))
             return None
-        pose, current = edges[0].pose @ pose, edges[0].tail
+        path.append(edges[0])
+        current = edges[0].tail
         if current in visited:
             message = (
                 "PoseRelativeToGraph cycle detected, already visited vertex "
@@ -57,7 +77,7 @@ def pose_in_scope(scope: Scope, vertex: int, errors: list[SdfError]) -> Pose | N
             errors.append(SdfError(Code.POSE_RELATIVE_TO_CYCLE, message))
             return None
         visited.add(current)
-    return pose
+    return path
 
 
 def placed_pose(model: ModelScope, errors: list[SdfError]) -> Pose:

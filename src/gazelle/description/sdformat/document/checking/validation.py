@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.description.sdformat.document.checking.attached import body_of
 from gazelle.description.sdformat.document.checking.graphs import Kind, Scope
-from gazelle.description.sdformat.document.checking.relative import pose_in_scope
+from gazelle.description.sdformat.document.checking.relative import check_places
 from gazelle.description.sdformat.document.console import Code, SdfError
 
 __all__ = ["validate_attached", "validate_relative"]
@@ -34,10 +34,8 @@ def validate_relative(scope: Scope, errors: list[SdfError]) -> None:
         for problem in _relative_problems(scope, vertex):
             message = f"PoseRelativeToGraph error, {problem}"
             errors.append(SdfError(Code.POSE_RELATIVE_TO_GRAPH_ERROR, message))
-    for name in scope.names():
-        number = scope.number(name)
-        if name != "__root__" and number is not None:
-            pose_in_scope(scope, number, errors)
+    numbers = (scope.number(name) for name in scope.names() if name != "__root__")
+    check_places(scope, (number for number in numbers if number is not None), errors)
 
 
 def _attached_problems(scope: Scope, vertex: int) -> list[str]:
