@@ -157,12 +157,12 @@ def _checked_models(loaded: Loaded) -> list[ModelScope]:
 
 def _check_ends(model: ModelScope, scope: Scope, errors: list[SdfError]) -> None:
     """Report joints whose ends are nothing, or one and the same."""
-    links = {link.name for link in model.links}
-    others = {joint.name for joint in model.joints} | {frame.name for frame in model.frames}
+    known = {link.name for link in model.links}
+    known |= {joint.name for joint in model.joints} | {frame.name for frame in model.frames}
     nested = {one.name for one in model.models}
     place = f"in model with name[{model.name}]"
     for joint in model.joints:
-        _check_names(joint, links | others, nested, scope, place, errors)
+        _check_names(joint, known, nested, scope, place, errors)
         child = body_of(scope, joint.child, errors)
         parent = "world" if joint.parent == "world" else body_of(scope, joint.parent, errors)
         if child == parent:
