@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
 from gazelle.mapping.loops.places import places_near
 from gazelle.mapping.loops.recognise import recognise
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.pose_graph.optimise import optimise, residuals
+from gazelle.mapping.poses import Poses
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
 
@@ -19,6 +22,7 @@ _ITERATIONS = 5
 _TORN = 60.0
 # In windows so small a place is recognised without the agreement of others.
 _SURE_REACH_M = 1.0
+_NEAR_M = 4.0
 
 
 class LoopCloser:
@@ -59,6 +63,13 @@ class LoopCloser:
         self.closed += len(believed)
         self._keyframes.poses = poses
         return tied
+
+    def is_old_place(self, pose: Poses) -> bool:
+        """Tell whether the robot was near a pose a long way ago."""
+        poses, ways = self._keyframes.poses, self._keyframes.ways_m
+        old = ways[-1] - ways > self._parameters.loop_gap_m
+        far = np.hypot(*(poses[old, :2] - pose[:2]).T)
+        return bool(far.min(initial=np.inf) < _NEAR_M)
 
     def _believed(self, edges: Edges) -> list[Hypothesis]:
         told, poses = self._parameters, self._keyframes.poses

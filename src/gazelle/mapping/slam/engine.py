@@ -22,7 +22,7 @@ from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
 from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.polish import polished
 from gazelle.mapping.slam.track import Track
-from gazelle.mapping.slam.tracking import FEWEST_POINTS, Tracker, motion_information
+from gazelle.mapping.slam.tracking import FEWEST_POINTS, Tracker, is_jump, motion_information
 
 __all__ = ["Slam", "SlamResult", "Update", "slam"]
 
@@ -153,12 +153,16 @@ class Slam:
         frame = keyframe_of(scan, self.parameters, self._way_m)
         if not len(self.keyframes):
             return self._first(frame)
-        was_lost = self._tracker.lost > 0
+        was_lost, is_back = self._tracker.lost > 0, False
         expected = compose(self._pose, motion)
         found = self._tracker.locate(frame, expected, motion)
+        if found is not None and was_lost and self._comes_back(expected, found.pose):
+            # The way drifted, and the robot was not carried: closing the loop bends the way.
+            found, self._is_doubtful, is_back = None, False, True
         self._pose = expected if found is None else found.pose
         sees = len(frame.points_m) >= FEWEST_POINTS
-        self._is_doubtful |= sees and (found is None or found.is_doubtful)
+        if not is_back:
+            self._is_doubtful |= sees and (found is None or found.is_doubtful)
         is_kept = self.is_mapping and self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
         has_closed = is_kept and self._keep(frame, found)
         self._track.add(scan.stamp_ns, self._pose)
@@ -197,6 +201,11 @@ class Slam:
         away = between(self.keyframes.poses[-1], self._pose)
         is_far = math.hypot(away[0], away[1]) >= self.parameters.keyframe_m
         return is_far or bool(abs(away[2]) >= self.parameters.keyframe_rad)
+
+    def _comes_back(self, expected: Poses, found: Poses) -> bool:
+        """Tell whether a lost robot is seen to be off where it was a long way ago."""
+        closes = self.is_mapping and self.parameters.loop_closing
+        return closes and is_jump(expected, found) and self._closer.is_old_place(found)
 
     def _keep(self, frame: Keyframe, found: Match | None) -> bool:
         """Keep a scan; return whether a place was recognised, which moves the map."""

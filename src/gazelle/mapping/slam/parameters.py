@@ -43,6 +43,6 @@ class SlamParameters:
     least_match: float = 0.3
     loop_closing: bool = True
     least_loop: float = 0.6
-    loop_reach_m: float = 12.0
+    loop_reach_m: float = 18.0
     loop_gap_m: float = 10.0
     polish: bool = True

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Match, Prior, match, refined
-from gazelle.mapping.poses import Poses
+from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.weighing import surroundings, weighed
 
-__all__ = ["FEWEST_POINTS", "Tracker", "motion_information"]
+__all__ = ["FEWEST_POINTS", "Tracker", "is_jump", "motion_information"]
 
 FEWEST_POINTS = 20
 """Scans that meet less say nothing of where they are."""
@@ -32,6 +33,12 @@ _WIDE_RAD = 1.2
 _LOST_M = 2.0
 _LOST_M_PER_SCAN = 1.0
 _LOST_MOST_M = 6.0
+# Odometry errs by less while a scan or two fit nowhere. That a robot was carried away must be
+# proved by so many points, of several scans in a row where they are few: in the open there are
+# always some that a few bushes fit.
+_JUMP_M, _JUMP_RAD = 1.0, 0.6
+_PROVING_POINTS = 500
+_SAME_M, _SAME_RAD = 0.5, 0.3
 # A field reaches 2 m farther than beams do.
 _LEFT_M = 1.5
 
@@ -44,6 +51,18 @@ def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.
         _STILL_RAD + parameters.odometry_rad_per_rad * turn + parameters.odometry_rad_per_m * way
     )
     return np.diag([sigma_m**-2, sigma_m**-2, sigma_rad**-2])
+
+
+def is_jump(expected: Poses, found: Poses) -> bool:
+    """Tell whether a pose is farther off than odometry errs while a few scans fit nowhere."""
+    return _is_apart(expected, found, _JUMP_M, _JUMP_RAD)
+
+
+class _Jump(NamedTuple):
+    """Where a robot seems to have been carried, and how many points say so."""
+
+    pose: Poses
+    points: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,6 +88,7 @@ class Tracker:
         self._submap: _Submap | None = None
         self._usual_score = 0.8
         self._usual_spread = 0.1
+        self._jump: _Jump | None = None
         self.lost = 0
         self.uses_nearest = False
 
@@ -86,8 +106,9 @@ class Tracker:
         """
         if len(frame.points_m) < FEWEST_POINTS:
             return None
-        found = self.relocate(frame, expected) if self.lost else None
-        found = found or self._followed(frame, expected, motion)
+        found = self._found_again(frame, expected, motion) if self.lost else None
+        if found is None and self._jump is None:
+            found = self._followed(frame, expected, motion)
         if found is None:
             self.lost += 1
             return None
@@ -96,6 +117,22 @@ class Tracker:
         self._usual_spread += _FORGET * (abs(change) - self._usual_spread)
         self.lost = 0
         return found
+
+    def _found_again(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
+        """Return where a lost robot is; a jump that is not proved yet is remembered instead."""
+        before, self._jump = self._jump, None
+        found = self.relocate(frame, expected)
+        if found is None or not is_jump(expected, found.pose):
+            return found
+        points = len(frame.points_m)
+        if before is not None:
+            if _is_apart(compose(before.pose, motion), found.pose, _SAME_M, _SAME_RAD):
+                return None
+            points += before.points
+        if points >= _PROVING_POINTS:
+            return found
+        self._jump = _Jump(found.pose, points)
+        return None
 
     def _followed(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
         submap = self._current(expected, frame.reach_m)
@@ -161,3 +198,8 @@ class Tracker:
             return list(range(max(0, count - wanted), count))
         far = np.hypot(*(self._keyframes.poses[:, :2] - expected[:2]).T)
         return [int(k) for k in np.argsort(far)[:wanted]]
+
+
+def _is_apart(one: Poses, other: Poses, most_m: float, most_rad: float) -> bool:
+    away = between(one, other)
+    return bool(math.hypot(away[0], away[1]) > most_m or abs(away[2]) > most_rad)
