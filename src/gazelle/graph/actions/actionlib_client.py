@@ -90,8 +90,10 @@ class ActionlibClient:
 
     def close(self) -> None:
         """Leave the topics."""
-        for one in (*self._topics, self._goal, self._cancel):
-            one.unregister()
+        for topic in self._topics:
+            topic.unregister()
+        self._goal.unregister()
+        self._cancel.unregister()
         self._news.close()
 
     def _take_result(self, message: Any) -> None:

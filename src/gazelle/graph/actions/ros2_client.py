@@ -86,8 +86,10 @@ class Ros2Client:
     def close(self) -> None:
         """Leave services and topics, behind the cancel requests that were made."""
         self._unsent_cancels.wait_until_none(_UNSENT_S)
-        for one in (*self._topics, self._send, self._cancel, self._result):
-            one.unregister()
+        for topic in self._topics:
+            topic.unregister()
+        for client in (self._send, self._cancel, self._result):
+            client.unregister()
         self._news.close()
 
     def _start(self, work: Callable[..., None], *args: Any) -> None:
