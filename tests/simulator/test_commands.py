@@ -6,7 +6,8 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GazelleError
-from gazelle.simulator.commands import MOST_WAITING, Backlog, CommandQueue
+from gazelle.graph.backlog import MOST_WAITING, Backlog
+from gazelle.simulator.commands import CommandQueue
 
 
 def _never(error: Exception) -> None:
@@ -180,7 +181,7 @@ def _call_in_vain(queue: CommandQueue, done: list[str]) -> None:
 def test_of_the_messages_that_wait_for_a_busy_world_the_oldest_go_first() -> None:
     """As many as a topic sends while a world loads something, stands still or is stopped."""
     queue, told, done = CommandQueue(_never), [], []
-    backlog = Backlog(queue, done.append, lambda: told.append("told"))
+    backlog = Backlog(queue.post, done.append, lambda: told.append("told"))
     queue.own()
     poster = threading.Thread(target=lambda: [backlog.put(n) for n in range(MOST_WAITING + 50)])
     poster.start()

@@ -10,10 +10,7 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError
 
-__all__ = ["MOST_WAITING", "Backlog", "CommandQueue", "error_text", "telling"]
-
-MOST_WAITING = 1000
-"""Messages of one topic that wait for the world at most."""
+__all__ = ["CommandQueue", "error_text", "telling"]
 
 _Result = TypeVar("_Result")
 _LOOK_S = 0.005
@@ -188,48 +185,3 @@ class CommandQueue:
 
     def _acts_now(self) -> bool:
         return self._owner is None or self._owner == threading.get_ident()
-
-
-class Backlog:
-    """Messages of one topic on their way into a world that is busy with something else.
-
-    A world may take seconds for a step or a command, or stand still altogether, and messages come
-    all the while: no more of them wait than `MOST_WAITING`, the oldest go first.
-    """
-
-    def __init__(
-        self, commands: CommandQueue, act: Callable[[Any], None], overflowed: Callable[[], None]
-    ) -> None:
-        """Begin with none.
-
-        Args:
-            commands: of the world.
-            act: takes a message, between two steps.
-            overflowed: called the first time that a message goes.
-        """
-        self._commands = commands
-        self._act = act
-        self._overflowed: Callable[[], None] | None = overflowed
-        self._waiting: deque[Any] = deque()
-        self._lock = threading.Lock()
-
-    def put(self, message: Any) -> None:
-        """Have a message acted on soon; from any thread, does not wait."""
-        with self._lock:
-            is_full = len(self._waiting) == MOST_WAITING
-            if is_full:
-                self._waiting.popleft()
-            self._waiting.append(message)
-            overflowed = self._overflowed if is_full else None
-            if is_full:
-                self._overflowed = None
-        if not is_full:
-            # One command for each that waits.
-            self._commands.post(self._take)
-        elif overflowed is not None:
-            overflowed()
-
-    def _take(self) -> None:
-        with self._lock:
-            message = self._waiting.popleft()
-        self._act(message)

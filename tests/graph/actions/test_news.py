@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 from tests.patience import eventually, stretched
 
-from gazelle.graph.actions.news import MOST_WAITING, News
+from gazelle.graph.actions.news import News
+from gazelle.graph.backlog import MOST_WAITING
 
 
 class _Node:

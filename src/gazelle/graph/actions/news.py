@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import traceback
-from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.graph.backlog import MOST_WAITING, Backlog
 from gazelle.graph.delivery import Mailbox
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
 
-__all__ = ["MOST_WAITING", "News"]
-
-MOST_WAITING = 1000
-"""Messages of one topic that wait while a callback takes its time; the oldest are dropped then."""
+__all__ = ["News"]
 
 
 class News:
     """One queue for all that comes, with a thread of its own.
 
     What is told once, such as a result, is never dropped. Feedback and status come all the time:
-    while a callback does not end, the newest `MOST_WAITING` of each topic are kept.
+    while a callback does not end, the newest of each topic are kept, see
+    `Backlog`.
     """
 
     def __init__(self, node: Node, name: str) -> None:
@@ -47,29 +45,15 @@ class News:
             name: of the topic, for messages.
             callback: called with each message, in the queue's thread.
         """
-        waiting: deque[Any] = deque()
-        is_told = False
 
-        def handle() -> None:
-            callback(waiting.popleft())
+        def overflowed() -> None:
+            self._node.log(
+                "warn",
+                f"a callback of the action {self._name} is slower than {name}: {MOST_WAITING} "
+                "messages wait, and the oldest are dropped from now on",
+            )
 
-        def take(message: Any) -> None:
-            nonlocal is_told
-            waiting.append(message)
-            if len(waiting) <= MOST_WAITING:
-                self._mailbox.put(handle)
-                return
-            # As many turns as messages: the oldest gives its turn to the one that follows it.
-            waiting.popleft()
-            if not is_told:
-                is_told = True
-                self._node.log(
-                    "warn",
-                    f"a callback of the action {self._name} is slower than {name}: {MOST_WAITING} "
-                    "messages wait, and the oldest are dropped from now on",
-                )
-
-        return take
+        return Backlog(self._mailbox.put, callback, overflowed).put
 
     def close(self) -> None:
         """Handle nothing more."""

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
-from gazelle.simulator.commands import MOST_WAITING, Backlog, CommandQueue
+from gazelle.graph.backlog import MOST_WAITING, Backlog
+from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
 from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import ParameterReader
@@ -148,7 +149,7 @@ class Resources:
             text = f"more than {MOST_WAITING} messages wait for the world; the oldest are left out"
             host.node.log("WARN", f"[{topic}] {text}")
 
-        backlog = Backlog(host.commands, callback, overflowed)
+        backlog = Backlog(host.commands.post, callback, overflowed)
 
         def queue(message: Any) -> None:
             problem = "" if takes_any_number else problem_of(message)
