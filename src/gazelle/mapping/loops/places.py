@@ -12,10 +12,12 @@ from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.poses import Poses
 
-__all__ = ["Place", "places_near"]
+__all__ = ["DRIFT_M_PER_M", "Place", "places_near"]
+
+DRIFT_M_PER_M = 0.02
+"""How far a map drifts per way, standard deviation."""
 
 _DRIFT_M = 0.1
-_DRIFT_M_PER_M = 0.02
 _SIGMAS = 3.0
 _DOUBTS = 1.5
 _NEAREST_M = 4.0
@@ -58,7 +60,7 @@ def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> 
     far = np.hypot(*(poses[:, :2] - poses[last, :2]).T)
     ways = _ways(edges, len(poses))
     doubts_m, doubts_rad = (_doubts(edges, len(poses), axis) for axis in (0, 2))
-    reach = _SIGMAS * (_DRIFT_M + _DRIFT_M_PER_M * ways) + _DOUBTS * doubts_m
+    reach = _SIGMAS * (_DRIFT_M + DRIFT_M_PER_M * ways) + _DOUBTS * doubts_m
     reach = np.clip(reach, 0.3, reach_m)
     turn = _DRIFT_RAD + _DRIFT_RAD_PER_M * np.minimum(ways, _MOST_WAY_M)
     turn = np.minimum(turn + _DOUBTS * doubts_rad, np.pi)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
-from gazelle.mapping.loops.places import places_near
+from gazelle.mapping.loops.places import DRIFT_M_PER_M, places_near
 from gazelle.mapping.loops.recognise import recognise
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
@@ -64,10 +64,11 @@ class LoopCloser:
         self._keyframes.poses = poses
         return tied
 
-    def is_old_place(self, pose: Poses) -> bool:
-        """Tell whether the robot was near a pose a long way ago."""
+    def has_drifted(self, pose: Poses, jump_m: float) -> bool:
+        """Tell whether the robot was near a pose so long ago that drift explains a jump to it."""
         poses, ways = self._keyframes.poses, self._keyframes.ways_m
-        old = ways[-1] - ways > self._parameters.loop_gap_m
+        gap_m = max(self._parameters.loop_gap_m, jump_m / DRIFT_M_PER_M)
+        old = ways[-1] - ways > gap_m
         far = np.hypot(*(poses[old, :2] - pose[:2]).T)
         return bool(far.min(initial=np.inf) < _NEAR_M)
 

@@ -205,7 +205,8 @@ class Slam:
     def _comes_back(self, expected: Poses, found: Poses) -> bool:
         """Tell whether a lost robot is seen to be off where it was a long way ago."""
         closes = self.is_mapping and self.parameters.loop_closing
-        return closes and is_jump(expected, found) and self._closer.is_old_place(found)
+        jump_m = math.dist(expected[:2], found[:2])
+        return closes and is_jump(expected, found) and self._closer.has_drifted(found, jump_m)
 
     def _keep(self, frame: Keyframe, found: Match | None) -> bool:
         """Keep a scan; return whether a place was recognised, which moves the map."""
