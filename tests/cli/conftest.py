@@ -142,17 +142,22 @@ def run_until(end_commands: Callable[[], None]) -> Callable[..., str]:
 
 
 @pytest.fixture
-def when_heard(graph: Graph) -> Callable[[str, Callable[[], Any]], None]:
-    """Calls a function once somebody subscribes a topic."""
+def when_heard(graph: Graph) -> Iterator[Callable[[str, Callable[[], Any]], None]]:
+    """Calls a function once somebody subscribes a topic; it ends before the test does."""
+    threads: list[threading.Thread] = []
 
     def add(topic: str, action: Callable[[], Any]) -> None:
         def listen(entity: Entity, is_there: bool) -> None:
             if is_there and entity.kind is Kind.SUBSCRIPTION and entity.name == topic:
-                threading.Thread(target=action, daemon=True).start()
+                thread = threading.Thread(target=action, daemon=True)
+                threads.append(thread)
+                thread.start()
 
         graph.discovery.listen(listen)
 
-    return add
+    yield add
+    for thread in threads:
+        thread.join()
 
 
 @pytest.fixture

@@ -247,3 +247,38 @@ rospy.Publisher('chat', String, queue_size=1, headers={'cookies': 'oreo'})
     assert running.wait() == 0, running.text
     line = "headers are not sent: cookies will not be in anybody's _connection_header"
     assert line in running.text
+
+
+_SLEEPING = """
+import rospy
+from std_msgs.msg import String
+import gazelle.graph.subscription as subscription
+subscription._MOST_WAITING_BYTES = 1 << 20
+rospy.init_node("slow")
+numbers, begun = [], []
+
+def sleep(message):
+    begun.append(1)
+    while not rospy.has_param("/go_on"):
+        rospy.rostime.wallsleep(0.01)
+    numbers.append(int(message.data[:4]))
+
+rospy.Subscriber("words", String, sleep, queue_size=None)
+while numbers[-1:] != [300]:
+    rospy.rostime.wallsleep(0.01)
+assert numbers[0] == 0 and len(numbers) < 301, numbers
+"""
+
+
+def test_sleeping_subscriber_without_a_queue_size_holds_the_newest_within_its_bound(
+    node: Node, program: Run, eventually: Run
+) -> None:
+    text = message_type("std_msgs/msg/String")
+    out = node.create_publisher("/words", text)
+    run = program(_SLEEPING)
+    eventually(lambda: out.matched)
+    for number in range(301):
+        out.publish(text(data=f"{number:04}" + "x" * 10_000))
+    run.wait_for_line("the callback of /words is slower than its messages: 1 MiB of them wait")
+    node.graph.parameters.set("/go_on", True)
+    assert run.wait() == 0
