@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.elsewhere import missing_node
 from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.roslaunch import LaunchOptions, find_executables
-from gazelle.nodes.registry import builtin_nodes
+from gazelle.node_specs.all_specs import node_specs
 from gazelle.workspace import Workspace
 
 _SPAN = SourceSpan("a.launch", 3, 5)
@@ -94,7 +94,7 @@ def test_built_in_node_stands_for_the_users_own_compiled_one(package: Path) -> N
     (folder / "package.xml").write_text(manifest, encoding="utf-8")
     found, diagnostics = _find("turtlebot3_gazebo", "turtlebot3_drive", folder)
     assert found is not None and found.builtin is not None
-    assert found.builtin.target == "gazelle.nodes.turtlebot3.drive:run"
+    assert found.builtin.entry == "gazelle.nodes.turtlebot3.drive:run"
     assert not tuple(diagnostics)
     script = folder / "scripts" / "turtlebot3_drive"
     script.parent.mkdir()
@@ -157,9 +157,9 @@ def test_a_program_that_its_package_lacks_here_is_told_with_what_does_its_work(
 
 def test_none_of_the_programs_that_are_told_as_missing_is_there() -> None:
     there = [
-        (node.package, node.type)
-        for node in builtin_nodes()
-        if missing_node(node.package, node.type)
+        (node.package, node.executable)
+        for node in node_specs()
+        if missing_node(node.package, node.executable)
     ]
     assert there == []
 
@@ -217,7 +217,7 @@ def test_script_without_execute_permission_runs_with_a_warning(package: Path) ->
 
 
 def test_node_for_another_machine_runs_here_and_that_is_said(package: Path) -> None:
-    spec = NodeSpec("tests_pkg", "does", "one", machine="robot1", span=_SPAN)
+    spec = NodeTag("tests_pkg", "does", "one", machine="robot1", span=_SPAN)
     config, diagnostics = LaunchConfig(nodes=[spec]), Diagnostics()
     nodes, missing = find_executables(
         config, Workspace.discover(environ={}, cwd=package), diagnostics, LaunchOptions()

@@ -6,19 +6,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.config import NodeSpec
+from gazelle.launch.config import NodeTag
 from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.lockstep import HeldStart, holds_time, starts_in_turn
 from gazelle.workspace import Workspace
 
-Startable = tuple[NodeSpec, Executable]
+Startable = tuple[NodeTag, Executable]
 
 
 def _node(package: str, type_name: str, name: str, args: str = "") -> Startable:
     workspace = Workspace.discover(environ={}, cwd=Path("/"))
     found = find_executable(package, type_name, workspace=workspace, diagnostics=Diagnostics())
     assert found is not None
-    return NodeSpec(package, type_name, name, args=args), found
+    return NodeTag(package, type_name, name, args=args), found
 
 
 def _world(args: str = "") -> Startable:

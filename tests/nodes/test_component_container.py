@@ -29,7 +29,7 @@ _ROBOT = """<robot name="r"><link name="a"/><link name="7"/><joint name="j" type
 )
 def test_names_of_components_are_those_of_nodes(package: str, plugin: str, node: str) -> None:
     found = builtin_of_component(package, plugin)
-    assert found is not None and found.type.startswith(node)
+    assert found is not None and found.executable.startswith(node)
 
 
 def test_component_is_loaded_listed_and_unloaded(bench: Any) -> None:

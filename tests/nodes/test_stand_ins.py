@@ -15,7 +15,7 @@ from gazelle.launch.ros2.launch_description_sources import (
     get_launch_description_from_any_launch_file,
 )
 from gazelle.launch.xml1.loader import load_launch_files
-from gazelle.nodes.registry import builtin_nodes
+from gazelle.node_specs.all_specs import builtin_packages
 from gazelle.workspace import Workspace
 from gazelle.workspace.ament_index import get_package_share_directory
 from gazelle.workspace.search_path import BUILTIN
@@ -25,12 +25,7 @@ OF_THE_USER = ("turtlebot3_",)
 # Gazelle's own types, and a package that every beginner makes.
 NOT_OF_ROS = {"gazelle_msgs", "beginner_tutorials"}
 DEFINITIONS = Path(gazelle.interfaces.__file__).parent / "definitions"
-NODES = {
-    package
-    for node in builtin_nodes()
-    for package, _type in ((node.package, node.type), *node.aliases)
-    if not package.startswith(OF_THE_USER)
-}
+NODES = {package for package in builtin_packages() if not package.startswith(OF_THE_USER)}
 TYPES = {path.stem for path in DEFINITIONS.rglob("*.txt")} - NOT_OF_ROS
 FILES = (
     "amcl/examples/amcl_diff.launch",

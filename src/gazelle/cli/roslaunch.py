@@ -10,7 +10,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.errors import NotFoundError
-from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import dump_text
 from gazelle.launch.executables import find_executable
 from gazelle.launch.process import node_words
@@ -168,11 +168,11 @@ def _query(
     return 0
 
 
-def _all_nodes(config: LaunchConfig) -> list[NodeSpec]:
+def _all_nodes(config: LaunchConfig) -> list[NodeTag]:
     return [*config.nodes, *(test.node for test in config.tests)]
 
 
-def _node(name: str, config: LaunchConfig) -> NodeSpec:
+def _node(name: str, config: LaunchConfig) -> NodeTag:
     full = name if name.startswith("/") else f"/{name}"
     by_name = {node.full_name: node for node in _all_nodes(config)}
     if full not in by_name:
@@ -180,7 +180,7 @@ def _node(name: str, config: LaunchConfig) -> NodeSpec:
     return by_name[full]
 
 
-def _command_line(spec: NodeSpec, workspace: Workspace, diagnostics: Diagnostics) -> str:
+def _command_line(spec: NodeTag, workspace: Workspace, diagnostics: Diagnostics) -> str:
     executable = find_executable(
         spec.package, spec.type, workspace=workspace, diagnostics=diagnostics, span=spec.span
     )

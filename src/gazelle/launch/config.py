@@ -7,11 +7,11 @@ from typing import Any, Literal
 
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["ArgDeclaration", "LaunchConfig", "Machine", "NodeSpec", "ParamDump", "TestSpec"]
+__all__ = ["ArgDeclaration", "LaunchConfig", "Machine", "NodeTag", "ParamDump", "TestTag"]
 
 
 @dataclass(frozen=True, slots=True)
-class NodeSpec:
+class NodeTag:
     """A ``<node>`` after all substitutions.
 
     Attributes:
@@ -49,10 +49,10 @@ class NodeSpec:
 
 
 @dataclass(frozen=True, slots=True)
-class TestSpec:
+class TestTag:
     """A ``<test>``: a node that ``rostest`` runs; roslaunch only lists it."""
 
-    node: NodeSpec
+    node: NodeTag
     test_name: str
     time_limit_s: float = 60.0
     retry: int = 0
@@ -112,8 +112,8 @@ class LaunchConfig:
     clear_params: list[str] = field(default_factory=list)
     deleted_params: list[str] = field(default_factory=list)
     dumps: list[ParamDump] = field(default_factory=list)
-    nodes: list[NodeSpec] = field(default_factory=list)
-    tests: list[TestSpec] = field(default_factory=list)
+    nodes: list[NodeTag] = field(default_factory=list)
+    tests: list[TestTag] = field(default_factory=list)
     machines: list[Machine] = field(default_factory=list)
     args: list[ArgDeclaration] = field(default_factory=list)
     node_files: dict[str, str] = field(default_factory=dict)

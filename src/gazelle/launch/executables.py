@@ -12,7 +12,8 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.launch.elsewhere import missing_node, missing_package
-from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
+from gazelle.node_specs.all_specs import builtin_executables, node_spec
+from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.entry_points import console_scripts
@@ -48,7 +49,7 @@ class Executable:
     """
 
     command: tuple[str, ...]
-    builtin: BuiltinNode | None = None
+    builtin: NodeSpec | None = None
     folder: Path | None = None
     takes_ros_words: bool = True
 
@@ -74,7 +75,7 @@ def find_executable(
     if _COMMANDS.get((package, type_name)):
         words = (sys.executable, "-m", "gazelle.cli", *_COMMANDS[package, type_name].split())
         return Executable(words)
-    builtin = builtin_node(package, type_name)
+    builtin = node_spec(package, type_name)
     if builtin is not None:
         words = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
         return Executable(words, builtin)
@@ -153,7 +154,7 @@ def _report_missing(
     span: SourceSpan | None,
     ros_version: int,
 ) -> None:
-    existing, found = set(builtin_types(package)), None
+    existing, found = set(builtin_executables(package)), None
     try:
         found = workspace.package(package)
     except NotFoundError as error:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gazelle.launch.config import NodeSpec
+from gazelle.launch.config import NodeTag
 from gazelle.launch.process import node_words
 from gazelle.parent import PARENT_VARIABLE
 
@@ -67,7 +67,7 @@ class NodeHost:
         self._status = os.fdopen(read_fd, "r", encoding="utf-8")
         threading.Thread(target=self._read_status, daemon=True).start()
 
-    def start(self, host_id: int, node: str, spec: NodeSpec, log_file: str) -> None:
+    def start(self, host_id: int, node: str, spec: NodeTag, log_file: str) -> None:
         """Start a node; its end comes back as a `NodeEnded` event."""
         start = {
             "id": host_id,

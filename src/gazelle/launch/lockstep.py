@@ -7,8 +7,9 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from gazelle.launch.config import NodeSpec
+from gazelle.launch.config import NodeTag
 from gazelle.launch.executables import Executable
+from gazelle.node_specs.spec import NodeRole
 
 __all__ = [
     "HeldStart",
@@ -18,29 +19,19 @@ __all__ = [
     "with_simulator_words",
 ]
 
-Startable = tuple[NodeSpec, Executable]
-_SERVERS = frozenset({"gzserver", "gazebo", "debug", "perf"})
+Startable = tuple[NodeTag, Executable]
 _PAUSED = frozenset({"-u", "--pause"})
 _BOND = frozenset({"-b", "-bond", "--bond"})
-_MODEL_SPAWNERS = frozenset(
-    {"gazelle.nodes.spawn_model:run", "gazelle.nodes.spawn_model:run_entity"}
-)
-_CONTROLLER_SPAWNERS = frozenset(
-    {
-        "gazelle.nodes.controller_spawner:run",
-        "gazelle.nodes.controller_spawner_ros2:run",
-        "gazelle.nodes.controller_manager_command:run",
-    }
-)
+_MODEL_SPAWNERS = frozenset({NodeRole.MODEL_SPAWNER, NodeRole.ENTITY_SPAWNER})
 
 
 def is_simulator(executable: Executable) -> bool:
     """Return whether a node is the simulator's server."""
     builtin = executable.builtin
-    return builtin is not None and builtin.type in _SERVERS
+    return builtin is not None and builtin.role is NodeRole.SIMULATOR
 
 
-def with_simulator_words(spec: NodeSpec, words: Sequence[str]) -> NodeSpec:
+def with_simulator_words(spec: NodeTag, words: Sequence[str]) -> NodeTag:
     """Return a simulator's node with more arguments."""
     return replace(spec, args=" ".join([spec.args, *words]).strip())
 
@@ -68,7 +59,7 @@ class HeldStart:
         self,
         nodes: Sequence[Startable],
         *,
-        start: Callable[[NodeSpec, Executable], object],
+        start: Callable[[NodeTag, Executable], object],
         release: Callable[[], None],
     ) -> None:
         self._start = start
@@ -87,12 +78,12 @@ class HeldStart:
         """Start the first spawner."""
         self._next()
 
-    def ended(self, spec: NodeSpec) -> None:
+    def ended(self, spec: NodeTag) -> None:
         """Hear that a node has ended."""
         if spec.full_name == self._current:
             self._next()
 
-    def ready(self, spec: NodeSpec) -> None:
+    def ready(self, spec: NodeTag) -> None:
         """Hear that a spawner of controllers, which stays, has started them."""
         self.ended(spec)
 
@@ -106,7 +97,7 @@ class HeldStart:
         self._start(spec, executable)
 
 
-def _servers(nodes: Sequence[Startable]) -> list[NodeSpec]:
+def _servers(nodes: Sequence[Startable]) -> list[NodeTag]:
     return [spec for spec, executable in nodes if is_simulator(executable)]
 
 
@@ -114,7 +105,7 @@ def _spawns(node: Startable) -> bool:
     """Return whether a node puts a model into the world and ends (``-b`` would stay)."""
     spec, executable = node
     builtin = executable.builtin
-    is_spawner = builtin is not None and builtin.target in _MODEL_SPAWNERS
+    is_spawner = builtin is not None and builtin.role in _MODEL_SPAWNERS
     return is_spawner and not _BOND & set(shlex.split(spec.args))
 
 
@@ -122,6 +113,6 @@ def _controls(node: Startable) -> bool:
     """Return whether a node starts controllers and can say when it has."""
     spec, executable = node
     builtin = executable.builtin
-    is_spawner = builtin is not None and builtin.target in _CONTROLLER_SPAWNERS
+    is_spawner = builtin is not None and builtin.role is NodeRole.CONTROLLER_SPAWNER
     # A node in a process of its own has no way to say that it is ready.
     return is_spawner and not spec.env and not spec.launch_prefix

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import IO
 
 from gazelle.ending import interrupts_held
-from gazelle.launch.config import NodeSpec
+from gazelle.launch.config import NodeTag
 from gazelle.launch.executables import Executable
 from gazelle.parent import PARENT_VARIABLE
 
@@ -36,7 +36,7 @@ class LaunchedProcess:
     """
 
     label: str
-    spec: NodeSpec
+    spec: NodeTag
     words: tuple[str, ...]
     log_stem: Path
     popen: subprocess.Popen[bytes] | None = None
@@ -49,7 +49,7 @@ class LaunchedProcess:
         return self.popen.pid if self.popen is not None else 0
 
 
-def node_words(spec: NodeSpec) -> list[str]:
+def node_words(spec: NodeTag) -> list[str]:
     """Return a node's own arguments: those of the file, its remaps, name and log file."""
     remaps = [f"{source}:={target}" for source, target in spec.remaps]
     return [*shlex.split(spec.args), *remaps, f"__name:={spec.name}"]

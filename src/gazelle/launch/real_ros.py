@@ -105,7 +105,7 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
     They would take the place of those that the launch sets sooner.
     """
     # Only launches do: a simulator by itself looks for real ROS without importing them.
-    from gazelle.launch.config import NodeSpec
+    from gazelle.launch.config import NodeTag
     from gazelle.launch.executables import Executable
 
     for one in seen:
@@ -113,7 +113,7 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
             f"{one.sign}: gazelle bridge {one.bridge} joins it "
             f"(roslaunch --no-bridge or {_VARIABLE}=no keep apart)"
         )
-        spec = NodeSpec("gazelle", "bridge", f"{one.bridge}_bridge", output="screen")
+        spec = NodeTag("gazelle", "bridge", f"{one.bridge}_bridge", output="screen")
         words = _bridge_words(one.bridge)
         supervisor.start(spec, Executable(words, takes_ros_words=False), core=True)
         if not _is_joined(one, graph, partial(supervisor.runs, spec)):

@@ -24,7 +24,7 @@ from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type
-from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import Console, summary
 from gazelle.launch.environment import node_environment, ros_home
 from gazelle.launch.executables import Executable, find_executable
@@ -42,7 +42,7 @@ from gazelle.workspace import Workspace
 
 __all__ = ["LaunchOptions", "find_executables", "launch"]
 
-_ROSOUT = NodeSpec("rosout", "rosout", "rosout")
+_ROSOUT = NodeTag("rosout", "rosout", "rosout")
 _UNPAUSE = "/gazebo/unpause_physics"
 _UNPAUSE_S = 60.0
 _LOOK_AGAIN_S = 0.2
@@ -164,7 +164,7 @@ class _Run:
         self._held: HeldStart | None = None
 
     def __call__(
-        self, supervisor: Supervisor, nodes: Sequence[tuple[NodeSpec, Executable]], *, in_turn: bool
+        self, supervisor: Supervisor, nodes: Sequence[tuple[NodeTag, Executable]], *, in_turn: bool
     ) -> int:
         """Start everything, spawners in turn when asked for, and stay until the launch is over."""
         if not nodes and not self._graph.is_hub:
@@ -195,12 +195,12 @@ class _Run:
             self._held.begin()
         return supervisor.run()
 
-    def ended(self, spec: NodeSpec) -> None:
+    def ended(self, spec: NodeTag) -> None:
         """Hear that a node has ended."""
         if self._held is not None:
             self._held.ended(spec)
 
-    def ready(self, spec: NodeSpec) -> None:
+    def ready(self, spec: NodeTag) -> None:
         """Hear that a spawner of controllers has started them and stays."""
         if self._held is not None:
             self._held.ready(spec)
@@ -227,9 +227,9 @@ def _unpause(graph: Graph) -> None:
 
 def find_executables(
     config: LaunchConfig, workspace: Workspace, diagnostics: Diagnostics, options: LaunchOptions
-) -> tuple[list[tuple[NodeSpec, Executable]], int]:
+) -> tuple[list[tuple[NodeTag, Executable]], int]:
     """Return every node with its command, and how many have none."""
-    found: list[tuple[NodeSpec, Executable]] = []
+    found: list[tuple[NodeTag, Executable]] = []
     for spec in config.nodes:
         executable = find_executable(
             spec.package, spec.type, workspace=workspace, diagnostics=diagnostics, span=spec.span
@@ -242,7 +242,7 @@ def find_executables(
     return found, len(config.nodes) - len(found)
 
 
-def _with_options(spec: NodeSpec, executable: Executable, options: LaunchOptions) -> NodeSpec:
+def _with_options(spec: NodeTag, executable: Executable, options: LaunchOptions) -> NodeTag:
     output = "screen" if options.screen else "log" if options.log else spec.output
     required = spec.required or options.required
     if is_simulator(executable):

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Self
 
-from gazelle.launch.config import NodeSpec
+from gazelle.launch.config import NodeTag
 from gazelle.launch.console import Console
 from gazelle.launch.executables import Executable
 from gazelle.launch.guard import Guard
@@ -77,8 +77,8 @@ class Supervisor:
         *,
         console: Console,
         stop_times: StopTimes | None = None,
-        on_end: Callable[[NodeSpec], None] | None = None,
-        on_ready: Callable[[NodeSpec], None] | None = None,
+        on_end: Callable[[NodeTag], None] | None = None,
+        on_ready: Callable[[NodeTag], None] | None = None,
     ) -> None:
         """Prepare; nothing runs yet.
 
@@ -132,7 +132,7 @@ class Supervisor:
         self._is_stopping = True
         self._events.put(_Shutdown())
 
-    def start(self, spec: NodeSpec, executable: Executable, *, core: bool = False) -> bool:
+    def start(self, spec: NodeTag, executable: Executable, *, core: bool = False) -> bool:
         """Start a node; False (and a line on the terminal) when that is impossible.
 
         None is started any more, without a line, once the launch is to end.
@@ -151,7 +151,7 @@ class Supervisor:
             self._core.add(label)
         return self._start(label, spec)
 
-    def runs(self, spec: NodeSpec) -> bool:
+    def runs(self, spec: NodeTag) -> bool:
         """Return whether a node that was started in a process of its own has not ended.
 
         None counts any more once the launch is to end: nobody need wait for it.
@@ -161,7 +161,7 @@ class Supervisor:
         started = [item.popen for item in self._running if item.spec is spec]
         return any(popen is not None and popen.poll() is None for popen in started)
 
-    def _start(self, label: str, spec: NodeSpec) -> bool:
+    def _start(self, label: str, spec: NodeTag) -> bool:
         try:
             process = self._begin(label, spec)
         except (OSError, ValueError) as error:
@@ -173,7 +173,7 @@ class Supervisor:
         self._console.bold(f"process[{label}]: started with pid [{process.pid}]")
         return True
 
-    def _begin(self, label: str, spec: NodeSpec) -> LaunchedProcess:
+    def _begin(self, label: str, spec: NodeTag) -> LaunchedProcess:
         """Start a process, or a node in the host.
 
         Raises:
@@ -187,8 +187,8 @@ class Supervisor:
             words = (*words, *node_words(spec), f"__log:={stem}.log")
         process = LaunchedProcess(label, spec, words, stem)
         builtin = executable.builtin
-        if builtin is not None and builtin.light and not spec.env and not spec.launch_prefix:
-            self._start_hosted(process, f"{builtin.package}/{builtin.type}")
+        if builtin is not None and builtin.is_light and not spec.env and not spec.launch_prefix:
+            self._start_hosted(process, f"{builtin.package}/{builtin.executable}")
             return process
         start_process(process, executable, self._environment, self._cwd)
         self._watch(process.popen)
@@ -325,7 +325,7 @@ class Supervisor:
             self._tell_end(process.spec)
         return True
 
-    def _tell_end(self, spec: NodeSpec) -> None:
+    def _tell_end(self, spec: NodeTag) -> None:
         if self._on_end is not None:
             self._on_end(spec)
 

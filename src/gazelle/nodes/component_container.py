@@ -22,9 +22,10 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.parameter_values import value_from_message
 from gazelle.interfaces import service_type
+from gazelle.node_specs.all_specs import builtin_executables, node_spec
+from gazelle.node_specs.spec import NodeSpec
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.registry import BuiltinNode, builtin_node, builtin_types
 
 __all__ = ["builtin_of_component", "run"]
 
@@ -39,14 +40,14 @@ _OTHERS = {
 _END_S = 2.0
 
 
-def builtin_of_component(package: str, plugin: str) -> BuiltinNode | None:
+def builtin_of_component(package: str, plugin: str) -> NodeSpec | None:
     """Return the built-in node that does the work of a component, None when there is none."""
     own = plugin.rpartition("::")[2]
     name = _OTHERS.get(plugin) or _WORD.sub("_", own).lower()
     bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
-    types = builtin_types(package)
+    types = builtin_executables(package)
     found = next((one for one in (name, bare, f"{bare}_node") if one in types), "")
-    return builtin_node(package, found) if found else None
+    return node_spec(package, found) if found else None
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -103,10 +104,10 @@ class _Container:
             _be_missed(request)
             return
         space = request.node_namespace or "/"
-        name = request.node_name or builtin.name or builtin.type.partition(".")[0]
+        name = request.node_name or builtin.default_name()
         stop = threading.Event()
         target = {
-            "node": f"{builtin.package}/{builtin.type}",
+            "node": f"{builtin.package}/{builtin.executable}",
             "argv": [*self._file_words(), *_words(request, name)],
             "namespace": space,
         }
@@ -178,6 +179,6 @@ def _words(request: Any, name: str) -> list[str]:
 
 def _refusal(package: str, plugin: str) -> str:
     text = f"Failed to find class with the requested plugin name '{plugin}' in the loaded library"
-    types = builtin_types(package)
+    types = builtin_executables(package)
     known = f"; built-in nodes of package '{package}': {', '.join(types)}" if types else ""
     return f"{text}: components are compiled code, which is not loaded here{known}"

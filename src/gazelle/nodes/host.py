@@ -13,8 +13,8 @@ from typing import Any, TextIO
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
+from gazelle.node_specs.all_specs import node_spec
 from gazelle.nodes.arguments import read_arguments
-from gazelle.nodes.registry import builtin_node
 
 __all__ = ["host"]
 
@@ -113,12 +113,12 @@ def run_node(
         GazelleError: there is no such node, or it failed in a way it can explain.
     """
     package, _, type_name = request["node"].partition("/")
-    node = builtin_node(package, type_name)
+    node = node_spec(package, type_name)
     if node is None:
         raise GazelleError(f"'{request['node']}' is not a built-in node")
     arguments = read_arguments(
         request["argv"],
-        node.name or type_name.partition(".")[0],
+        node.default_name(type_name),
         namespace=request.get("namespace", "/"),
         output=request.get("output", "screen"),
         ready=ready,

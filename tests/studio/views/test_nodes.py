@@ -10,9 +10,9 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
+from gazelle.node_specs.all_specs import node_spec
+from gazelle.node_specs.windows import WINDOWS
 from gazelle.nodes.arguments import read_arguments
-from gazelle.nodes.registry import builtin_node, builtin_nodes
-from gazelle.nodes.view_names import VIEWS
 from gazelle.studio.views import nodes
 
 
@@ -28,7 +28,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setattr(nodes, "run_view", run_view)
 
     def ask(package: str, name: str, *words: str) -> tuple[str, dict[str, Any]]:
-        node = builtin_node(package, name)
+        node = node_spec(package, name)
         assert node is not None
         function: Any = node.load()
         function(read_arguments(words, name), None, threading.Event())
@@ -69,10 +69,12 @@ def test_rqt_opens_one_plugin_by_its_class_or_package(asked: Any, plugin: str, p
 
 
 def test_every_view_can_be_loaded_and_runs_in_a_process_of_its_own() -> None:
-    targets = {view.target for view in VIEWS}
-    found = [node for node in builtin_nodes() if node.target in targets]
-    assert len(found) == len(VIEWS)
-    assert all(callable(node.load()) and not node.light for node in found)
+    windows = [node for node in WINDOWS if node.entry.startswith("gazelle.studio.views.")]
+    assert len(windows) == len(WINDOWS)
+    beside = {("turtlesim", "turtlesim_node"), ("joint_state_publisher_gui",) * 2}
+    windows += [node for name in beside if (node := node_spec(*name))]
+    assert len(windows) == len(WINDOWS) + len(beside)
+    assert all(callable(node.load()) and not node.is_light for node in windows)
 
 
 def test_a_window_does_not_follow_the_time_of_a_simulator(

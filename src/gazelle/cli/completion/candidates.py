@@ -98,10 +98,10 @@ def _in_package(command: str, words: list[str]) -> Iterable[str]:
     package = Workspace.discover().packages.get(words[0])
     if command == "roslaunch":
         return {path.name for path in package.path.rglob("*.launch*")} if package else ()
-    from gazelle.nodes.registry import builtin_types
+    from gazelle.node_specs.all_specs import builtin_executables
 
     files = package.executable_names if package else ()
-    return {*files, *builtin_types(words[0])}
+    return {*files, *builtin_executables(words[0])}
 
 
 def _starting(names: Iterable[str], start: str) -> list[str]:

@@ -17,7 +17,7 @@ from gazelle.diagnostics import Diagnostics, render
 from gazelle.ending import interrupts_held
 from gazelle.launch.environment import is_own_command, node_environment
 from gazelle.launch.executables import find_executable
-from gazelle.nodes.registry import builtin_types
+from gazelle.node_specs.all_specs import builtin_executables
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]
@@ -55,7 +55,7 @@ def _run(options: argparse.Namespace) -> int:
     )
     render(diagnostics)
     if found is None:
-        if package not in workspace.packages and not builtin_types(package):
+        if package not in workspace.packages and not builtin_executables(package):
             return fail(f"Package '{package}' not found")
         return fail("No executable found")
     prefix = shlex.split(options.prefix) if options.prefix else []

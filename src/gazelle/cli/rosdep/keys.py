@@ -14,7 +14,7 @@ from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
 from gazelle.interfaces import known_types as message_types
 from gazelle.launch.environment import drop_in_folder
-from gazelle.nodes.registry import builtin_nodes
+from gazelle.node_specs.all_specs import builtin_packages
 from gazelle.workspace import Workspace
 
 __all__ = ["Answer", "Kind", "judge"]
@@ -114,11 +114,9 @@ def judge(key: str, workspace: Workspace, own: Iterable[str]) -> Answer:
 @cache
 def _brought() -> frozenset[str]:
     """Return packages with nodes, modules, messages or controllers that Gazelle has itself."""
-    nodes = {node.package for node in builtin_nodes()}
-    aliases = {package for node in builtin_nodes() for package, _ in node.aliases}
     modules = {path.name for path in drop_in_folder().iterdir() if path.is_dir()}
     typed = {name.partition("/")[0] for name in (*message_types(), *controller_types())}
-    return frozenset(nodes | aliases | modules | typed | _REPLACED)
+    return frozenset(builtin_packages() | modules | typed | _REPLACED)
 
 
 def _python(key: str) -> Answer:

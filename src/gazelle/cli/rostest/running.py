@@ -16,7 +16,7 @@ from typing import Self
 from gazelle.cli.rostest.results import Case, missing_result, read_cases
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
-from gazelle.launch.config import LaunchConfig, TestSpec
+from gazelle.launch.config import LaunchConfig, TestTag
 from gazelle.launch.environment import node_environment, ros_home
 from gazelle.launch.executables import find_executable
 from gazelle.launch.process import node_words
@@ -63,7 +63,7 @@ class TestRun:
         if self._has_nodes:
             self._start_nodes()
 
-    def tried(self, test: TestSpec, result: Path, *, show: bool) -> list[Case]:
+    def tried(self, test: TestTag, result: Path, *, show: bool) -> list[Case]:
         """Run a test, again as often as its ``retry`` says; return its cases.
 
         Args:
@@ -92,7 +92,7 @@ class TestRun:
                 break
         return cases
 
-    def _run(self, words: list[str], test: TestSpec, result: Path, *, show: bool) -> list[Case]:
+    def _run(self, words: list[str], test: TestTag, result: Path, *, show: bool) -> list[Case]:
         result.parent.mkdir(parents=True, exist_ok=True)
         result.unlink(missing_ok=True)
         namespace = test.node.namespace.rstrip("/") or "/"

@@ -41,7 +41,7 @@ def builtin_topics(node: LaunchedNode, launched: Launched) -> BuiltinTopics | No
     builtin = node.executable.builtin if node.executable is not None else None
     if builtin is None:
         return None
-    name = (builtin.package, builtin.type)
+    name = (builtin.package, builtin.executable)
     if name in _COMPUTED:
         return _COMPUTED[name](node, launched)
     return _FIXED.get(name)

@@ -14,9 +14,9 @@ from gazelle.doctor.dry_start import Program
 from gazelle.doctor.launch.parameter_places import parameter_places
 from gazelle.graph.names import parse_command_line, remap, resolve
 from gazelle.graph.parameter_tree import ParameterTree
-from gazelle.launch.config import LaunchConfig, NodeSpec
+from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.executables import Executable
-from gazelle.launch.lockstep import is_simulator
+from gazelle.node_specs.spec import NodeRole
 
 __all__ = ["Launched", "LaunchedNode", "Role", "launched_from"]
 
@@ -39,21 +39,10 @@ class Role(Enum):
     MISSING = "cannot be started"
 
 
-_BY_FUNCTION = {
-    "spawn_model:run": Role.MODEL_SPAWNER,
-    "controller_spawner:run": Role.CONTROLLER_SPAWNER,
-    "controller_spawner_ros2:run": Role.CONTROLLER_SPAWNER,
-    "controller_manager_command:run": Role.CONTROLLER_SPAWNER,
-    "robot_state_publisher:run": Role.STATE_PUBLISHER,
-    "companions:joint_state_publisher": Role.JOINT_STATES,
-    "companions:joint_state_publisher_gui": Role.JOINT_STATES,
-    "static_transform_publisher:run_tf": Role.STATIC_TRANSFORM,
-    "static_transform_publisher:run_tf2": Role.STATIC_TRANSFORM,
-    "topic_tools:run_relay": Role.RELAY,
-    "topic_tools:run_throttle": Role.RELAY,
-    "topic_tools:run_drop": Role.RELAY,
+# What spawns by the words of ROS 2 is not tried before the run.
+_BY_ROLE: dict[NodeRole, Role] = {
+    role: Role(role.value) for role in NodeRole if role is not NodeRole.ENTITY_SPAWNER
 }
-_WINDOWS = ("gazelle.studio.views.nodes:", "gazelle.studio.views.plain:")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +57,7 @@ class LaunchedNode:
         file: the user's script, None for anything else.
     """
 
-    spec: NodeSpec
+    spec: NodeTag
     executable: Executable | None
     role: Role
     program: Program
@@ -156,7 +145,7 @@ def launched_from(
     return Launched(config, nodes, parameters, name, is_whole, parameter_places(config))
 
 
-def _node(spec: NodeSpec, executable: Executable | None) -> LaunchedNode:
+def _node(spec: NodeTag, executable: Executable | None) -> LaunchedNode:
     try:
         words = shlex.split(spec.args)
     except ValueError:
@@ -178,13 +167,8 @@ def _node(spec: NodeSpec, executable: Executable | None) -> LaunchedNode:
 def _role(executable: Executable | None) -> Role:
     if executable is None:
         return Role.MISSING
-    if is_simulator(executable):
-        return Role.SIMULATOR
     if executable.builtin is not None:
-        target = executable.builtin.target
-        if target.startswith(_WINDOWS):
-            return Role.VIEW
-        return _BY_FUNCTION.get(target.rpartition(".")[2], Role.BUILTIN)
+        return _BY_ROLE.get(executable.builtin.role, Role.BUILTIN)
     if _script(executable) is not None:
         return Role.SCRIPT
     return Role.COMMAND if executable.folder is None else Role.NATIVE

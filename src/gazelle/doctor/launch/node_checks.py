@@ -46,7 +46,7 @@ def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
         values = launched.parameters.get(node.full_name) if _has_own(launched, node) else {}
         if builtin is None or not isinstance(values, dict):
             continue
-        for item in idle_parameters(f"{builtin.package}/{builtin.type}", values, 1):
+        for item in idle_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
             text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
             name = f"{node.full_name}/{item.key.replace('.', '/')}"
             span = launched.places.get(name, node.spec.span)

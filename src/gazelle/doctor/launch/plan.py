@@ -38,11 +38,11 @@ def start_plan(launched: Launched, server: LaunchedNode, diagnostics: Diagnostic
 def controller_start(node: LaunchedNode, diagnostics: Diagnostics) -> ControllerStart | None:
     """Return what a spawner of controllers would do; None when its arguments are wrong."""
     assert node.executable is not None and node.executable.builtin is not None
-    target = node.executable.builtin.target
+    executable = node.executable.builtin.executable
     try:
-        if target.endswith("controller_manager_command:run"):
+        if executable == "controller_manager":
             return _of_command(node)
-        if target.endswith("controller_spawner_ros2:run") or is_ros2(node.program.words):
+        if executable == "spawner.py" or is_ros2(node.program.words):
             return _of_ros2(node)
         return _of_ros1(node)
     except LaunchError as error:

@@ -14,7 +14,7 @@ from gazelle.doctor.parameters.controllers import controllers_in
 from gazelle.doctor.parameters.document import read_document
 from gazelle.doctor.parameters.layouts import layout_of
 from gazelle.launch.elsewhere import missing_node
-from gazelle.nodes.registry import builtin_types
+from gazelle.node_specs.all_specs import builtin_executables
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
 
@@ -105,7 +105,7 @@ def _nodes(files: Sequence[Followed]) -> Iterator[LaunchedNode]:
 
 
 def _check_builtin(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:
-    known = [*builtin_types(package.name), *package.executable_names, *_ALSO.get(package.name, ())]
+    known = [*builtin_executables(package.name), *package.executable_names]
     name = node.executable or ""
     absent = missing_node(package.name, name)
     if known and name not in known and (absent or nearest_names(name, known)):
@@ -115,17 +115,6 @@ def _check_builtin(node: LaunchedNode, package: Package, diagnostics: Diagnostic
         text += "on the libexec directory)"
         hint = absent or did_you_mean(name, known)
         diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
-
-
-# Programs of ROS 2 that Gazelle's own nodes of these packages do not include.
-_ALSO = {
-    "controller_manager": (
-        "hardware_spawner", "ros2_control_node", "spawner", "spawner.py", "unspawner",
-    ),
-    "gazebo_ros": ("spawn_entity.py",),
-    "joint_state_publisher_gui": ("joint_state_publisher_gui",),
-    "rviz2": ("rviz2",),
-}  # fmt: skip
 
 
 def _check_own(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:

@@ -8,7 +8,7 @@ from typing import Any, Literal, cast
 
 from gazelle.description.xml import Tag
 from gazelle.graph.names import resolve
-from gazelle.launch.config import ArgDeclaration, Machine, NodeSpec, TestSpec
+from gazelle.launch.config import ArgDeclaration, Machine, NodeTag, TestTag
 from gazelle.launch.xml1.param_elements import param, rosparam
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
@@ -99,11 +99,11 @@ def _test(tag: Tag, scope: Scope, reading: Reading) -> None:
     spec = _node_spec(tag, scope, reading, name)
     limit = reading.positive(tag, "time-limit", scope, 60.0)
     retry = int(reading.number(tag, "retry", scope, 0))
-    reading.config.tests.append(TestSpec(spec, test_name, limit, retry))
+    reading.config.tests.append(TestTag(spec, test_name, limit, retry))
     reading.config.node_files.setdefault(spec.full_name, scope.file)
 
 
-def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeSpec:
+def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeTag:
     inner = scope.child(reading.namespace(tag, scope))
     _check_node_name(name)
     respawn, required = (reading.flag(tag, word, scope) for word in ("respawn", "required"))
@@ -114,7 +114,7 @@ def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeSpec:
     reading.clear_params(tag, inner.child(name))
     _private_params(inner, name, reading)
     _node_children(tag, inner, name, reading)
-    return NodeSpec(
+    return NodeTag(
         package=reading.required(tag, "pkg", scope),
         type=reading.required(tag, "type", scope),
         name=name,

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from gazelle.cli.ros2.verbs import add_direct_arguments, fail
 from gazelle.cli.tool import hint
-from gazelle.nodes.registry import builtin_types
+from gazelle.node_specs.all_specs import builtin_executables
 from gazelle.workspace import Workspace
 
 __all__ = ["add_arguments_standalone", "add_arguments_types", "add_component_arguments"]
@@ -84,7 +84,7 @@ def instead_of(package: str, plugin: str, words: str = "") -> str:
     """Return lines that name the built-in node of a component's work, or what there is."""
     name = _WORD.sub("_", plugin.rpartition("::")[2]).lower()
     bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
-    types = builtin_types(package)
+    types = builtin_executables(package)
     found = next((one for one in (name, bare) if one in types), "")
     if not found and "static_transform" in bare and "static_transform_publisher" in types:
         found = "static_transform_publisher"

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from gazelle.cli.ros2.pkg.places import named_package
-from gazelle.nodes.registry import builtin_nodes, builtin_types
+from gazelle.node_specs.all_specs import builtin_executables, builtin_packages
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["add_arguments", "run"]
@@ -24,15 +24,17 @@ def run(options: argparse.Namespace) -> int:
     """Print a line for each executable."""
     workspace = Workspace.discover()
     if options.package_name is None:
-        names = {*workspace.packages, *(node.package for node in builtin_nodes())}
+        names = {*workspace.packages, *builtin_packages()}
     else:
         names = {options.package_name}
-        if not builtin_types(options.package_name):
+        if not builtin_executables(options.package_name):
             named_package(workspace, options.package_name)
     for name in sorted(names):
         package = workspace.packages.get(name)
         files = package.executable_names if package is not None else ()
-        builtin = () if package is not None and not package.is_builtin else builtin_types(name)
+        builtin = (
+            () if package is not None and not package.is_builtin else builtin_executables(name)
+        )
         if not options.full_path:
             for executable in sorted({*files, *builtin}):
                 print(name, executable)

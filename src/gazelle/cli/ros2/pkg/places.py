@@ -7,7 +7,7 @@ import sys
 
 from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError
-from gazelle.nodes.registry import builtin_nodes
+from gazelle.node_specs.all_specs import builtin_packages
 from gazelle.workspace import Package, Workspace
 
 __all__ = [
@@ -36,7 +36,7 @@ def add_arguments_list(_parser: argparse.ArgumentParser) -> None:
 
 def run_list(_options: argparse.Namespace) -> int:
     """Print the names of all packages, those with built-in nodes included."""
-    names = {*Workspace.discover().packages, *(node.package for node in builtin_nodes())}
+    names = {*Workspace.discover().packages, *builtin_packages()}
     print("\n".join(sorted(names)))
     return 0
 

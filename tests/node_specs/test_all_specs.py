@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.nodes.registry import builtin_node, builtin_nodes, builtin_types
+from gazelle.node_specs.all_specs import builtin_executables, node_spec, node_specs
 
 
-@pytest.mark.parametrize("node", builtin_nodes(), ids=lambda node: f"{node.package}/{node.type}")
+@pytest.mark.parametrize("node", node_specs(), ids=lambda node: f"{node.package}/{node.executable}")
 def test_every_node_has_a_function_and_help(node) -> None:
     assert callable(node.load())
-    assert node.help
+    assert node.does
 
 
 @pytest.mark.parametrize(
@@ -25,18 +25,16 @@ def test_every_node_has_a_function_and_help(node) -> None:
     ],
 )
 def test_old_names_are_aliases(package: str, type_name: str, target: str) -> None:
-    node = builtin_node(package, type_name)
+    node = node_spec(package, type_name)
     assert node is not None
-    assert node.type == target
+    assert node.executable == target
 
 
 def test_unknown_names_are_no_nodes() -> None:
-    assert builtin_node("gazebo_ros", "spawn_modle") is None
-    assert "spawn_model" in builtin_types("gazebo_ros")
+    assert node_spec("gazebo_ros", "spawn_modle") is None
+    assert "spawn_model" in builtin_executables("gazebo_ros")
 
 
 def test_no_name_stands_for_two_nodes() -> None:
-    names = [
-        name for node in builtin_nodes() for name in ((node.package, node.type), *node.aliases)
-    ]
+    names = [name[:2] for node in node_specs() for name in node.names]
     assert sorted(names) == sorted(set(names))

@@ -1,0 +1,58 @@
+"""Which built-in node answers to which name."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from gazelle.node_specs.control import CONTROL
+from gazelle.node_specs.driving import DRIVING
+from gazelle.node_specs.localisation import LOCALISATION
+from gazelle.node_specs.navigation import NAVIGATION
+from gazelle.node_specs.simulation import SIMULATION
+from gazelle.node_specs.slam import SLAM
+from gazelle.node_specs.spec import NodeSpec
+from gazelle.node_specs.topics import TOPICS
+from gazelle.node_specs.transforms import TRANSFORMS
+from gazelle.node_specs.turtles import TURTLES
+from gazelle.node_specs.windows import WINDOWS
+
+__all__ = ["builtin_executables", "builtin_packages", "node_spec", "node_specs"]
+
+_SPECS = (
+    *SIMULATION,
+    *TRANSFORMS,
+    *CONTROL,
+    *TOPICS,
+    *NAVIGATION,
+    *LOCALISATION,
+    *SLAM,
+    *TURTLES,
+    *DRIVING,
+    *WINDOWS,
+)
+
+
+def node_specs() -> tuple[NodeSpec, ...]:
+    """Return the rows of all built-in nodes."""
+    return _SPECS
+
+
+def node_spec(package: str, executable: str) -> NodeSpec | None:
+    """Return the node that answers to a name, or None."""
+    return _by_name().get((package, executable))
+
+
+def builtin_executables(package: str) -> tuple[str, ...]:
+    """Return the executables that exist under a package's name."""
+    return tuple(sorted(name for owner, name in _by_name() if owner == package))
+
+
+@cache
+def builtin_packages() -> frozenset[str]:
+    """Return the packages that have built-in nodes."""
+    return frozenset(package for package, _executable in _by_name())
+
+
+@cache
+def _by_name() -> dict[tuple[str, str], NodeSpec]:
+    return {(name.package, name.executable): spec for spec in _SPECS for name in spec.names}

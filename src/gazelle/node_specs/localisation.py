@@ -1,0 +1,132 @@
+"""Maps, where the robot is in them, and scans."""
+
+from __future__ import annotations
+
+from gazelle.node_specs.spec import ROS_1, ROS_2, NodeSpec
+
+__all__ = ["LOCALISATION"]
+
+LOCALISATION = (
+    NodeSpec(
+        package="map_server",
+        executable="map_server",
+        ros=ROS_1,
+        entry="gazelle.nodes.map_server.server:run",
+        does="publishes a map from a file",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="map_server",
+        executable="map_saver",
+        ros=ROS_1,
+        entry="gazelle.nodes.map_server.saver:run",
+        does="writes the map that is published",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="nav2_map_server",
+        executable="map_server",
+        ros=ROS_2,
+        entry="gazelle.nodes.map_server.server_ros2:run",
+        does="publishes a map from a file, ROS 2's package",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="nav2_map_server",
+        executable="map_saver_cli",
+        ros=ROS_2,
+        entry="gazelle.nodes.map_server.saver:run_cli",
+        does="writes the map that is published, ROS 2's package",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="nav2_map_server",
+        executable="map_saver_server",
+        ros=ROS_2,
+        entry="gazelle.nodes.map_server.saver:run_server",
+        does="writes maps on request",
+        is_light=False,
+        name="map_saver",
+    ),
+    NodeSpec(
+        package="amcl",
+        executable="amcl",
+        ros=ROS_1,
+        entry="gazelle.nodes.amcl.node:run",
+        does="finds the robot in a map",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="fake_localization",
+        executable="fake_localization",
+        ros=ROS_1,
+        entry="gazelle.nodes.fake_localization:run",
+        does="gives the simulator's true pose in the place of amcl's",
+        is_light=True,
+    ),
+    NodeSpec(
+        package="nav2_amcl",
+        executable="amcl",
+        ros=ROS_2,
+        entry="gazelle.nodes.amcl.node:run_ros2",
+        does="finds the robot in a map, ROS 2's package",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="depthimage_to_laserscan",
+        executable="depthimage_to_laserscan",
+        ros=ROS_1,
+        entry="gazelle.nodes.filters.flattening:run_depth",
+        does="makes scans of depth pictures",
+        is_light=True,
+    ),
+    NodeSpec(
+        package="depthimage_to_laserscan",
+        executable="depthimage_to_laserscan_node",
+        ros=ROS_2,
+        entry="gazelle.nodes.filters.flattening:run_depth",
+        does="makes scans of depth pictures, ROS 2's name",
+        is_light=True,
+        name="depthimage_to_laserscan",
+    ),
+    NodeSpec(
+        package="pointcloud_to_laserscan",
+        executable="pointcloud_to_laserscan_node",
+        entry="gazelle.nodes.filters.flattening:run_clouds",
+        does="makes scans of point clouds",
+        is_light=True,
+        name="pointcloud_to_laserscan",
+    ),
+    NodeSpec(
+        package="laser_filters",
+        executable="scan_to_scan_filter_chain",
+        entry="gazelle.nodes.filters.laser_filters:run",
+        does="takes out of scans what does not belong there",
+        is_light=True,
+    ),
+    NodeSpec(
+        package="robot_localization",
+        executable="ekf_localization_node",
+        ros=ROS_1,
+        entry="gazelle.nodes.filters.ekf:run",
+        does="fuses odometry, IMU and poses",
+        is_light=False,
+    ),
+    NodeSpec(
+        package="robot_localization",
+        executable="ekf_node",
+        ros=ROS_2,
+        entry="gazelle.nodes.filters.ekf:run",
+        does="fuses odometry, IMU and poses, ROS 2's name",
+        is_light=False,
+        name="ekf_filter_node",
+    ),
+    NodeSpec(
+        package="robot_pose_ekf",
+        executable="robot_pose_ekf",
+        ros=ROS_1,
+        entry="gazelle.nodes.filters.pose_ekf:run",
+        does="fuses wheel odometry, IMU and visual odometry",
+        is_light=False,
+    ),
+)
