@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tests.installed_packages import installed
 
 from gazelle.control.errors import ControllerError
 
@@ -106,3 +107,34 @@ def test_a_class_that_only_shares_the_name_is_no_controller(bench):
     bench.package("a_pkg", scripts__c="class MyController:\n    colour = 'red'\n")
     with pytest.raises(ControllerError, match="has a class 'MyController'"):
         bench.run("MyController")
+
+
+def test_a_controller_of_an_installed_package_is_found_by_its_type(bench, tmp_path):
+    points = {"gazelle.controllers": {"far_pkg/MyController": "far_parts:MyController"}}
+    with installed(tmp_path / "site", "far_parts", SIMPLE.format(word="far"), points):
+        bench.run("far_pkg::MyController")
+        assert bench.ports.lines == [("info", "far")]
+
+
+def test_a_controller_with_a_table_may_be_installed(bench, tmp_path):
+    source = """
+        from gazelle.control.controllers.joint_state_controller import JointStateController
+
+        class Doubled(JointStateController):
+            pass
+    """
+    points = {"gazelle.controllers": {"far_pkg/Doubled": "far_parts:Doubled"}}
+    with installed(tmp_path / "site", "far_parts", source, points):
+        bench.run("far_pkg/Doubled", publish_rate=50, speed=3)
+        (told,) = bench.diagnostics
+        assert "parameter '/mine/speed' is not one of this controller" in told.message
+
+
+def test_an_installed_controller_that_cannot_be_had_is_told(bench, tmp_path):
+    points = {"gazelle.controllers": {"a/A": "far_parts:A", "a/B": "far_parts:B"}}
+    with installed(tmp_path / "site", "far_parts", "B = 3\n", points):
+        text = r"entry point 'a/A = far_parts:A' of far_parts 1.2 \(gazelle.controllers\) cannot "
+        with pytest.raises(ControllerError, match=text + "be loaded: AttributeError: "):
+            bench.run("a/A")
+        with pytest.raises(ControllerError, match=r"\(gazelle.controllers\) is a int, not a class"):
+            bench.run("a/B")

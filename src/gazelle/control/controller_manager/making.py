@@ -66,16 +66,12 @@ class ControllerMaker:
         )
 
     def class_of(self, name: str, type_name: str) -> type[Controller]:
-        """Return the class of a type: a built-in one, or one of the user's in Python.
+        """Return the class of a type: a built-in one, the user's in Python, or an installed one.
 
         Raises:
             ControllerError: there is none.
         """
-        found = controller_class(type_name)
-        if found is None and self._workspace is not None:
-            from gazelle.control.python_controllers import find_python_controller
-
-            found = find_python_controller(type_name, self._workspace)
+        found = controller_class(type_name) or self._class_elsewhere(type_name)
         if found is not None:
             return found
         hint = did_you_mean(type_name, known_types()) or "see docs/controllers.md for what there is"
@@ -86,6 +82,16 @@ class ControllerMaker:
             text = f"Could not load class '{type_name}': Could not load controller '{name}' "
             text += f"because controller type '{type_name}' does not exist"
         raise ControllerError(f"{text}{where}; {hint}")
+
+    def _class_elsewhere(self, type_name: str) -> type[Controller] | None:
+        from gazelle.control.python_controllers import (
+            find_installed_controller,
+            find_python_controller,
+        )
+
+        workspace = self._workspace
+        own = None if workspace is None else find_python_controller(type_name, workspace)
+        return own or find_installed_controller(type_name)
 
     def make(self, record: ControllerRecord) -> None:
         """Make a record's controller and open its ports.
@@ -124,8 +130,7 @@ class ControllerMaker:
             text = f"Exception thrown while initializing controller '{record.name}' of type "
             text += f"'{record.type}': {type(error).__name__}: {error}"
             raise ControllerError(text) from error
-        # What a user's own class reads, it alone knows.
-        if found is controller_class(record.type):
+        if found.has_table:
             parameters.report_unknown()
         values = dict(flattened(parameters.tree))
         ports.offer_parameters(values, _setter(controller, parameters))

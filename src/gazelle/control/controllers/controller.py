@@ -113,12 +113,15 @@ class Controller:
 
     Attributes:
         TABLE: what the documentation says.
+        has_table: the table has all its parameters, so others of its tree are unknown; what a
+            user's own class reads, it alone knows.
         commands: command interfaces it claims while active.
         states: state interfaces it reads.
         takes_all_states: it reads whatever is there, so none of them has to be.
     """
 
     TABLE: ClassVar[ControllerTable]
+    has_table: ClassVar[bool] = True
     takes_all_states: bool = False
 
     def __init__(self, context: ControllerContext) -> None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from gazelle.control.python_controllers.adapter import PythonController
-from gazelle.control.python_controllers.finder import find_python_controller
+from gazelle.control.python_controllers.finder import (
+    find_installed_controller,
+    find_python_controller,
+)
 from gazelle.control.python_controllers.pid import Pid
 from gazelle.control.python_controllers.views import UserJoint, UserNode, UserRobot
 
@@ -13,5 +16,6 @@ __all__ = [
     "UserJoint",
     "UserNode",
     "UserRobot",
+    "find_installed_controller",
     "find_python_controller",
 ]

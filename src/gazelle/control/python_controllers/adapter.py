@@ -45,6 +45,7 @@ class PythonController(Controller):
         types=(),
         interfaces="what init() takes",
     )
+    has_table: ClassVar[bool] = False
     USER_CLASS: ClassVar[type]
     FOLDER: ClassVar[Path]
 

@@ -8,16 +8,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from gazelle.control.controllers.controller import Controller
 from gazelle.control.errors import ControllerError
 from gazelle.control.python_controllers.adapter import adapted
 from gazelle.control.python_controllers.places import located
+from gazelle.extensions import ExtensionGroup, find_entry_point, folder_of, told
 from gazelle.workspace.python_files import import_python_file
 
 if TYPE_CHECKING:
-    from gazelle.control.controllers.controller import Controller
     from gazelle.workspace import Package, Workspace
 
-__all__ = ["find_python_controller"]
+__all__ = ["find_installed_controller", "find_python_controller"]
 
 _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
 _METHODS = frozenset({"init", "starting", "update", "stopping"})
@@ -55,6 +56,30 @@ def find_python_controller(type_name: str, workspace: Workspace) -> type[Control
             f"write the type as package/{name}, and keep one class of that name in the package"
         )
     return _class_in(places[0], name, type_name)
+
+
+def find_installed_controller(type_name: str) -> type[Controller] | None:
+    """Return the controller that an installed pip package has for a type, None when none has.
+
+    It is named by an entry point of group ``gazelle.controllers``, whose name is the type, and is
+    a class like those of a workspace, or one derived from `Controller`.
+
+    Raises:
+        ControllerError: it cannot be imported, or is no class.
+    """
+    point = find_entry_point(ExtensionGroup.CONTROLLERS, type_name.replace("::", "/"))
+    if point is None:
+        return None
+    folder = folder_of(point)
+    try:
+        found = point.load()
+    except Exception as error:
+        raise ControllerError(
+            f"{told(point)} cannot be loaded: {located(error, folder)}"
+        ) from error
+    if not isinstance(found, type):
+        raise ControllerError(f"{told(point)} is a {type(found).__name__}, not a class")
+    return found if issubclass(found, Controller) else adapted(found, type_name, folder)
 
 
 def _places(package: Package, name: str) -> Iterator[_Found]:

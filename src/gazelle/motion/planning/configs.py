@@ -11,25 +11,22 @@ from typing import Any
 from gazelle.description.moveit import Pipeline
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.motion.planning.ompl_planners import NATIVE_PARAMETERS, why_missing
-from gazelle.motion.planning.planners import DEFAULT, PLANNERS, bare_name
+from gazelle.motion.planning.planners import DEFAULT, PLANNERS, bare_name, find_planner
 from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.space import JointSpace
 
 __all__ = ["PlannerConfig", "configured"]
 
-_EVERY = frozenset(PLANNERS)
-_TREES = frozenset({"RRTConnect", "RRT", "RRTstar"})
-_EFFECT = {
-    "range": _TREES,
-    "goal_bias": frozenset({"RRT", "RRTstar"}),
-    "max_nearest_neighbors": frozenset({"PRM"}),
-    "longest_valid_segment_fraction": _EVERY,
-    "maximum_waypoint_distance": _EVERY,
-    "minimum_waypoint_count": _EVERY,
-    "simplify_solutions": _EVERY,
-    "projection_evaluator": frozenset({"KPIECE", "BKPIECE", "LBKPIECE"}),
-}
-"""Which planners of Gazelle a parameter means something to."""
+_OF_EVERY = frozenset(
+    {
+        "longest_valid_segment_fraction",
+        "maximum_waypoint_distance",
+        "minimum_waypoint_count",
+        "simplify_solutions",
+    }
+)
+"""Parameters that mean something whichever planner runs."""
+_OF_SOME = frozenset(name for one in PLANNERS.values() for name in one.parameters)
 
 _AS_GAZELLE_DOES = {
     "type": (),
@@ -100,7 +97,7 @@ def configured(
     name = planner_id.strip()
     if inner := re.fullmatch(r"[^\[\]]*\[([^\[\]]+)\]", name):
         name = inner[1]
-    if name and name not in pipeline.planner_configs and bare_name(name) not in PLANNERS:
+    if name and name not in pipeline.planner_configs and find_planner(bare_name(name)) is None:
         known = [*pipeline.planner_configs, *PLANNERS]
         message = f"group '{group}' has no planner '{planner_id}'; "
         message += f"{default or DEFAULT} plans instead, as in MoveIt"
@@ -128,9 +125,11 @@ class _Reader:
         self._space = space
         self._diagnostics = diagnostics
         self._span = span
-        entry = PLANNERS.get(planner)
+        entry = find_planner(planner)
         is_native = entry is not None and entry.own is None and not why_missing(planner)
         self._runs = planner if entry is None or entry.own or is_native else entry.stand_in
+        runs = find_planner(self._runs)
+        self._taken = frozenset() if runs is None else _OF_EVERY | set(runs.parameters)
         self._is_native = is_native
         self._settings = PlannerSettings()
         self._native: dict[str, float] = {}
@@ -142,13 +141,13 @@ class _Reader:
                 self._check_usual(key, value)
             elif self._is_native and key in NATIVE_PARAMETERS:
                 self._take_native(key, value)
-            elif self._runs in _EFFECT.get(key, ()):
+            elif key in self._taken:
                 self._take(key, value)
-            elif key in _EFFECT or key in NATIVE_PARAMETERS or key in _KNOWN:
+            elif key in _OF_EVERY | _OF_SOME or key in NATIVE_PARAMETERS or key in _KNOWN:
                 self._without_effect(key)
             else:
                 message = f"{self._place(key)} is a parameter that no planner has; it is ignored"
-                known = [*_EFFECT, *NATIVE_PARAMETERS, *sorted(_KNOWN)]
+                known = sorted({*_OF_EVERY, *_OF_SOME, *NATIVE_PARAMETERS, *_KNOWN})
                 fix = did_you_mean(key, known)
                 self._diagnostics.report("motion.no-such-parameter", message, self._span, fix=fix)
         return replace(self._settings, native=self._native)
@@ -164,7 +163,7 @@ class _Reader:
             "simplify_solutions": lambda: self._simplify(key, value),
             "projection_evaluator": lambda: self._project(key, value),
         }
-        takers[key]()
+        takers.get(key, lambda: self._take_of_added(key, value))()
 
     def _set(self, field_name: str, key: str, value: Any, low: float, high: float) -> None:
         number = self._number(key, value, low, high)
@@ -214,6 +213,11 @@ class _Reader:
             # OMPL's setters want the very type.
             self._native[key] = kind(number)
 
+    def _take_of_added(self, key: str, value: Any) -> None:
+        number = self._number(key, value, -math.inf, math.inf)
+        if number is not None:
+            self._native[key] = number
+
     def _check_usual(self, key: str, value: Any) -> None:
         usual = _AS_GAZELLE_DOES[key]
         if usual and str(value) not in usual:
@@ -231,8 +235,9 @@ class _Reader:
             number = math.nan
         if low <= number <= high and math.isfinite(number):
             return number
-        above = f" and {high:g} at most" if math.isfinite(high) else ""
-        self._bad(key, value, f"a number that is {low:g} at least{above}")
+        least = f" that is {low:g} at least" if math.isfinite(low) else ""
+        most = f" and {high:g} at most" if math.isfinite(high) else ""
+        self._bad(key, value, f"a number{least}{most}")
         return None
 
     def _bad(self, key: str, value: Any, wanted: str) -> None:

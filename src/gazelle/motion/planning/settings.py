@@ -22,7 +22,7 @@ class PlannerSettings:
         max_iterations: configurations that an optimising planner draws before it is content.
         minimum_waypoint_count: waypoints that a path has at least.
         simplify: whether shortcuts are taken.
-        native: parameters by name for planners of OMPL.
+        native: parameters by name for planners of OMPL and of other packages.
         projection: joints that KPIECE and its kin look at; OMPL chooses where there are none.
 
     Raises:

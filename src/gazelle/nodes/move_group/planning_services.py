@@ -7,13 +7,12 @@ from typing import Any
 
 from gazelle.interfaces import message_type, service_type
 from gazelle.motion.model import JointKind
-from gazelle.motion.planning import PLANNERS
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.cartesian import JumpLimits, straight_path
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
-from gazelle.nodes.move_group.pipelines import PILZ, pipeline_of
+from gazelle.nodes.move_group.pipelines import pipeline_of, planning_pipeline
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.problem import GroupProblem
 from gazelle.nodes.move_group.trajectories import robot_trajectory
@@ -148,14 +147,10 @@ def _query(context: MoveGroupContext, request: Any) -> Any:
     response: Any = service_type(_QUERY).Response()
     kind = message_type("moveit_msgs/msg/PlannerInterfaceDescription")
     for pipeline in context.config.pipelines.values():
-        if pipeline.name == PILZ or any(PILZ in plugin for plugin in pipeline.plugins):
-            ids, name = ["CIRC", "LIN", "PTP"], "Pilz Industrial Motion Planner"
-        else:
-            ids, name = [*pipeline.planner_configs] or sorted(PLANNERS), "OMPL"
-            groups = pipeline.groups.items()
-            ids += [f"{group}[{one}]" for group, own in groups for one in own.planners]
+        plans, _ = planning_pipeline(pipeline)
+        ids = list(plans.planner_ids(pipeline))
         response.planner_interfaces.append(
-            kind(name=name, pipeline_id=pipeline.name, planner_ids=ids)
+            kind(name=plans.title, pipeline_id=pipeline.name, planner_ids=ids)
         )
     return response
 

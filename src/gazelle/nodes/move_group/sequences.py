@@ -18,8 +18,9 @@ from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
 from gazelle.nodes.move_group.moving import Attempt, Mover
-from gazelle.nodes.move_group.pilz_requests import pilz_sequence
+from gazelle.nodes.move_group.pilz_pipeline import PILZ
 from gazelle.nodes.move_group.planning import Planned
+from gazelle.nodes.move_group.planning_pipeline import PlanningPipeline, SequenceJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.trajectories import robot_trajectory
 
@@ -33,7 +34,7 @@ _MOVE = "moveit_msgs/MoveGroupSequence"
 class _Stretch:
     """Items of one group that are planned together."""
 
-    is_pilz: bool
+    plans: PlanningPipeline
     items: tuple[Any, ...]
 
 
@@ -112,8 +113,8 @@ def _planned(context: MoveGroupContext, items: Sequence[Any]) -> tuple[list[Plan
 def _stretches(context: MoveGroupContext, items: Sequence[Any]) -> Iterator[_Stretch]:
     """Yield what is planned together; only items of one group can be blended."""
 
-    def kind(item: Any) -> tuple[str, bool]:
-        return item.req.group_name, context.planner.choice(item.req).is_pilz
+    def kind(item: Any) -> tuple[str, PlanningPipeline]:
+        return item.req.group_name, context.planner.choice(item.req).plans
 
     for number, item in enumerate(items[1:], 1):
         if len(item.req.start_state.joint_state.name):
@@ -122,17 +123,18 @@ def _stretches(context: MoveGroupContext, items: Sequence[Any]) -> Iterator[_Str
     if len(items) and items[-1].blend_radius:
         text = "the last blend radius must be zero: there is nothing to blend with"
         raise MoveGroupError(ErrorCode.INVALID_MOTION_PLAN, text)
-    for (_, is_pilz), rows in groupby(items, kind):
-        stretch = _Stretch(is_pilz, tuple(rows))
-        if not is_pilz and any(item.blend_radius for item in stretch.items):
-            text = "only motions of pilz_industrial_motion_planner can be blended"
+    for (_, plans), rows in groupby(items, kind):
+        stretch = _Stretch(plans, tuple(rows))
+        if plans.plan_sequence is None and any(item.blend_radius for item in stretch.items):
+            text = f"only motions of {PILZ.name} can be blended"
             raise MoveGroupError(ErrorCode.INVALID_MOTION_PLAN, text)
         yield stretch
 
 
 def _plan(context: MoveGroupContext, scene: PlanningScene, stretch: _Stretch) -> Iterator[Planned]:
     frame_of = context.monitor.frame_of
-    if not stretch.is_pilz:
+    plan_sequence = stretch.plans.plan_sequence
+    if plan_sequence is None:
         for item in stretch.items:
             planned = context.planner.plan(scene, item.req, frame_of)
             yield planned
@@ -147,7 +149,7 @@ def _plan(context: MoveGroupContext, scene: PlanningScene, stretch: _Stretch) ->
     radii = [float(item.blend_radius) for item in stretch.items]
     # What leaves a stretch for another group cannot be blended into it.
     radii[-1] = 0.0
-    made = pilz_sequence(context.config, problem, planners, requests, radii)
+    made = plan_sequence(SequenceJob(context.config, problem, planners, requests, radii))
     took_s = time.perf_counter() - began
     yield Planned(made, scene.positions, scene, group, "/".join(planners), took_s, made.notes)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.installed_packages import installed
 
 from gazelle.simulator import Simulation
 from gazelle.simulator.messages import message_class, service_class
@@ -312,3 +313,53 @@ def test_what_nobody_has_is_unknown(load_with: Callable[..., Simulation]) -> Non
     sim = load_with({}, plugin=plugin("libnobody_has_it.so"))
     (found,) = sim.diagnostics.by_code("plugin.unknown")
     assert "plug-in 'libnobody_has_it.so'" in found.message
+
+
+def test_a_plug_in_of_an_installed_package_is_found_by_its_librarys_name(
+    load_with: Callable[..., Simulation], tmp_path: Path
+) -> None:
+    points = {"gazelle.plugins": {"pusher": "push_parts:Pusher"}}
+    with installed(tmp_path / "site", "push_parts", PUSHER, points):
+        sim = load_with({}, plugin=plugin("libpusher.so", "<link>l</link><force>4</force>"))
+        assert [str(item) for item in sim.diagnostics] == []
+        sim.run(seconds=1.0)
+        assert sim.link("l").linear_velocity_m_s[0] == pytest.approx(4 * 0.999 / 2, rel=1e-6)
+
+
+def test_a_file_of_the_workspace_comes_before_an_installed_plug_in(
+    load_with: Callable[..., Simulation], tmp_path: Path
+) -> None:
+    points = {"gazelle.plugins": {"pusher": "push_parts:Missing"}}
+    with installed(tmp_path / "site", "push_parts", PUSHER, points):
+        keys = "<link>l</link><force>4</force>"
+        sim = load_with({"plugins/pusher.py": PUSHER}, plugin=plugin("libpusher.so", keys))
+        assert [str(item) for item in sim.diagnostics] == []
+
+
+@pytest.mark.parametrize(
+    ("attribute", "told"),
+    [
+        ("Missing", "raised and is stopped; the world goes on: AttributeError: "),
+        (
+            "WORDS",
+            "needs a class derived from ModelPlugin; entry point 'pusher = push_parts:WORDS' of "
+            "push_parts 1.2 (gazelle.plugins) is a tuple, no class; it is left out",
+        ),
+        ("Elsewhere", "(gazelle.plugins) is a WorldPlugin; it is left out"),
+    ],
+)
+def test_an_installed_plug_in_that_is_none_is_told(
+    load_with: Callable[..., Simulation], tmp_path: Path, attribute: str, told: str
+) -> None:
+    source = """
+        from gazelle.simulator.plugins.user import WorldPlugin
+
+        WORDS = ("a", "b")
+
+        class Elsewhere(WorldPlugin):
+            pass
+    """
+    points = {"gazelle.plugins": {"pusher": f"push_parts:{attribute}"}}
+    with installed(tmp_path / "site", "push_parts", source, points):
+        sim = load_with({}, plugin=plugin("libpusher.so"))
+        assert told in "\n".join(str(item) for item in sim.diagnostics)

@@ -8,10 +8,21 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from gazelle.extensions import ExtensionGroup, find_entry_point
+
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
     from gazelle.workspace import Package, Workspace
 
-__all__ = ["CompiledPlugin", "PythonPlugin", "compiled_plugin", "python_plugin", "stems"]
+__all__ = [
+    "CompiledPlugin",
+    "PythonPlugin",
+    "compiled_plugin",
+    "installed_plugin",
+    "python_plugin",
+    "stems",
+]
 
 _VARIABLES = ("GAZEBO_PLUGIN_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH")
 _LIBRARY_ENDINGS = (".so", ".dylib", ".dll")
@@ -86,6 +97,15 @@ def python_plugin(
             if path.name in names:
                 return PythonPlugin(path, package.path)
     return None
+
+
+def installed_plugin(filename: str) -> EntryPoint | None:
+    """Return the entry point that an installed pip package has for a plug-in.
+
+    Its group is ``gazelle.plugins`` and its name that of the library, with or without ``lib``.
+    """
+    points = (find_entry_point(ExtensionGroup.PLUGINS, stem) for stem in stems(filename))
+    return next((point for point in points if point is not None), None)
 
 
 def compiled_plugin(filename: str, workspace: Workspace | None) -> CompiledPlugin | None:

@@ -5,16 +5,19 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from gazelle.control.python_controllers.places import located
+from gazelle.extensions import folder_of, told
 from gazelle.simulator.handles import ModelOfSimulation, SensorOfSimulation
 from gazelle.simulator.plugins.context import PluginContext, Resources
 from gazelle.simulator.plugins.user.base import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
 from gazelle.simulator.plugins.user.finder import (
     PythonPlugin,
     compiled_plugin,
+    installed_plugin,
     python_plugin,
     stems,
 )
@@ -39,7 +42,7 @@ def load_user_plugin(context: PluginContext) -> bool:
     beside = context.model.file or context.host.engine.world.file
     found = python_plugin(context.plugin.filename, context.host.workspace, beside)
     if found is None:
-        return False
+        return _load_installed(context)
     runner = _Runner(context, found)
     name = f"gazelle_user_plugins.{found.path.stem}_{found.path.stat().st_mtime_ns}"
     made = runner.guarded(lambda: import_python_file(found.path, name))
@@ -47,6 +50,31 @@ def load_user_plugin(context: PluginContext) -> bool:
     if wanted is not None:
         runner.start(wanted)
     return True
+
+
+def _load_installed(context: PluginContext) -> bool:
+    point = installed_plugin(context.plugin.filename)
+    if point is None:
+        return False
+    runner = _Runner(context, PythonPlugin(Path(point.value), folder_of(point)))
+    wanted = runner.guarded(point.load)
+    if wanted is None:
+        return True
+    role = _role(context)
+    if isinstance(wanted, type) and issubclass(wanted, _ROLES[role]):
+        runner.start(wanted)
+        return True
+    text = f"plug-in '{context.plugin.name}' stands in a {role.lower()} and needs a class derived "
+    text += f"from {role}Plugin; {told(point)} is {_kind_of(wanted)}; it is left out"
+    fix = f"derive it from gazelle.simulator.plugins.user.{role}Plugin"
+    context.report("plugin.user-class", text, fix=fix)
+    return True
+
+
+def _kind_of(part: Any) -> str:
+    if isinstance(part, type):
+        return f"a {part.__mro__[1].__name__}" if len(part.__mro__) > 1 else part.__name__
+    return f"a {type(part).__name__}, no class"
 
 
 def report_compiled(context: PluginContext) -> bool:

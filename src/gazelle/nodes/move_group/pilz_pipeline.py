@@ -1,8 +1,7 @@
-"""PTP, LIN and CIRC requests of the ``pilz_industrial_motion_planner`` pipeline."""
+"""The pipeline ``pilz_industrial_motion_planner``: PTP, LIN, CIRC, and sequences of them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,49 +22,38 @@ from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 from gazelle.nodes.move_group.goals import Goal
-from gazelle.nodes.move_group.pipelines import PlannerChoice
+from gazelle.nodes.move_group.planning_pipeline import (
+    Asked,
+    PlannerChoice,
+    PlanningJob,
+    PlanningPipeline,
+    SequenceJob,
+    as_named,
+)
 from gazelle.nodes.move_group.problem import GroupProblem
 
-__all__ = ["pilz_sequence", "plan_with_pilz"]
+__all__ = ["PILZ"]
 
 
-def plan_with_pilz(
-    config: MoveItConfig, problem: GroupProblem, choice: PlannerChoice, request: Any
-) -> Trajectory:
-    """Plan one request.
-
-    Raises:
-        MoveGroupError, PlanningError: there is no such motion.
-    """
-    command, link = _command(problem, choice.planner, request)
-    return _planner(config, problem, link).plan(problem.start_q, command)
+def _choose(plans: PlanningPipeline, asked: Asked) -> PlannerChoice:
+    planner = asked.planner or asked.pipeline.default_planner or "PTP"
+    return as_named(plans, asked._replace(planner=planner))
 
 
-def pilz_sequence(
-    config: MoveItConfig,
-    problem: GroupProblem,
-    planners: Sequence[str],
-    requests: Sequence[Any],
-    radii_m: Sequence[float],
-) -> Trajectory:
-    """Plan requests that run into each other.
+def _plan(job: PlanningJob) -> tuple[Trajectory, tuple[str, ...]]:
+    command, link = _command(job.problem, job.choice.planner, job.request)
+    made = _planner(job.config, job.problem, link).plan(job.problem.start_q, command)
+    return made, made.notes
 
-    Args:
-        config: limits of the tip.
-        problem: where the first one starts.
-        planners: PTP, LIN or CIRC for each.
-        requests: all of one group.
-        radii_m: how early each may be left for the next.
 
-    Raises:
-        MoveGroupError, PlanningError: there is no such motion.
-    """
+def _plan_sequence(job: SequenceJob) -> Trajectory:
     commands, link = [], ""
-    for planner, request, radius_m in zip(planners, requests, radii_m, strict=True):
-        command, own_link = _command(problem, planner, request, radius_m)
+    for planner, request, radius_m in zip(job.planners, job.requests, job.radii_m, strict=True):
+        command, own_link = _command(job.problem, planner, request, radius_m)
         commands.append(command)
         link = link or own_link
-    return plan_sequence(_planner(config, problem, link), problem.start_q, commands)
+    planner_of_all = _planner(job.config, job.problem, link)
+    return plan_sequence(planner_of_all, job.problem.start_q, commands)
 
 
 def _planner(config: MoveItConfig, problem: GroupProblem, link: str) -> PilzPlanner:
@@ -143,3 +131,13 @@ def _auxiliary(problem: GroupProblem, request: Any) -> Auxiliary | None:
     T_frame = problem.T_planning_frame(place.header.frame_id)
     point = (T_frame @ pose_of(poses[0]).matrix())[:3, 3]
     return Auxiliary(kinds[along.name], point)
+
+
+PILZ = PlanningPipeline(
+    "pilz_industrial_motion_planner",
+    "Pilz Industrial Motion Planner",
+    lambda _: ["CIRC", "LIN", "PTP"],
+    _choose,
+    _plan,
+    _plan_sequence,
+)

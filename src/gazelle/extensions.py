@@ -1,0 +1,118 @@
+"""What other people's pip packages add: plug-ins, controllers, planners … by entry points.
+
+A package names its parts in its ``pyproject.toml``::
+
+    [project.entry-points."gazelle.plugins"]
+    wind_gust = "my_package.wind_gust:PLUGIN"
+
+Nothing of it is imported before somebody asks for what Gazelle itself does not have, and a part
+that cannot be loaded is a sentence for whoever asked, never the end of the others.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+from enum import StrEnum
+from functools import cache
+from pathlib import Path
+from typing import Any, Generic, NamedTuple, TypeVar
+
+__all__ = [
+    "Extension",
+    "ExtensionGroup",
+    "Extensions",
+    "entry_points_of",
+    "find_entry_point",
+    "folder_of",
+    "load_extensions",
+    "told",
+]
+
+_T = TypeVar("_T")
+
+
+class ExtensionGroup(StrEnum):
+    """The groups of entry points that are looked at."""
+
+    BAG_STORAGE = "gazelle.bag_storage"
+    CONTROLLERS = "gazelle.controllers"
+    DISPLAYS = "gazelle.displays"
+    NODES = "gazelle.nodes"
+    PANELS = "gazelle.panels"
+    PIPELINES = "gazelle.planning_pipelines"
+    PLANNERS = "gazelle.planners"
+    PLUGINS = "gazelle.plugins"
+
+
+class Extension(NamedTuple, Generic[_T]):
+    """A part that was loaded.
+
+    Attributes:
+        name: of its entry point.
+        origin: the entry point and the package in words.
+        part: what it names.
+    """
+
+    name: str
+    origin: str
+    part: _T
+
+
+class Extensions(NamedTuple, Generic[_T]):
+    """What a group brings.
+
+    Attributes:
+        parts: what was loaded, in the order of the entry points' names.
+        problems: one sentence for each that was not.
+    """
+
+    parts: tuple[Extension[_T], ...]
+    problems: tuple[str, ...]
+
+
+def entry_points_of(group: ExtensionGroup) -> tuple[importlib.metadata.EntryPoint, ...]:
+    """Return the entry points of a group by name; nothing of them is imported."""
+    found = importlib.metadata.entry_points(group=group.value)
+    return tuple(sorted(found, key=lambda point: (point.name, point.value)))
+
+
+def find_entry_point(group: ExtensionGroup, name: str) -> importlib.metadata.EntryPoint | None:
+    """Return the entry point of a name in a group, None when no package has one."""
+    return next((point for point in entry_points_of(group) if point.name == name), None)
+
+
+def folder_of(point: importlib.metadata.EntryPoint) -> Path:
+    """Return the folder that the package of an entry point is installed in."""
+    distribution = point.dist
+    return Path(str(distribution.locate_file(""))) if distribution is not None else Path()
+
+
+def told(point: importlib.metadata.EntryPoint) -> str:
+    """Return an entry point in words: its line, the package with its version, the group."""
+    distribution: Any = point.dist
+    package = f"{distribution.name} {distribution.version}" if distribution else "no known package"
+    return f"entry point '{point.name} = {point.value}' of {package} ({point.group})"
+
+
+@cache
+def load_extensions(group: ExtensionGroup, kind: type[_T]) -> Extensions[_T]:
+    """Import the parts of a group, once in a process.
+
+    Args:
+        group: which.
+        kind: what each has to be an instance of.
+    """
+    parts: list[Extension[_T]] = []
+    problems: list[str] = []
+    for point in entry_points_of(group):
+        try:
+            part = point.load()
+        except Exception as error:  # noqa: BLE001 - a stranger's code, and others go on
+            problems.append(f"{told(point)} cannot be loaded: {type(error).__name__}: {error}")
+            continue
+        if isinstance(part, kind):
+            parts.append(Extension(point.name, told(point), part))
+        else:
+            what = f"a {type(part).__name__}, not a {kind.__module__}.{kind.__qualname__}"
+            problems.append(f"{told(point)} is {what}")
+    return Extensions(tuple(parts), tuple(problems))
