@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from gazelle.description.model import Joint, JointType, Link, Model, World
+from gazelle.documents import LimitError
 from gazelle.engine import Engine
 from gazelle.engine.tree import kinematic_tree
 from gazelle.errors import NotFoundError
-from gazelle.limits import LimitError
 
 
 def chain(count: int, kind: JointType = JointType.CONTINUOUS, **options: bool) -> Model:

@@ -21,12 +21,12 @@ from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import follow
 from gazelle.doctor.parameters.checking import check_parameter_file
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.launch.ros2.faults import diagnose
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.localisation import AmclOptions
 from gazelle.navigation.planners import PLANNERS

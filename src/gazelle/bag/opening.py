@@ -11,7 +11,7 @@ from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Bag, Ros1Writer
 from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer, SqliteBag, SqliteWriter
 from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
-from gazelle.limits.names import is_file, is_folder
+from gazelle.documents.names import is_file, is_folder
 
 __all__ = ["create_bag", "open_bag", "storage_of"]
 

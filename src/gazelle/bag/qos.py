@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import yaml
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.graph import Qos
-from gazelle.limits.yaml_text import load_yaml
 
 __all__ = ["offered_qos", "read_qos"]
 

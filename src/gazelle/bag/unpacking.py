@@ -13,7 +13,7 @@ from typing import Any
 
 from gazelle.bag import zstandard
 from gazelle.bag.records import BagError
-from gazelle.limits import HOW_TO_RAISE, scaled
+from gazelle.documents import HOW_TO_RAISE, scaled
 
 __all__ = ["unpack_file", "unpacked"]
 

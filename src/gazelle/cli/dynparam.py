@@ -260,8 +260,8 @@ def _from_yaml(path: str) -> dict[str, Any]:
     """
     import yaml
 
-    from gazelle.limits import read_text_limited
-    from gazelle.limits.yaml_text import LimitedLoader
+    from gazelle.documents import read_text_limited
+    from gazelle.documents.yaml.loader import LimitedLoader
 
     class Loader(LimitedLoader):
         pass

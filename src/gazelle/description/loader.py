@@ -18,7 +18,7 @@ from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.grouping import grouped
-from gazelle.limits.names import exists, is_file, is_folder
+from gazelle.documents.names import exists, is_file, is_folder
 from gazelle.workspace import Resolved, Workspace
 
 __all__ = ["TEXT_NAME", "load_models", "load_world"]

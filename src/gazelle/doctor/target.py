@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import nearest_names
 from gazelle.doctor.kinds import looks_like
+from gazelle.documents.names import is_file, is_folder
 from gazelle.errors import GazelleError, NotFoundError
-from gazelle.limits.names import is_file, is_folder
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["Target", "find_target", "package_at"]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import MeshShape, Polyline
 from gazelle.diagnostics import Diagnostics
+from gazelle.documents import read_limited
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
 from gazelle.engine.surface_pieces import LEAST_VOLUME_M3, connected_parts, surface_pieces
@@ -31,7 +32,6 @@ from gazelle.geometry import (
 )
 from gazelle.geometry.array_cache import cache_folder, keep_arrays, kept_arrays
 from gazelle.geometry.loading import MOST_MESH_BYTES
-from gazelle.limits import read_limited
 
 __all__ = [
     "Decomposition",

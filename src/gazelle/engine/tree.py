@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from gazelle.description.model import Joint, JointType, Link, Model
 from gazelle.diagnostics import nearest_names
+from gazelle.documents import HOW_TO_RAISE, LimitError, scaled
 from gazelle.errors import NotFoundError
-from gazelle.limits import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = ["WORLD", "KinematicTree", "TreeLink", "kinematic_tree"]
 

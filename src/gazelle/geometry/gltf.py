@@ -13,11 +13,11 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.documents.names import is_file
 from gazelle.geometry.building import part_from_corners
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
 from gazelle.geometry.pose import Pose
 from gazelle.geometry.shading import group_points, unit_rows
-from gazelle.limits.names import is_file
 
 __all__ = ["read_gltf"]
 

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.documents import read_limited
 from gazelle.geometry.dae import read_dae
 from gazelle.geometry.gltf import read_gltf
 from gazelle.geometry.mesh import Mesh, MeshError
 from gazelle.geometry.obj import read_obj
 from gazelle.geometry.stl import read_stl
-from gazelle.limits import read_limited
 
 __all__ = ["MESH_SUFFIXES", "MOST_MESH_BYTES", "load_mesh", "load_mesh_reported"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from gazelle.documents.names import is_file
 from gazelle.geometry.mesh import MeshMaterial, MeshNote
-from gazelle.limits.names import is_file
 
 __all__ = ["read_mtl"]
 

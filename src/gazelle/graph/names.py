@@ -188,7 +188,7 @@ def parse_command_line(arguments: Sequence[str]) -> CommandLine:
 def _yaml_value(text: str) -> Any:
     import yaml
 
-    from gazelle.limits.yaml_text import load_yaml
+    from gazelle.documents.yaml import load_yaml
 
     try:
         return load_yaml(text) if text else ""

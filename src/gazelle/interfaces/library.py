@@ -12,9 +12,9 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from gazelle.documents.names import is_file
 from gazelle.errors import NotFoundError, UserFileError
 from gazelle.interfaces.definition import Generation
-from gazelle.limits.names import is_file
 
 __all__ = ["Source", "add_package", "add_search_path", "block_names", "find_source", "revision"]
 

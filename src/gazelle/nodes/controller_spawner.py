@@ -11,13 +11,13 @@ from typing import NoReturn
 
 import yaml
 
+from gazelle.documents import read_text_limited
+from gazelle.documents.names import is_file
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import anonymous_name
 from gazelle.interfaces import message_type
-from gazelle.limits import read_text_limited
-from gazelle.limits.names import is_file
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
 from gazelle.nodes.parameters import start_node

@@ -11,9 +11,9 @@ from typing import Any, NoReturn
 
 from gazelle.control.sources.files import FileSource
 from gazelle.diagnostics import Diagnostics
+from gazelle.documents.names import is_file
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
-from gazelle.limits.names import is_file
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import ManagerClient
 from gazelle.nodes.parameters import start_node

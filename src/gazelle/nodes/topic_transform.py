@@ -9,6 +9,7 @@ from importlib import import_module
 from types import CodeType
 from typing import Any
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import (
@@ -19,7 +20,6 @@ from gazelle.interfaces import (
     time_keys,
     to_plain,
 )
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 from gazelle.nodes.topic_field import field_getter, find_input

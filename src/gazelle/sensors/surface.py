@@ -29,8 +29,8 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.documents.pictures import opened_picture
 from gazelle.geometry import Mesh, MeshMaterial, MeshPart, load_mesh_reported
-from gazelle.limits.pictures import opened_picture
 from gazelle.sensors.embree import SubScene, sub_scene
 from gazelle.sensors.tessellation import (
     Facets,

@@ -9,9 +9,9 @@ from typing import Any
 
 import yaml
 
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.ports import ParameterPort
 

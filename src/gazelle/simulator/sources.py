@@ -11,8 +11,8 @@ from gazelle.description.model import Model, World
 from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.nearest import nearest_names
+from gazelle.documents.names import exists, is_file
 from gazelle.errors import NotFoundError
-from gazelle.limits.names import exists, is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["Loaded", "Source", "loaded_from", "models_from", "world_from"]

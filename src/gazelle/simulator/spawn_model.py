@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from gazelle.documents.names import exists, is_file
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 from gazelle.graph.world import SHOWN_SPACE, first_there, is_loading, world_names
-from gazelle.limits.names import exists, is_file
 from gazelle.simulator.messages import message_class, pose_message, service_class
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.spawn_arguments import (

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.limits import read_limited
-from gazelle.limits.names import is_file
+from gazelle.documents import read_limited
+from gazelle.documents.names import is_file
 from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
 
 __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.parsers import expat
 
-from gazelle.limits import read_limited
+from gazelle.documents import read_limited
 
 __all__ = [
     "MANIFEST_BYTES",

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from gazelle.limits.names import is_file
+from gazelle.documents.names import is_file
 
 __all__ = [
     "folded",

@@ -16,7 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
-from gazelle.limits.names import exists
+from gazelle.documents.names import exists
 
 __all__ = ["share_folder"]
 

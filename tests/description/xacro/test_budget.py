@@ -148,3 +148,9 @@ def test_limits_change_no_result(tmp_path: Path) -> None:
 def test_names_in_comprehensions_are_checked_like_others(tmp_path: Path) -> None:
     (found,) = _errors(tmp_path, '<a b="${[x for x in [1] if [].__class__]}"/>')
     assert "Use of invalid name(s): __class__" in found
+
+
+def test_a_yaml_file_of_brackets_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("[" * 100_000, encoding="utf-8")
+    found = _errors(tmp_path, "<a b=\"${xacro.load_yaml('a.yaml')}\"/>")
+    assert found == ["not YAML: lists and mappings are nested deeper than 64 [xacro.bad-yaml]"]

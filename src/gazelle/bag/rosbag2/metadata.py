@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from gazelle.bag.records import BagError, Connection, Storage, Summary
-from gazelle.limits.yaml_text import load_yaml
+from gazelle.documents.yaml import load_yaml
 
 __all__ = ["METADATA", "FileSummary", "Metadata", "read_metadata", "write_metadata"]
 

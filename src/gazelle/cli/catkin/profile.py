@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from gazelle.limits import read_limited
-from gazelle.limits.yaml_text import load_yaml
+from gazelle.documents import read_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.workspace.building.catkin_space import CatkinSpaces
 from gazelle.workspace.building.packages import BuildError
 

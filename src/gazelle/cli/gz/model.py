@@ -9,9 +9,9 @@ from typing import Any
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.protobuf_text import protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, pose_line, world_link
+from gazelle.documents import read_text_limited
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
-from gazelle.limits import read_text_limited
 
 __all__ = ["COMMAND", "run"]
 

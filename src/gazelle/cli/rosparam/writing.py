@@ -9,15 +9,13 @@ from optparse import OptionParser, Values
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.cli.rosparam.reading import leaves
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
+from gazelle.documents import TEXT_BYTES, read_limited, read_text_limited
+from gazelle.documents.yaml import ROSPARAM, YamlError, load_yaml
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 from gazelle.graph.names import join
-from gazelle.launch.xml1.values import load_yaml
-from gazelle.limits import TEXT_BYTES, read_limited, read_text_limited
 
 __all__ = ["delete", "load", "set_value"]
 
@@ -174,6 +172,6 @@ def _trees(text: str, file: str, namespace: str) -> Iterator[tuple[dict[str, Any
 
 def _yaml(text: str, file: str) -> Any:
     try:
-        return load_yaml(text) if text else ""
-    except yaml.YAMLError as error:
+        return load_yaml(text, ROSPARAM) if text else ""
+    except YamlError as error:
         raise ToolError(f"[{file}] is not YAML: {error}") from None

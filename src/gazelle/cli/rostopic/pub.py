@@ -157,8 +157,8 @@ def _wait_for_listener(job: _Job) -> None:
 def _file_documents(name: str) -> list[Any]:
     import yaml
 
-    from gazelle.limits import read_text_limited
-    from gazelle.limits.yaml_text import load_yaml_documents
+    from gazelle.documents import read_text_limited
+    from gazelle.documents.yaml import load_yaml_documents
 
     path = Path(name)
     if not path.is_file():

@@ -24,7 +24,7 @@ def yaml_words(words: list[str]) -> list[Any]:
     """
     import yaml
 
-    from gazelle.limits.yaml_text import load_yaml
+    from gazelle.documents.yaml import load_yaml
 
     try:
         return [load_yaml(word) if word else "" for word in words]

@@ -7,10 +7,10 @@ from typing import Any
 import yaml
 
 from gazelle.cli.tool import ToolError
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import FieldType, Message, fill, message_type, time_keys
 from gazelle.interfaces.definition import FORMATS, Array, Generation
-from gazelle.limits.yaml_text import load_yaml
 
 __all__ = ["filled", "yaml_values"]
 

@@ -11,9 +11,9 @@ import yaml
 
 from gazelle.compat.rospy import client
 from gazelle.compat.rospy.binary import as_bytes
+from gazelle.documents.yaml import ROSPARAM, YamlError, load_yaml
 from gazelle.errors import GazelleError
 from gazelle.graph.names import join, resolve
-from gazelle.launch.xml1.values import load_yaml
 
 __all__ = [
     "NAME",
@@ -80,8 +80,8 @@ def load_str(
     found = []
     for part in _documents(str):
         try:
-            values = load_yaml(part)
-        except (yaml.YAMLError, GazelleError) as error:
+            values = load_yaml(part, ROSPARAM)
+        except (YamlError, GazelleError) as error:
             raise RosParamException(f"[{filename}] is no YAML of parameters: {error}") from error
         if values is None:
             continue
@@ -122,8 +122,8 @@ def set_param(param: str, value: str, verbose: bool = False) -> None:
         RosParamException: it is no YAML.
     """
     try:
-        parsed = load_yaml(value)
-    except (yaml.YAMLError, GazelleError) as error:
+        parsed = load_yaml(value, ROSPARAM)
+    except (YamlError, GazelleError) as error:
         raise RosParamException(f"'{value}' is no YAML: {error}") from error
     set_param_raw(param, parsed, verbose)
 

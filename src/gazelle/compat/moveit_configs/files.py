@@ -7,16 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.compat.moveit_configs.template import rendered
 from gazelle.description.source_maps import remember
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xacro.session import run_session
-from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import YamlError, read_yaml
 from gazelle.errors import UserFileError
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml as load_limited
 from gazelle.workspace.ament_index import get_package_share_directory, known_workspace
 
 __all__ = [
@@ -88,13 +86,11 @@ def load_yaml(file_path: Path, mappings: Mapping[str, Any] | None = None) -> Any
     """
     text = load_file(file_path, mappings or {})
     try:
-        return None if text is None else load_limited(text)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = (mark.line + 1, mark.column + 1) if mark else ()
+        return None if text is None else read_yaml(text, str(file_path)).value
+    except YamlError as error:
         diagnostics = Diagnostics()
-        message = f"not YAML: {getattr(error, 'problem', None) or error}"
-        diagnostics.report("moveit.bad-yaml", message, SourceSpan(str(file_path), *place))
+        message = f"not YAML: {error.problem.what}"
+        diagnostics.report("moveit.bad-yaml", message, error.problem.span)
         raise UserFileError(tuple(diagnostics)) from error
 
 

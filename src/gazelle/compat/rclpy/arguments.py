@@ -167,7 +167,7 @@ def _yaml(text: str) -> Any:
     # Most nodes are given no values.
     import yaml
 
-    from gazelle.limits.yaml_text import load_yaml
+    from gazelle.documents.yaml import load_yaml
 
     try:
         return load_yaml(text)

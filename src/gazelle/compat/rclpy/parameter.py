@@ -100,7 +100,7 @@ def get_parameter_value(string_value: str) -> Any:
     """Return ``ParameterValue`` of a text as the command line takes it: YAML, or the text."""
     import yaml
 
-    from gazelle.limits.yaml_text import load_yaml
+    from gazelle.documents.yaml import load_yaml
 
     try:
         return value_message(load_yaml(string_value))

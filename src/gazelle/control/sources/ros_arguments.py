@@ -8,7 +8,7 @@ from typing import Any
 
 import yaml
 
-from gazelle.limits.yaml_text import load_yaml
+from gazelle.documents.yaml import load_yaml
 
 __all__ = ["RosArguments", "read_ros_arguments"]
 

@@ -11,8 +11,8 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import LimitedLoader, YamlLimitError
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml.loader import LimitedLoader, YamlLimitError
 
 __all__ = ["NodeSection", "read_parameter_file", "read_parameter_text"]
 

@@ -25,7 +25,7 @@ from gazelle.description.checks.wheels import check_wheels
 from gazelle.description.model import Model
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity
-from gazelle.limits.names import is_file
+from gazelle.documents.names import is_file
 
 __all__ = ["check_description"]
 

@@ -14,8 +14,8 @@ from gazelle.description.materials.gazebo import (
 from gazelle.description.materials.ogre import OgreMaterial, parse_material_script
 from gazelle.description.model import Material, Rgba
 from gazelle.diagnostics import SourceSpan, did_you_mean
-from gazelle.limits import TEXT_BYTES, read_limited
-from gazelle.limits.names import is_file, is_folder
+from gazelle.documents import TEXT_BYTES, read_limited
+from gazelle.documents.names import is_file, is_folder
 
 __all__ = ["material_from_scripts"]
 

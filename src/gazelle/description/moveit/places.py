@@ -10,8 +10,8 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import LimitedLoader
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml.loader import LimitedLoader
 
 __all__ = ["read_yaml"]
 

@@ -8,7 +8,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.limits import Budget, LimitError, compile_limited, read_text_limited, scaled
+from gazelle.documents import Budget, LimitError, compile_limited, read_text_limited, scaled
+from gazelle.documents.yaml import ProblemKind, YamlError, read_yaml
 
 __all__ = ["ExpansionLimitError", "Spending"]
 
@@ -83,8 +84,17 @@ class Spending:
         return ExpansionLimitError(f"attributes and texts of more than {most} characters")
 
     def open(self, name: str) -> io.StringIO:
-        """Open a file that an expression loads; see `gazelle.limits.read_text_limited`."""
-        return io.StringIO(read_text_limited(name))
+        """Open a YAML file that an expression loads; see `gazelle.documents.read_text_limited`.
+
+        Raises:
+            OSError: it cannot be read.
+            YamlError: it is nested so deep that PyYAML would take for ever.
+        """
+        text = read_text_limited(name)
+        problem = read_yaml(text, name).problem
+        if problem is not None and problem.kind is ProblemKind.TOO_DEEP:
+            raise YamlError(problem)
+        return io.StringIO(text)
 
     def eval(self, text: str, names: dict[str, Any], locals_: Any) -> Any:
         """Evaluate what stands in ``$(eval …)``, in place of Python's own function."""

@@ -15,7 +15,7 @@ from gazelle.description.xacro.unprefixed import NEEDED_ATTRIBUTES, OF_ROBOTS
 from gazelle.description.xacro.writing import Written
 from gazelle.description.xml import Tag, attribute_span, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
-from gazelle.limits import TEXT_BYTES, read_limited
+from gazelle.documents import TEXT_BYTES, read_limited
 
 __all__ = ["report_leftovers"]
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import SourceSpan
-from gazelle.limits import TEXT_BYTES, read_limited
+from gazelle.documents import TEXT_BYTES, read_limited
 
 __all__ = [
     "attribute_holding",

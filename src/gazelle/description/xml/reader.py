@@ -9,7 +9,7 @@ from xml.parsers import expat
 
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.limits import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
+from gazelle.documents import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
 
 __all__ = ["parse_xml", "read_data", "read_xml", "too_much_in"]
 

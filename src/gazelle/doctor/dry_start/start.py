@@ -12,10 +12,10 @@ from gazelle.doctor.dry_start.node import DryNode
 from gazelle.doctor.dry_start.records import DryStart, StartPlan
 from gazelle.doctor.dry_start.spawning import Spawning
 from gazelle.doctor.text_files import texts_known
+from gazelle.documents.names import is_folder
 from gazelle.errors import GazelleError, NotFoundError, UserFileError
 from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
-from gazelle.limits.names import is_folder
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.server_main import check_server_plugins, ros2_plugins_of, ros_version_of

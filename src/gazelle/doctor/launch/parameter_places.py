@@ -10,10 +10,10 @@ from pathlib import Path
 import yaml
 
 from gazelle.diagnostics import Diagnostic, SourceSpan
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml.loader import LimitedLoader
 from gazelle.graph.names import resolve
 from gazelle.launch.config import LaunchConfig
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import LimitedLoader
 
 __all__ = ["parameter_places", "placed"]
 

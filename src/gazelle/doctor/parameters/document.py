@@ -10,7 +10,7 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.limits.yaml_text import LimitedLoader
+from gazelle.documents.yaml.loader import LimitedLoader
 
 __all__ = ["Document", "plain", "read_document", "scalars"]
 

@@ -29,6 +29,7 @@ from gazelle.description.model import (
     Visual,
 )
 from gazelle.diagnostics import Diagnostics
+from gazelle.documents.pictures import PictureError, opened_picture
 from gazelle.engine.bodies import SpecBuilder
 from gazelle.engine.library import mujoco
 from gazelle.engine.mjcf.wavefront import obj_bytes
@@ -41,7 +42,6 @@ from gazelle.geometry import (
     plane_mesh,
     polyline_mesh,
 )
-from gazelle.limits.pictures import PictureError, opened_picture
 
 __all__ = ["COLLISION_GROUP", "Looks"]
 

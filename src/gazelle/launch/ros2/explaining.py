@@ -12,9 +12,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import NamedTuple
 
-import yaml
-
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
 from gazelle.launch.elsewhere import replacement_of
 from gazelle.launch.ros2.failing import kept_explanation
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
@@ -71,6 +70,12 @@ _MISSING_ATTRIBUTE = re.compile(r"Attribute '([\w-]+)' .*not found in Entity '(\
 _MISSING_KEY = re.compile(r"Can not find attribute '([\w-]+)' in Entity '(\w+)'")
 # What ROS 1 and haste call attributes.
 _MEANT = {"exec": "ROS 1's type= is exec= here", "message": "its text goes into message="}
+_TABS = "indent with blanks: YAML takes no tabs"
+_YAML_FIXES = {
+    ProblemKind.TAB: _TABS,
+    ProblemKind.TAB_INDENT: _TABS,
+    ProblemKind.MAPPING_VALUE: "put the value into quotes: it holds ': '",
+}
 _MODULES = (
     "launch",
     "launch.actions",
@@ -241,15 +246,12 @@ def _attribute(error: BaseException) -> Explained | None:
 
 def _yaml(error: BaseException) -> Explained | None:
     """Say shortly what is wrong with a YAML launch file; the place is shown anyway."""
-    if not isinstance(error, yaml.MarkedYAMLError):
+    assert isinstance(error, PyYamlError)
+    problem = problem_of(error, "")
+    if not problem.has_place:
         return Explained("ros2_launch.bad-file")
-    parts = [part for part in (error.problem, error.context) if part]
-    fix = ""
-    if "\\t" in str(error.problem):
-        fix = "indent with blanks: YAML takes no tabs"
-    elif "mapping values" in str(error.problem):
-        fix = "put the value into quotes: it holds ': '"
-    return Explained("ros2_launch.bad-file", f"not YAML: {' '.join(parts)}", fix)
+    message = f"not YAML: {' '.join(filter(None, (problem.what, problem.context)))}"
+    return Explained("ros2_launch.bad-file", message, _YAML_FIXES.get(problem.kind, ""))
 
 
 def _xacro(error: BaseException) -> Explained:
@@ -272,7 +274,7 @@ _KINDS: tuple[tuple[type[BaseException], Callable[[BaseException], Explained | N
     (KeyError, _key),
     (TypeError, _type),
     (AttributeError, _attribute),
-    (yaml.YAMLError, _yaml),
+    (PyYamlError, _yaml),
     (SyntaxError, _bad_file),
     (InvalidLaunchFileError, _bad_file),
 )

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan, did_you_mean
+from gazelle.documents.names import is_folder
 from gazelle.launch.environment import ROS_COMMANDS
 from gazelle.launch.ros2.conditions import InvalidConditionExpressionError
 from gazelle.launch.ros2.explaining import Explained, explain
 from gazelle.launch.ros2.place import kept_place, raising_place
 from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
-from gazelle.limits.names import is_folder
 
 __all__ = ["diagnose", "not_started", "with_diagnostic"]
 

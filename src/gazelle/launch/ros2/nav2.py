@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.condition import Condition
 from gazelle.launch.ros2.nodes.temporary import write_temporary
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
@@ -16,8 +18,6 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.actions import DeclareLaunchArgument, LogInfo
 from gazelle.launch.ros2.nav2 import RewrittenYaml
 from gazelle.launch.ros2.nodes.actions import LoadComposableNodes, Node
 from gazelle.launch.ros2.nodes.descriptions import ComposableNode, ParameterFile
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.workspace.ament_index import get_package_share_directory
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.documents.names import is_file
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
 from gazelle.launch.xml1.elements import HANDLERS
@@ -15,7 +16,6 @@ from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.substitution import TOLD
 from gazelle.launch.xml1.tables import ELEMENTS
-from gazelle.limits.names import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["load_launch_files", "load_launch_text"]

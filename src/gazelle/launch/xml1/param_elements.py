@@ -6,19 +6,18 @@ import shlex
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.diagnostics import did_you_mean
+from gazelle.documents import TEXT_BYTES, LimitError, read_limited, read_text_limited
+from gazelle.documents.commands import run_limited
+from gazelle.documents.names import exists, is_file, is_folder
+from gazelle.documents.yaml import ROSPARAM, YamlError, YamlProblem, read_yaml
 from gazelle.graph.names import resolve
 from gazelle.launch.config import ParamDump
 from gazelle.launch.environment import node_environment
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
-from gazelle.launch.xml1.values import flatten, load_yaml, param_value
-from gazelle.limits import TEXT_BYTES, LimitError, read_limited, read_text_limited
-from gazelle.limits.commands import run_limited
-from gazelle.limits.names import exists, is_file, is_folder
+from gazelle.launch.xml1.values import flatten, param_value
 
 __all__ = ["param", "rosparam"]
 
@@ -64,11 +63,11 @@ def _load(tag: Tag, name: str, target: str, scope: Scope, reading: Reading) -> N
     if reading.flag(tag, "subst_value", scope):
         text = _substitute_lines(text, tag, scope, reading)
     try:
-        data = load_yaml(text)
-    except yaml.YAMLError as error:
-        raise TagError(
-            "launch.bad-yaml", _yaml_text(error, file), _yaml_span(error, file, tag)
-        ) from error
+        data = read_yaml(text, file, ROSPARAM).value
+    except YamlError as error:
+        problem = error.problem
+        span = problem.span if file and problem.has_place else tag.span
+        raise TagError("launch.bad-yaml", _yaml_text(problem, file), span) from error
     if data is None and not name:
         return
     if not isinstance(data, dict) and not name:
@@ -114,7 +113,7 @@ def _value(tag: Tag, name: str, scope: Scope, reading: Reading) -> Any:
         return text
     try:
         return param_value(text, type_name)
-    except (ValueError, yaml.YAMLError) as error:
+    except (ValueError, YamlError) as error:
         raise TagError("launch.bad-param", f"Invalid <param> tag: '{name}': {error}") from error
 
 
@@ -202,15 +201,7 @@ def _absolute(name: str, scope: Scope) -> str:
     return resolve(bare, scope.namespace.rstrip("/") or "/")
 
 
-def _yaml_text(error: yaml.YAMLError, file: str) -> str:
-    problem = getattr(error, "problem", None) or str(error)
-    context = getattr(error, "context", None)
+def _yaml_text(problem: YamlProblem, file: str) -> str:
+    context = f"{problem.context}: " if problem.context else ""
     where = f" of '{file}'" if file else ""
-    return f"error loading <rosparam> tag{where}: {f'{context}: ' if context else ''}{problem}"
-
-
-def _yaml_span(error: yaml.YAMLError, file: str, tag: Tag) -> SourceSpan:
-    mark = getattr(error, "problem_mark", None)
-    if file and mark is not None:
-        return SourceSpan(file, mark.line + 1, mark.column + 1)
-    return tag.span
+    return f"error loading <rosparam> tag{where}: {context}{problem.what}"

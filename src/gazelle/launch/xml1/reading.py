@@ -8,13 +8,13 @@ from pathlib import Path
 
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.documents import scaled
+from gazelle.documents.names import is_folder
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.xml1.scope import Scope
 from gazelle.launch.xml1.substitution import Substitution, SubstitutionError, directory_of
 from gazelle.launch.xml1.tables import ELEMENTS
 from gazelle.launch.xml1.values import bool_value
-from gazelle.limits import scaled
-from gazelle.limits.names import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["Reading", "TagError"]

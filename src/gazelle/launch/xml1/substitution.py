@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents import Budget, LimitError, compile_limited
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
 from gazelle.launch.elsewhere import replacement_of
-from gazelle.limits import Budget, LimitError, compile_limited
 from gazelle.workspace import Workspace
 
 __all__ = ["TOLD", "UNREADABLE", "Substitution", "SubstitutionError"]

@@ -10,9 +10,9 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.limits import read_text_limited
-from gazelle.limits.names import exists, is_folder
-from gazelle.limits.yaml_text import LimitedLoader
+from gazelle.documents import read_text_limited
+from gazelle.documents.names import exists, is_folder
+from gazelle.documents.yaml.loader import LimitedLoader
 from gazelle.mapping.grids.pixels import MapMode
 
 __all__ = ["MapFile", "read_map_file", "report_bad_image", "report_missing_image"]

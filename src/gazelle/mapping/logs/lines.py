@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO, cast
 
-from gazelle.limits import HOW_TO_RAISE, FileLimitError, scaled
+from gazelle.documents import HOW_TO_RAISE, FileLimitError, scaled
 
 __all__ = ["lines_of", "opened"]
 

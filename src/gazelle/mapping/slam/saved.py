@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.documents.archives import read_arrays
 from gazelle.errors import GazelleError
-from gazelle.limits.archives import read_arrays
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.scans import Scan

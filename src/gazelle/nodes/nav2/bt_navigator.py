@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.documents.names import is_file
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
-from gazelle.limits.names import is_file
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.graph_world import GraphWorld

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.documents.names import is_file
 from gazelle.errors import GazelleError
-from gazelle.limits.names import is_file
 
 __all__ = ["model_text"]
 

@@ -12,9 +12,9 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.errors import LaunchError
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
 
 __all__ = ["Direction", "ServiceRow", "TopicRow", "read_file", "read_word"]
 

@@ -10,8 +10,8 @@ from typing import Any
 from gazelle.bag import Storage
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.rosbag2 import Rosbag2Writer
+from gazelle.documents.names import exists
 from gazelle.graph import Node
-from gazelle.limits.names import exists
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 

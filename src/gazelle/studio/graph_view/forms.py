@@ -6,9 +6,9 @@ from typing import Any
 
 import yaml
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.interfaces import Generation, Message, definition, fill, time_keys
 from gazelle.interfaces.definition import Array, Field
-from gazelle.limits.yaml_text import load_yaml
 from gazelle.studio.errors import StudioError
 
 __all__ = ["filled"]

@@ -7,10 +7,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import YamlError, read_yaml
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
@@ -67,11 +65,10 @@ def rviz_value(text: str, name: str) -> dict[str, Any]:
 
 def _content(text: str, name: str) -> Mapping[str, Any]:
     try:
-        content = load_yaml(text)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f"{name}:{mark.line + 1}:{mark.column + 1}" if mark else name
-        raise StudioError(f"{where}: not YAML: {getattr(error, 'problem', error)}") from None
+        content = read_yaml(text, name).value
+    except YamlError as error:
+        problem = error.problem
+        raise StudioError(f"{problem.span}: not YAML: {problem.what}") from None
     if not isinstance(content, Mapping):
         raise StudioError(f"{name} is no .rviz file: it holds {type(content).__name__}")
     return content

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.limits.names import is_file
+from gazelle.documents.names import is_file
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step
 from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.packages import SourcePackage

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
-from gazelle.limits.names import is_file, is_folder
+from gazelle.documents.names import is_file, is_folder
 from gazelle.workspace.building.catkin_plan import add_catkin
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
 from gazelle.workspace.building.environment_files import add_environment_file

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from gazelle.limits import read_limited
+from gazelle.documents import read_limited
 
 __all__ = ["configured_text"]
 

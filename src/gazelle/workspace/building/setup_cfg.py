@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gazelle.limits.names import names_matching
+from gazelle.documents.names import names_matching
 
 __all__ = ["cfg_arguments"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.limits import read_text_limited
+from gazelle.documents import read_text_limited
 
 __all__ = ["lets_world_go"]
 

@@ -9,8 +9,8 @@ from gazelle.cli.gz.new.messages import message_of
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import WorldLink
 from gazelle.cli.sdf.sdf_file import say
+from gazelle.documents import read_text_limited
 from gazelle.interfaces import message_type
-from gazelle.limits import read_text_limited
 
 __all__ = ["WORLD_SERVICES", "WorldService"]
 

@@ -11,8 +11,8 @@ import yaml
 from gazelle.bag import BagError, BagMessage, Storage, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 
 __all__ = ["main"]
 

@@ -149,7 +149,7 @@ def _told(reason: str, good: str, bad: str) -> int:
 def _from_yaml(text: str) -> Any:
     import yaml
 
-    from gazelle.limits.yaml_text import load_yaml
+    from gazelle.documents.yaml import load_yaml
 
     try:
         value = load_yaml(text)

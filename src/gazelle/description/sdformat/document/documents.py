@@ -21,8 +21,8 @@ from gazelle.description.sdformat.release import Release
 from gazelle.description.sdformat.urdf import urdf_to_sdf
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.limits import TEXT_BYTES, read_limited
-from gazelle.limits.names import exists, is_folder
+from gazelle.documents import TEXT_BYTES, read_limited
+from gazelle.documents.names import exists, is_folder
 
 __all__ = ["normalised", "read_document", "read_document_file"]
 

@@ -8,7 +8,7 @@ from gazelle.description.xacro.dom import EntityRefusedError
 from gazelle.description.xacro.explaining.finding import Finding
 from gazelle.description.xacro.failure import Failure
 from gazelle.diagnostics import SourceSpan
-from gazelle.limits import TEXT_BYTES, read_limited
+from gazelle.documents import TEXT_BYTES, read_limited
 
 __all__ = ["NAMESPACE", "explain_document"]
 

@@ -6,13 +6,12 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-import yaml
-
 from gazelle.description.xacro.explaining.finding import Finding, one_line
 from gazelle.description.xacro.failure import Failure
-from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.diagnostics import did_you_mean
+from gazelle.documents.names import exists, is_folder
+from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
 from gazelle.errors import NotFoundError
-from gazelle.limits.names import exists, is_folder
 
 __all__ = ["explain_file"]
 
@@ -25,7 +24,7 @@ def explain_file(failure: Failure) -> Finding | None:
         missing = lookup
     if missing is not None:
         return Finding("xacro.package-missing", one_line(str(missing)), failure.span)
-    broken = failure.cause(yaml.YAMLError)
+    broken = failure.cause(PyYamlError)
     if broken is not None:
         return _broken_yaml(broken, failure)
     error = failure.cause(OSError)
@@ -59,15 +58,14 @@ def _near(path: Path, files: tuple[str, ...]) -> str:
     return did_you_mean(path.name, (name for name in names if name not in readers))
 
 
-def _broken_yaml(error: yaml.YAMLError, failure: Failure) -> Finding:
+def _broken_yaml(error: Exception, failure: Failure) -> Finding:
     file = str(failure.locals.get("load_yaml", {}).get("filename", ""))
-    problem = getattr(error, "problem", None) or one_line(str(error))
-    context = getattr(error, "context", None)
-    message = f"not YAML: {f'{context}: ' if context else ''}{problem}"
-    mark = getattr(error, "problem_mark", None)
-    if not file or mark is None:
+    problem = problem_of(error, file)
+    context = f"{problem.context}: " if problem.context else ""
+    message = f"not YAML: {context}{one_line(problem.what)}"
+    if not file or not problem.has_place:
         return Finding("xacro.bad-yaml", message, failure.span)
     calls = (replace(failure.span, via=()), *failure.via)
-    span = SourceSpan(file, mark.line + 1, mark.column + 1, 1, calls)
-    fix = "indent with spaces" if "'\\t'" in message else ""
-    return Finding("xacro.bad-yaml", message, span, fix, file)
+    span = replace(problem.span, length=1, via=calls)
+    is_tab = problem.kind in {ProblemKind.TAB, ProblemKind.TAB_INDENT}
+    return Finding("xacro.bad-yaml", message, span, problem.fix if is_tab else "", file)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.description.xacro.budget import ExpansionLimitError
 from gazelle.description.xacro.explaining.finding import Finding, one_line
 from gazelle.description.xacro.failure import Failure
-from gazelle.limits import LimitError
+from gazelle.documents import LimitError
 
 __all__ = ["explain_limit"]
 

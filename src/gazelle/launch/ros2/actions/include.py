@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents.names import exists
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.actions.configurations import SetLaunchConfiguration
@@ -21,7 +22,6 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits.names import exists
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.description import LaunchDescription

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.actions.functions import OpaqueFunction
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
@@ -17,7 +18,6 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits.yaml_text import load_yaml
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

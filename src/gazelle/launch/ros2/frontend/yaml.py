@@ -10,12 +10,12 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.documents.yaml.loader import LimitedLoader
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
 from gazelle.launch.ros2.place import keep_place
 from gazelle.launch.ros2.utilities.type_utils import is_instance_of
-from gazelle.limits.yaml_text import LimitedLoader
 
 __all__ = ["Entity", "Parser"]
 

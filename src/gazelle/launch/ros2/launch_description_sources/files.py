@@ -12,12 +12,12 @@ from types import ModuleType
 from typing import Any
 
 from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.documents.names import exists, is_file, is_folder
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.place import keep_place
-from gazelle.limits.names import exists, is_file, is_folder
 
 __all__ = [
     "InvalidPythonLaunchFileError",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.nodes.temporary import write_temporary
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
@@ -23,7 +24,6 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
-from gazelle.limits.yaml_text import load_yaml
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

@@ -8,6 +8,8 @@ import shutil
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from gazelle.documents import LimitError
+from gazelle.documents.commands import CommandResult, run_limited
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.frontend import expose_substitution
@@ -17,8 +19,6 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits import LimitError
-from gazelle.limits.commands import CommandResult, run_limited
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

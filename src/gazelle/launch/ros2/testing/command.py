@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
+from gazelle.documents.names import is_file
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.place import raising_place
 from gazelle.launch.ros2.testing.loader import LoadTestsFromPythonModule
 from gazelle.launch.ros2.testing.results import unittestResultsToXml
 from gazelle.launch.ros2.testing.runner import LaunchTestRunner
-from gazelle.limits.names import is_file
 
 __all__ = ["add_arguments", "argument_lines", "main", "run"]
 

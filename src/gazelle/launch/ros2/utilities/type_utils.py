@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
 import yaml
 
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.utilities.classes import ensure_argument_type
 from gazelle.launch.ros2.utilities.normalizing import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits.yaml_text import load_yaml
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents import read_text_limited
+from gazelle.documents.names import is_file
 from gazelle.errors import LaunchError
-from gazelle.limits import read_text_limited
-from gazelle.limits.names import is_file
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.slam.lua.parser import parse
 from gazelle.nodes.slam.lua.running import Builtin, LuaTable, Machine, text_of

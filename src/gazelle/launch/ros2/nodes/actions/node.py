@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import yaml
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.documents.names import is_file, is_folder
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
@@ -37,7 +38,6 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from gazelle.limits.names import is_file, is_folder
 from gazelle.nodes.arguments import ABSENT_NODES
 
 if TYPE_CHECKING:

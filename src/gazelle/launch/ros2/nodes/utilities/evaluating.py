@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import (
     Parameter,
     ParameterFile,
@@ -16,8 +18,6 @@ from gazelle.launch.ros2.nodes.parameter_descriptions import (
 from gazelle.launch.ros2.nodes.utilities.normalizing import normalize_parameter_dict
 from gazelle.launch.ros2.substitution import Substitution
 from gazelle.launch.ros2.utilities import ensure_argument_type, perform_substitutions
-from gazelle.limits import read_text_limited
-from gazelle.limits.yaml_text import load_yaml
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
+from gazelle.documents import scaled
 from gazelle.errors import GazelleError
-from gazelle.limits import scaled
 
 
 def test_limits_are_as_they_are_without_the_variable(monkeypatch: pytest.MonkeyPatch) -> None:

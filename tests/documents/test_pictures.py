@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from gazelle.limits import FileLimitError
-from gazelle.limits.pictures import PictureError, opened_picture
+from gazelle.documents import FileLimitError
+from gazelle.documents.pictures import PictureError, opened_picture
 
 _RAISE = "if the file means it, set the environment variable GAZELLE_LIMITS=10 for ten times"
 

@@ -12,8 +12,8 @@ import re
 from collections.abc import Iterator
 from types import CodeType
 
-from gazelle.limits.budget import HUGE_NUMBER
-from gazelle.limits.scale import LimitError
+from gazelle.documents.budget import HUGE_NUMBER
+from gazelle.documents.scale import LimitError
 
 __all__ = ["compile_limited", "names_in_code"]
 

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.limits.files import read_limited
-from gazelle.limits.scale import HOW_TO_RAISE, scaled
+from gazelle.documents.files import read_limited
+from gazelle.documents.scale import HOW_TO_RAISE, scaled
 
 if TYPE_CHECKING:
     from PIL.Image import Image

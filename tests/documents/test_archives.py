@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gazelle.limits.archives import ArchiveError, read_arrays
+from gazelle.documents.archives import ArchiveError, read_arrays
 
 _RAISE = "if the file means it, set the environment variable GAZELLE_LIMITS=10 for ten times"
 

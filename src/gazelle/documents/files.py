@@ -7,7 +7,7 @@ import os
 import select
 import stat
 
-from gazelle.limits.scale import HOW_TO_RAISE, scaled
+from gazelle.documents.scale import HOW_TO_RAISE, scaled
 
 __all__ = ["TEXT_BYTES", "FileLimitError", "read_limited", "read_text_limited"]
 

@@ -1,18 +1,22 @@
-"""YAML whose aliases, nesting and scalars do no harm."""
+"""PyYAML's safe loader with bounds of length, nesting, aliases and numbers; for this package."""
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import yaml
 
-from gazelle.limits.scale import HOW_TO_RAISE, LimitError, scaled
+from gazelle.documents.scale import HOW_TO_RAISE, LimitError, scaled
 
-__all__ = ["LimitedLoader", "YamlLimitError", "load_yaml", "load_yaml_documents"]
+__all__ = ["LimitedLoader", "YamlDepthError", "YamlLimitError"]
 
 _MOST_CHARACTERS = 8 << 20
 _MOST_NODES = 1_000_000
 _DEEPEST = 64
+# Python prints no whole number that has more decimal digits.
+_MOST_DIGITS = sys.int_info.default_max_str_digits
+_BITS_OF_A_DIGIT = 3.32
 # What PyYAML's constructors, and those of ROS's angles, let through.
 _UNREADABLE: tuple[type[Exception], ...]
 _UNREADABLE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, SyntaxError)
@@ -20,17 +24,24 @@ _UNREADABLE += (LimitError, NameError)
 
 
 class YamlLimitError(yaml.MarkedYAMLError):
-    """The text is too long, too deep, or its aliases stand for too much."""
+    """The text is too long, or its aliases stand for too much."""
+
+
+class YamlDepthError(YamlLimitError):
+    """Lists and mappings are nested too deep."""
 
 
 class LimitedLoader(yaml.SafeLoader):
     """PyYAML's safe loader; whatever is wrong with a text is a ``yaml.YAMLError``."""
 
-    def __init__(self, stream: Any) -> None:
+    def __init__(self, stream: str | bytes) -> None:
         """Check the length of a text; see ``yaml.SafeLoader``."""
-        if isinstance(stream, str | bytes) and len(stream) > scaled(_MOST_CHARACTERS):
+        if len(stream) > scaled(_MOST_CHARACTERS):
             raise _error(f"{len(stream)} characters", scaled(_MOST_CHARACTERS), None)
         self._depth = 0
+        self._most_nodes = scaled(_MOST_NODES)
+        self._nodes = 0
+        self._nodes_of_documents = 0
         super().__init__(stream)
 
     def fetch_more_tokens(self) -> None:
@@ -49,21 +60,26 @@ class LimitedLoader(yaml.SafeLoader):
         super().fetch_flow_collection_start(TokenClass)
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        """Compose a node unless it is nested too deep."""
+        """Compose a node unless it is nested too deep, or one too many."""
         self._depth += 1
+        self._nodes += 1
         if self._depth > _DEEPEST:
             place = self.peek_event().start_mark  # type: ignore[no-untyped-call]
             raise _too_deep(place)
+        if self._nodes > self._most_nodes:
+            place = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            raise _error(f"{self._nodes} values and more", self._most_nodes, place)
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node
 
     def compose_document(self) -> Any:
-        """Compose a document, and check what its aliases make of it."""
+        """Compose a document, and check what its aliases make of it and of those before."""
         root: Any = super().compose_document()
-        size = _size(root, {}, ())
-        if size > scaled(_MOST_NODES):
-            raise _error(f"{size} values, aliases followed", scaled(_MOST_NODES), root.start_mark)
+        self._nodes_of_documents += _size(root, {}, ())
+        if self._nodes_of_documents > self._most_nodes:
+            count = self._nodes_of_documents
+            raise _error(f"{count} values, aliases followed", self._most_nodes, root.start_mark)
         return root
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
@@ -74,23 +90,18 @@ class LimitedLoader(yaml.SafeLoader):
             text = f"this value cannot be read: {error}"
             raise yaml.constructor.ConstructorError(None, None, text, node.start_mark) from error
 
+    def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
+        """Construct a whole number that can be printed again."""
+        # One of base 60 takes the square of its length.
+        if len(node.value) > 2 * _MOST_DIGITS and ":" in node.value:
+            raise ValueError(f"a whole number of {len(node.value)} characters")
+        found: int = super().construct_yaml_int(node)
+        if found.bit_length() > _MOST_DIGITS * _BITS_OF_A_DIGIT:
+            raise ValueError(f"a whole number of {found.bit_length()} binary digits")
+        return found
 
-def load_yaml(text: str | bytes) -> Any:
-    """Return the value of a YAML text, as ``yaml.safe_load`` does.
 
-    Raises:
-        yaml.YAMLError: it is not YAML, or above a limit.
-    """
-    return yaml.load(text, Loader=LimitedLoader)  # noqa: S506 - a safe loader
-
-
-def load_yaml_documents(text: str) -> list[Any]:
-    """Return the values of all documents of a YAML text, as ``yaml.safe_load_all`` does.
-
-    Raises:
-        yaml.YAMLError: it is not YAML, or above a limit.
-    """
-    return list(yaml.load_all(text, Loader=LimitedLoader))
+LimitedLoader.add_constructor("tag:yaml.org,2002:int", LimitedLoader.construct_yaml_int)
 
 
 def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:
@@ -110,8 +121,8 @@ def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:
     return known[own]
 
 
-def _too_deep(place: Any) -> YamlLimitError:
-    return YamlLimitError(
+def _too_deep(place: Any) -> YamlDepthError:
+    return YamlDepthError(
         None, None, f"lists and mappings are nested deeper than {_DEEPEST}", place
     )
 

@@ -8,9 +8,9 @@ import pytest
 
 from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
+from gazelle.documents.names import exists, is_file, is_folder, names_matching
 from gazelle.errors import UserFileError
 from gazelle.launch.xml1.loader import load_launch_text
-from gazelle.limits.names import exists, is_file, is_folder, names_matching
 from gazelle.workspace import Workspace
 
 _LONG = "a" * 5000

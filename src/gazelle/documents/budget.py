@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sized
 from typing import Any
 
-from gazelle.limits.scale import LimitError, scaled
+from gazelle.documents.scale import LimitError, scaled
 
 __all__ = ["HUGE_NUMBER", "Budget"]
 

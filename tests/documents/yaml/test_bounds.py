@@ -7,7 +7,7 @@ import time
 import pytest
 import yaml
 
-from gazelle.limits.yaml_text import YamlLimitError, load_yaml
+from gazelle.documents.yaml import ProblemKind, YamlError, load_yaml, load_yaml_documents
 
 
 def _bomb(levels: int) -> str:
@@ -23,7 +23,7 @@ def test_plain_files_are_read_as_ever() -> None:
 
 
 def test_aliases_count_as_often_as_they_are_used() -> None:
-    with pytest.raises(YamlLimitError) as caught:
+    with pytest.raises(YamlError) as caught:
         load_yaml(_bomb(9))
     text = "12345679021 values, aliases followed are above the limit of 1000000; if the file means"
     assert text in str(caught.value)
@@ -31,23 +31,21 @@ def test_aliases_count_as_often_as_they_are_used() -> None:
 
 
 def test_lists_that_hold_themselves_are_refused() -> None:
-    with pytest.raises(
-        YamlLimitError, match="an alias stands inside the very list or mapping"
-    ) as e:
+    with pytest.raises(YamlError, match="an alias stands inside the very list or mapping") as e:
         load_yaml("a: &a [1, *a]")
     assert "line 1, column 4" in str(e.value)
 
 
 def test_nesting_has_a_limit_and_a_place() -> None:
     for depth in (65, 50_000):
-        with pytest.raises(YamlLimitError, match="are nested deeper than 64") as caught:
+        with pytest.raises(YamlError, match="are nested deeper than 64") as caught:
             load_yaml("[" * depth)
         assert "line 1, column 65" in str(caught.value)
 
 
 def test_long_texts_are_refused_at_once() -> None:
     start = time.thread_time()
-    with pytest.raises(YamlLimitError, match="are above the limit of 8388608"):
+    with pytest.raises(YamlError, match="are above the limit of 8388608"):
         load_yaml("a: 1\n" * 20_000_000)
     assert time.thread_time() - start < 10.0
 
@@ -60,9 +58,24 @@ def test_long_texts_are_refused_at_once() -> None:
 def test_values_that_are_none_are_errors_of_the_yaml(text: str) -> None:
     try:
         load_yaml(text)
-    except yaml.YAMLError:
+    except YamlError:
         return
     assert text == "="
+
+
+def test_documents_of_one_text_share_the_limit_of_values() -> None:
+    with pytest.raises(YamlError, match="values, aliases followed are above the limit") as caught:
+        load_yaml_documents("\n---\n".join([_bomb(4)] * 10))
+    assert caught.value.problem.kind is ProblemKind.TOO_MUCH
+
+
+@pytest.mark.parametrize("text", [f"0x{'f' * 5000}", f"0b{'1' * 20_000}", ":59" * 5000])
+def test_whole_numbers_that_python_does_not_print_are_none(text: str) -> None:
+    start = time.thread_time()
+    with pytest.raises(YamlError, match="this value cannot be read: a whole number of") as caught:
+        load_yaml(f"a: 1{text}" if text[0] == ":" else f"a: {text}")
+    assert caught.value.problem.kind is ProblemKind.VALUE
+    assert time.thread_time() - start < 5.0
 
 
 def test_a_tab_is_called_a_tab() -> None:

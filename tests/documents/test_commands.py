@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from gazelle.limits import LimitError
-from gazelle.limits.commands import run_limited
+from gazelle.documents import LimitError
+from gazelle.documents.commands import run_limited
 
 PYTHON = sys.executable
 

@@ -1,0 +1,62 @@
+"""YAML: the one reader of users' texts, and the one writer.
+
+A text becomes a `YamlDocument`: nodes with places, a value, or its problem. Length, nesting and
+aliases are bounded, and nothing but plain values is made.
+"""
+
+from __future__ import annotations
+
+from gazelle.documents.yaml.dialects import RCL, ROSPARAM, YAML_1_1, Dialect
+from gazelle.documents.yaml.document import (
+    YamlDocument,
+    load_yaml,
+    load_yaml_documents,
+    load_yaml_file,
+    read_yaml,
+    read_yaml_documents,
+    read_yaml_file,
+    value_of,
+)
+from gazelle.documents.yaml.nodes import (
+    YamlEntry,
+    YamlMapping,
+    YamlNode,
+    YamlScalar,
+    YamlSequence,
+    duplicates,
+    entries,
+)
+from gazelle.documents.yaml.problems import (
+    ProblemKind,
+    PyYamlError,
+    YamlError,
+    YamlProblem,
+    problem_of,
+)
+
+__all__ = [
+    "RCL",
+    "ROSPARAM",
+    "YAML_1_1",
+    "Dialect",
+    "ProblemKind",
+    "PyYamlError",
+    "YamlDocument",
+    "YamlEntry",
+    "YamlError",
+    "YamlMapping",
+    "YamlNode",
+    "YamlProblem",
+    "YamlScalar",
+    "YamlSequence",
+    "duplicates",
+    "entries",
+    "load_yaml",
+    "load_yaml_documents",
+    "load_yaml_file",
+    "problem_of",
+    "read_yaml",
+    "read_yaml_documents",
+    "read_yaml_file",
+    "value_of",
+]

@@ -1,0 +1,90 @@
+"""How ROS's programs read the same YAML: YAML 1.1, roslaunch's angles, rcl's numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import yaml
+
+from gazelle.documents.budget import Budget
+from gazelle.documents.expressions import compile_limited
+from gazelle.documents.yaml.loader import LimitedLoader
+
+__all__ = ["RCL", "ROSPARAM", "YAML_1_1", "Dialect", "loader_of"]
+
+_FLOAT_TAG = "tag:yaml.org,2002:float"
+_ANGLE = re.compile(r"^(?P<unit>deg|rad)\((?P<expression>[^()]*)\)$")
+_ANGLE_TEXT = re.compile(r"^[0-9pi\s.eE+*/-]*$")
+# rcl reads these with strtod; YAML 1.1, as PyYAML has it, wants a dot and a sign.
+_STRTOD = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """What a program adds to YAML 1.1.
+
+    Attributes:
+        has_angles: ``deg(90)``, ``rad(pi/2)`` and the tag ``!angle`` are numbers, in rad.
+        has_strtod: ``1e-3`` and ``5e2`` are numbers.
+        tags: further tags of mappings, and what makes a value of such a mapping.
+    """
+
+    has_angles: bool = False
+    has_strtod: bool = False
+    tags: tuple[tuple[str, Callable[[dict[Any, Any]], Any]], ...] = ()
+
+
+YAML_1_1 = Dialect()
+"""As PyYAML's ``safe_load`` reads it, which most of ROS's Python programs use."""
+
+ROSPARAM = Dialect(has_angles=True)
+"""As ``rosparam`` and roslaunch's ``<rosparam>`` read it."""
+
+RCL = Dialect(has_strtod=True)
+"""As rcl reads parameter files of ROS 2."""
+
+
+@cache
+def loader_of(dialect: Dialect) -> type[LimitedLoader]:
+    """Return a loader of its own, so that other users of PyYAML keep theirs."""
+
+    class _Loader(LimitedLoader):
+        pass
+
+    if dialect.has_angles:
+        _Loader.add_constructor("!angle", _angle)
+        _Loader.add_implicit_resolver("!angle", _ANGLE, ["d", "r"])
+    if dialect.has_strtod:
+        _Loader.add_implicit_resolver(_FLOAT_TAG, _STRTOD, list("-+.0123456789"))
+    for tag, made in dialect.tags:
+        _Loader.add_constructor(tag, _constructor(made))
+    return _Loader
+
+
+def _constructor(
+    made: Callable[[dict[Any, Any]], Any],
+) -> Callable[[LimitedLoader, yaml.MappingNode], Any]:
+    return lambda loader, node: made(loader.construct_mapping(node, deep=True))
+
+
+def _angle(loader: LimitedLoader, node: yaml.ScalarNode) -> float:
+    text = str(loader.construct_scalar(node))
+    match = _ANGLE.match(text)
+    expression = match.group("expression") if match else text
+    if not _ANGLE_TEXT.match(expression):
+        raise yaml.constructor.ConstructorError(
+            None, None, f"invalid angle '{text}'", node.start_mark
+        )
+    value = _arithmetic(expression)
+    return math.radians(value) if match and match.group("unit") == "deg" else value
+
+
+def _arithmetic(expression: str) -> float:
+    """Evaluate numbers, pi and + - * / (the regular expression let nothing else through)."""
+    code, names = compile_limited(expression.strip() or "0"), {"__builtins__": Budget().names}
+    return float(eval(code, names, {"pi": math.pi}))  # noqa: S307
