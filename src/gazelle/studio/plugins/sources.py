@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import importlib.util
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -10,14 +9,14 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError
+from gazelle.extensions import ExtensionGroup, entry_points_of
 from gazelle.studio.plugins.reading import PanelClass, Unreadable, panel_classes
 from gazelle.workspace import Package, Workspace
 
-__all__ = ["ENTRY_POINTS", "FOLDER", "Source", "all_sources", "named_file", "sources_of_package"]
+__all__ = ["FOLDER", "Source", "all_sources", "named_file", "sources_of_package"]
 
 FOLDER = "panels"
 """Folder of a package whose Python files are looked at."""
-ENTRY_POINTS = "gazelle.panels"
 
 
 class Source(NamedTuple):
@@ -104,7 +103,7 @@ def sources_of_package(package: Package) -> Iterator[Source]:
 
 
 def _installed() -> Iterator[Source]:
-    for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
+    for point in entry_points_of(ExtensionGroup.PANELS):
         module_name, _, class_name = point.value.partition(":")
         name = point.name.replace("/", ".")
         origin = f"entry point {point.name} = {point.value}"
