@@ -157,3 +157,20 @@ def test_layouts_are_kept_under_any_name(tmp_path: Path, monkeypatch: pytest.Mon
         call("layout.load", name="mime")
     with pytest.raises(StudioError, match="a layout's name has 1 to 100 characters"):
         call("layout.save", name=" ", value={})
+
+
+def test_a_layout_of_before_versions_is_loaded_and_one_of_a_newer_gazelle_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    folder = tmp_path / "gazelle" / "layouts"
+    folder.mkdir(parents=True)
+    (folder / "old.json").write_text('{"dock": [1]}')
+    (folder / "new.json").write_text('{"version": 2, "layout": {"dock": [2]}}')
+
+    def load(name: str) -> Any:
+        return METHODS["layout.load"](None, Params("layout.load", {"name": name}))  # type: ignore[arg-type]
+
+    assert load("old") == {"dock": [1]}
+    with pytest.raises(StudioError, match="the layout 'new' is of version 2, saved by a newer"):
+        load("new")

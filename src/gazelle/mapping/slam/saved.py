@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.documents.archives import read_arrays
+from gazelle.documents.versions import refused_version
 from gazelle.errors import GazelleError
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
@@ -19,7 +20,7 @@ from gazelle.mapping.slam.parameters import SlamParameters
 __all__ = ["SUFFIX", "SavedGraphError", "load_graph", "save_graph"]
 
 SUFFIX = ".posegraph"
-_FORMAT = "gazelle posegraph 1"
+_FORMAT, _VERSION = "gazelle posegraph", 1
 
 
 class SavedGraphError(GazelleError):
@@ -35,7 +36,7 @@ def save_graph(engine: Slam, path: Path) -> None:
     frames = [engine.keyframes[i] for i in range(len(engine.keyframes))]
     scans = [frame.scan for frame in frames]
     columns: dict[str, Any] = {
-        "format": np.array(_FORMAT),
+        "format": np.array(f"{_FORMAT} {_VERSION}"),
         "poses": engine.keyframes.poses,
         "ways_m": engine.keyframes.ways_m,
         "ranges_m": np.concatenate([scan.ranges_m for scan in scans]) if scans else np.empty(0),
@@ -59,8 +60,11 @@ def load_graph(path: Path, parameters: SlamParameters) -> Slam:
     """
     try:
         columns: dict[str, Any] = read_arrays(path)
-        if str(columns["format"]) != _FORMAT:
-            raise ValueError(f"it is '{columns['format']}', not '{_FORMAT}'")
+        name, _, version = str(columns["format"]).rpartition(" ")
+        if name != _FORMAT or not version.isdecimal():
+            raise ValueError(f"it is '{columns['format']}', not '{_FORMAT} {_VERSION}'")
+        if why := refused_version(str(path), int(version), _VERSION):
+            raise SavedGraphError(why)
         return _engine(columns, parameters)
     except OSError as error:
         raise SavedGraphError(f"{path} cannot be read: {error.strerror or error}") from None

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote, unquote
 
+from gazelle.documents.versions import refused_version
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
@@ -18,6 +19,7 @@ __all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "sav
 _SUFFIX = ".json"
 _MOST_BYTES = 4 << 20
 _LONGEST_NAME = 100
+_VERSION = 1
 
 
 def layout_folder(environ: Mapping[str, str] = os.environ) -> Path:
@@ -35,16 +37,23 @@ def load_layout(studio: Studio, params: Params) -> Any:
     """``layout.load``."""
     name = params.text("name")
     try:
-        return json.loads(_file(name).read_text(encoding="utf-8"))
+        saved = json.loads(_file(name).read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise unknown("layout", name, list_layouts(studio, params)) from None
     except (OSError, ValueError) as error:
         raise StudioError(f"the layout '{name}' cannot be read: {error}") from None
+    # Before there were versions a file held the layout itself.
+    if not isinstance(saved, dict) or "version" not in saved:
+        return saved
+    if why := refused_version(f"the layout '{name}'", saved["version"], _VERSION):
+        raise StudioError(why)
+    return saved.get("layout")
 
 
 def save_layout(_studio: Studio, params: Params) -> dict[str, Any]:
     """``layout.save``: a crash leaves the old one whole."""
-    name, text = params.text("name"), json.dumps(params.any("value"))
+    name = params.text("name")
+    text = json.dumps({"version": _VERSION, "layout": params.any("value")})
     if len(text) > _MOST_BYTES:
         raise StudioError(f"the layout '{name}' has more than {_MOST_BYTES >> 20} MiB")
     file = _file(name)
