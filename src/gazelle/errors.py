@@ -14,7 +14,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gazelle.diagnostics import Diagnostic
+    from gazelle.diagnostics.diagnostic import Diagnostic
 
 __all__ = [
     "EngineError",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.diagnostics.brief import Brief, brief
-from gazelle.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity
+from gazelle.diagnostics.collecting import Diagnostics
+from gazelle.diagnostics.diagnostic import Diagnostic, Severity
 from gazelle.diagnostics.grouping import grouped
 from gazelle.diagnostics.nearest import did_you_mean, nearest_names
 from gazelle.diagnostics.render import render, render_text

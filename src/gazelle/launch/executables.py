@@ -45,12 +45,14 @@ class Executable:
         command: words to execute, the node's own arguments follow.
         builtin: the built-in node, None for a file.
         folder: folder of the file, for ``cwd="node"``.
+        script: the user's Python file that is run, None for anything else.
         takes_ros_words: ``__name:=`` and the like follow too.
     """
 
     command: tuple[str, ...]
     builtin: NodeSpec | None = None
     folder: Path | None = None
+    script: Path | None = None
     takes_ros_words: bool = True
 
 
@@ -116,7 +118,8 @@ def _in_workspace(
     function = _function(found, type_name, path)
     if function:
         command = (*command[:-1], "--entry", function, command[-1])
-    return Executable(command, folder=path.parent)
+    script = path if command[0] == sys.executable else None
+    return Executable(command, folder=path.parent, script=script)
 
 
 def _function(package: Package, type_name: str, path: Path) -> str:

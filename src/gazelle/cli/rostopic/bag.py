@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from optparse import Values
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.bag import (
     BagMessage,
@@ -23,10 +23,6 @@ from gazelle.cli.text.fields import Step
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Entity, Kind
 from gazelle.interfaces import from_cdr, from_ros1, wire_type
-
-if TYPE_CHECKING:
-    from gazelle.cli.rostopic.bandwidth import BandwidthMeter
-    from gazelle.cli.rostopic.rate import RateMeter
 
 __all__ = ["BagClock", "bandwidth_of_bag", "echo_bag", "list_bag", "opened", "rate_of_bag"]
 
@@ -104,20 +100,22 @@ def echo_bag(
 
 
 def rate_of_bag(
-    path: str, meters: Mapping[str, RateMeter], wanted: Callable[[str, Any], bool] | None
+    path: str,
+    counts: Mapping[str, Callable[[float], None]],
+    wanted: Callable[[str, Any], bool] | None,
 ) -> None:
     """Count the messages of a bag by their stamps; only those that are `wanted`, if it is given."""
-    for one, stamp_ns, data in _chosen(path, meters):
+    for one, stamp_ns, data in _chosen(path, counts):
         if wanted is None or wanted(one.topic, _read(one, data)):
-            meters[one.topic].add(stamp_ns / 1e9)
+            counts[one.topic](stamp_ns / 1e9)
 
 
-def bandwidth_of_bag(path: str, topic: str, meter: BandwidthMeter) -> str:
-    """Return the report of a topic of a bag at its last message."""
+def bandwidth_of_bag(path: str, topic: str, count: Callable[[float, int], None]) -> float:
+    """Count the bytes of a topic of a bag; return the time of its last message in seconds."""
     stamp_ns = 0
     for _, stamp_ns, data in _chosen(path, (topic,)):
-        meter.add(stamp_ns / 1e9, len(data))
-    return meter.report(stamp_ns / 1e9)
+        count(stamp_ns / 1e9, len(data))
+    return stamp_ns / 1e9
 
 
 def _chosen(path: str, topics: Iterable[str]) -> Iterator[BagMessage]:

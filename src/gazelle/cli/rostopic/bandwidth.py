@@ -82,7 +82,8 @@ def run(words: list[str]) -> int:
         from gazelle.cli.rostopic.bag import bandwidth_of_bag
 
         topic_name = global_name(args[0], "rostopic")
-        print(bandwidth_of_bag(options.bag, topic_name, meter) or "no new messages")
+        end_s = bandwidth_of_bag(options.bag, topic_name, meter.add)
+        print(meter.report(end_s) or "no new messages")
         return 0
 
     def take(message: RawMessage) -> None:

@@ -139,7 +139,7 @@ def _print_of_bag(path: str, meters: dict[str, RateMeter], text: str | None) -> 
 
     filters = {topic: expression(text, topic) for topic in meters} if text else {}
     wanted = (lambda topic, message: filters[topic](message)) if filters else None
-    rate_of_bag(path, meters, wanted)
+    rate_of_bag(path, {topic: meter.add for topic, meter in meters.items()}, wanted)
     print(rate_report(meters))
     return 0
 

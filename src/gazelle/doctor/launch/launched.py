@@ -160,7 +160,7 @@ def _node(spec: NodeTag, executable: Executable | None) -> LaunchedNode:
         spec.span,
     )
     role = _role(executable)
-    file = _script(executable) if role is Role.SCRIPT else None
+    file = executable.script if executable is not None else None
     return LaunchedNode(spec, executable, role, program, file)
 
 
@@ -169,11 +169,6 @@ def _role(executable: Executable | None) -> Role:
         return Role.MISSING
     if executable.builtin is not None:
         return _BY_ROLE.get(executable.builtin.role, Role.BUILTIN)
-    if _script(executable) is not None:
+    if executable.script is not None:
         return Role.SCRIPT
     return Role.COMMAND if executable.folder is None else Role.NATIVE
-
-
-def _script(executable: Executable | None) -> Path | None:
-    words = executable.command if executable is not None else ()
-    return Path(words[-1]) if "gazelle.compat.runner" in words else None

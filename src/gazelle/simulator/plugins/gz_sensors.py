@@ -5,31 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec, World
+from gazelle.description.model import CameraSpec, ImuSpec, LidarSpec
 from gazelle.simulator.plugins.camera_info import Calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth
 from gazelle.simulator.plugins.gz_measurements import publish_measurement
-from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.imu import publish_readings
 from gazelle.simulator.plugins.laser import cloud_builder, scan_builder, start_scans
-from gazelle.simulator.plugins.registry import plain_name
 
-__all__ = ["is_gz_world", "publish_sensor"]
-
-_SYSTEMS = ("gz-sim", "ignition-gazebo")
-
-
-def is_gz_world(world: World) -> bool:
-    """Tell whether a world loads systems of gz-sim.
-
-    Those that serve all models may stand in a model as well (``Sensors``, ``Imu``, …).
-    """
-    if any(plain_name(plugin.filename).startswith(_SYSTEMS) for plugin in world.plugins):
-        return True
-    plugins = (plugin for model in world.models for plugin in model.plugins)
-    return any(plain_name(plugin.filename) in GZ_SYSTEMS.filenames for plugin in plugins)
+__all__ = ["publish_sensor"]
 
 
 def publish_sensor(context: PluginContext) -> None:

@@ -1,0 +1,131 @@
+"""Modules do not import each other in a circle; those that still do are listed, and get fewer."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).parents[1] / "src" / "gazelle"
+# Python of users' packages and of ROS's names has the originals' structure.
+NOT_OURS = (SOURCE / "compat" / "modules", SOURCE / "workspace" / "builtin")
+# What is left: the first module of each circle by name, and how many modules are in it. A circle
+# that is gone or smaller is to be taken out here.
+WHEN_RUN = {
+    # A URDF's <gazebo> holds SDF, and an <include> of SDF may name a URDF.
+    "gazelle.description.sdf.models": 5,
+    "gazelle.interfaces.binding": 9,
+    # The originals' packages, which users import from, gather modules that need each other.
+    "gazelle.launch.ros2.actions": 31,
+}
+WITH_TYPES = {
+    "gazelle.compat.rclpy.endpoints": 7,
+    "gazelle.description.sdf.models": 5,
+    "gazelle.engine.core": 4,
+    "gazelle.graph.actions.actionlib_wire": 3,
+    "gazelle.graph.clock": 10,
+    "gazelle.interfaces.binding": 9,
+    "gazelle.launch.ros2.action": 35,
+    "gazelle.launch.ros2.context": 4,
+    "gazelle.simulator.handles": 10,
+    "gazelle.simulator.plugins.transport": 3,
+    "gazelle.studio.bags.playing": 63,
+    "gazelle.workspace.resolver": 2,
+}
+
+
+@pytest.mark.parametrize(
+    ("with_types", "left"), [(False, WHEN_RUN), (True, WITH_TYPES)], ids=["run", "types"]
+)
+def test_no_circle_of_imports_but_for_those_left(with_types: bool, left: dict[str, int]) -> None:
+    """Imports inside of functions count; those for type checkers only where types are asked for."""
+    circles = _circles(
+        {name: run | (types if with_types else set()) for name, (run, types) in _imports().items()}
+    )
+    found = {min(circle): len(circle) for circle in circles}
+    assert found == left, "\n".join(
+        " ".join(circle) for circle in circles if left.get(min(circle)) != len(circle)
+    )
+
+
+def test_a_circle_is_found_once_and_what_only_leads_to_it_is_not_in_it() -> None:
+    graph = {"a": {"b"}, "b": {"c", "d"}, "c": {"b"}, "d": set(), "e": {"a"}}
+    assert _circles(graph) == [["b", "c"]]
+
+
+@cache
+def _imports() -> dict[str, tuple[set[str], set[str]]]:
+    """Return by module what it imports when it runs, and what for type checkers only."""
+    paths = [path for path in SOURCE.rglob("*.py") if not set(NOT_OURS) & set(path.parents)]
+    modules = {_name(path): path for path in paths}
+    found: dict[str, tuple[set[str], set[str]]] = {}
+    for name, path in modules.items():
+        run: set[str] = set()
+        types: set[str] = set()
+        for node, is_for_types in _import_statements(ast.parse(path.read_text(encoding="utf-8"))):
+            (types if is_for_types else run).update(set(_modules_of(node, modules)) - {name})
+        found[name] = (run, types)
+    return found
+
+
+def _name(path: Path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _import_statements(tree: ast.Module) -> Iterator[tuple[ast.Import | ast.ImportFrom, bool]]:
+    waiting: list[tuple[ast.AST, bool]] = [(tree, False)]
+    while waiting:
+        parent, is_for_types = waiting.pop()
+        checks = isinstance(parent, ast.If) and ast.unparse(parent.test) == "TYPE_CHECKING"
+        for block in ("body", "orelse", "finalbody", "handlers", "cases"):
+            for node in getattr(parent, block, ()):
+                so = is_for_types or (checks and block == "body")
+                if isinstance(node, ast.Import | ast.ImportFrom):
+                    yield node, so
+                elif isinstance(node, ast.AST):
+                    waiting.append((node, so))
+
+
+def _modules_of(node: ast.Import | ast.ImportFrom, modules: dict[str, Path]) -> Iterator[str]:
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names if alias.name in modules)
+        return
+    for alias in node.names:
+        whole = f"{node.module}.{alias.name}"
+        name = whole if whole in modules else node.module
+        if name is not None and name in modules:
+            yield name
+
+
+def _circles(graph: dict[str, set[str]]) -> list[list[str]]:
+    """Return the strongly connected components of more than one module (Tarjan 1972)."""
+    number: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    stack: list[str] = []
+    circles: list[list[str]] = []
+    for start, first in graph.items():
+        work = [(start, iter(sorted(first)))] if start not in number else []
+        while work:
+            name, others = work[-1]
+            if name not in number:
+                number[name] = lowest[name] = len(number)
+                stack.append(name)
+            for other in others:
+                if other not in number:
+                    work.append((other, iter(sorted(graph[other]))))
+                    break
+                if other in stack:
+                    lowest[name] = min(lowest[name], number[other])
+            else:
+                work.pop()
+                if work:
+                    lowest[work[-1][0]] = min(lowest[work[-1][0]], lowest[name])
+                if lowest[name] == number[name]:
+                    place = stack.index(name)
+                    circle, stack[place:] = stack[place:], []
+                    circles += [sorted(circle)] if len(circle) > 1 else []
+    return circles
