@@ -136,6 +136,10 @@ def test_words_and_numbers_of_each_generation(check: Check) -> None:
     assert check(node.format("names: [a, 1]"), 2).by_code("parameters.mixed-list")
 
 
+def test_octal_numbers_that_python_does_not_print_are_no_findings(check: Check) -> None:
+    assert [item.code for item in check(f"a: 0{'7' * 6000}\n", 1)] == []
+
+
 def test_files_of_moveit_and_maps_are_left_alone(check: Check) -> None:
     for text in (
         "arm:\n  kinematics_solver: kdl/KDL\n  timeout: 1e-3\n",

@@ -44,7 +44,7 @@ def test_nodes_know_where_they_stand_and_how_long_they_are() -> None:
     ]
     last = items[-1].value
     assert isinstance(last, YamlScalar)
-    assert (last.text, last.is_plain, last.is_str) == ("two", False, True)
+    assert (last.text, last.is_plain, last.tag) == ("two", False, "str")
 
 
 def test_merged_keys_are_in_the_value_and_not_in_the_nodes() -> None:

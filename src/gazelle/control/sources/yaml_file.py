@@ -8,17 +8,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents import read_text_limited
-from gazelle.documents.yaml.loader import LimitedLoader, YamlLimitError
+from gazelle.documents.yaml import (
+    RCL,
+    ProblemKind,
+    YamlDocument,
+    YamlError,
+    YamlMapping,
+    YamlNode,
+    YamlProblem,
+    YamlScalar,
+    YamlSequence,
+    read_yaml,
+    read_yaml_file,
+    value_of,
+)
 
 __all__ = ["NodeSection", "read_parameter_file", "read_parameter_text"]
 
 _MARK = "ros__parameters"
-# rcl reads these with strtod; YAML 1.1, as PyYAML has it, wants a dot and a sign.
-_FLOAT = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,17 +55,7 @@ def read_parameter_file(path: Path, diagnostics: Diagnostics) -> tuple[NodeSecti
     A file without any ``ros__parameters`` is taken as ROS 1 wrote it, with a warning: its first
     level are nodes. Problems are reported; what can be read is returned.
     """
-    try:
-        text = read_text_limited(path)
-    except OSError as error:
-        message = f"parameter file '{path}' cannot be read: {error.strerror}"
-        diagnostics.report("control.parameter-file", message)
-        return ()
-    except UnicodeDecodeError as error:
-        message = f"parameter file is not UTF-8: {error.reason} at byte {error.start}"
-        diagnostics.report("control.parameter-file", message, SourceSpan(str(path)))
-        return ()
-    return read_parameter_text(text, str(path), diagnostics)
+    return _sections(read_yaml_file(path, RCL), diagnostics)
 
 
 def read_parameter_text(text: str, file: str, diagnostics: Diagnostics) -> tuple[NodeSection, ...]:
@@ -68,99 +66,97 @@ def read_parameter_text(text: str, file: str, diagnostics: Diagnostics) -> tuple
         file: name for messages.
         diagnostics: receives what is wrong.
     """
-    try:
-        root = yaml.compose(text, Loader=LimitedLoader)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        span = SourceSpan(file, mark.line + 1, mark.column + 1) if mark else SourceSpan(file)
-        what = "not read" if isinstance(error, YamlLimitError) else "not YAML"
-        message = f"parameter file is {what}: {getattr(error, 'problem', None) or error}"
-        begin = getattr(error, "context_mark", None)
-        if begin is not None and begin is not mark:
-            context = getattr(error, "context", "")
-            message += f" ({context}, which begins at {begin.line + 1}:{begin.column + 1})"
-        diagnostics.report("control.parameter-file", message, span)
-        return ()
-    return () if root is None else _Reader(file, diagnostics).sections(root)
+    return _sections(read_yaml(text, file, RCL), diagnostics)
+
+
+def _sections(document: YamlDocument, diagnostics: Diagnostics) -> tuple[NodeSection, ...]:
+    if document.problem is not None:
+        _report(document.problem, diagnostics)
+    return () if document.root is None else _Reader(diagnostics).sections(document.root)
+
+
+def _report(problem: YamlProblem, diagnostics: Diagnostics) -> None:
+    span: SourceSpan | None = problem.span
+    if problem.kind is ProblemKind.UNREADABLE:
+        message = f"parameter file '{problem.span.file}' cannot be read: {problem.what}"
+        span = None
+    elif problem.kind is ProblemKind.NOT_UTF8:
+        message = f"parameter file is not UTF-8: {problem.what}"
+    else:
+        what = "not read" if problem.is_limit else "not YAML"
+        message = f"parameter file is {what}: {problem.what}"
+    if problem.context_span is not None:
+        begin = problem.context_span
+        message += f" ({problem.context}, which begins at {begin.line}:{begin.column})"
+    diagnostics.report("control.parameter-file", message, span)
 
 
 class _Reader:
-    def __init__(self, file: str, diagnostics: Diagnostics) -> None:
-        self._file = file
+    def __init__(self, diagnostics: Diagnostics) -> None:
         self._diagnostics = diagnostics
         self._sections: list[NodeSection] = []
 
-    def sections(self, root: yaml.Node) -> tuple[NodeSection, ...]:
-        if not isinstance(root, yaml.MappingNode):
+    def sections(self, root: YamlNode) -> tuple[NodeSection, ...]:
+        if not isinstance(root, YamlMapping):
             text = "a parameter file is a mapping of node names"
-            self._diagnostics.report("control.parameter-file", text, self._span(root))
+            self._diagnostics.report("control.parameter-file", text, root.span)
             return ()
         self._walk(root, "")
         if not self._sections:
             text = "the file has no 'ros__parameters'; it is read as ROS 1 wrote such files, real "
             text += "ROS 2 would refuse it (Cannot have a value before ros__parameters)"
             fix = "write: controller_name: / ros__parameters: / …"
-            self._diagnostics.report("control.no-ros-parameters", text, self._span(root), fix=fix)
+            self._diagnostics.report("control.no-ros-parameters", text, root.span, fix=fix)
             for key, value in self._pairs(root):
-                if isinstance(value, yaml.MappingNode):
-                    self._add(f"/{key.value}", value)
+                if isinstance(value, YamlMapping):
+                    self._add(f"/{key.text}", value)
         return tuple(self._sections)
 
-    def _walk(self, node: yaml.MappingNode, name: str) -> None:
+    def _walk(self, node: YamlMapping, name: str) -> None:
         for key, value in self._pairs(node):
-            if not isinstance(value, yaml.MappingNode):
+            if not isinstance(value, YamlMapping):
                 continue
-            if key.value == _MARK:
+            if key.text == _MARK:
                 self._add(name or "/**", value)
             else:
-                self._walk(value, f"{name}/{str(key.value).strip('/')}")
+                self._walk(value, f"{name}/{key.text.strip('/')}")
 
-    def _add(self, node: str, value: yaml.MappingNode) -> None:
+    def _add(self, node: str, value: YamlMapping) -> None:
         places: dict[str, SourceSpan] = {}
         values = self._mapping(value, "", places)
         self._sections.append(NodeSection(node, values, places))
 
     def _mapping(
-        self, node: yaml.MappingNode, prefix: str, places: dict[str, SourceSpan]
+        self, node: YamlMapping, prefix: str, places: dict[str, SourceSpan]
     ) -> dict[str, Any]:
         found: dict[str, Any] = {}
         for key, value in self._pairs(node):
-            name = f"{prefix}{key.value}"
-            places[name] = self._span(key)
-            if key.value in found:
+            name = f"{prefix}{key.text}"
+            places[name] = key.span
+            if key.text in found:
                 text = f"key '{name}' is there twice; the last one counts"
-                self._diagnostics.report("control.double-parameter", text, self._span(key))
-            if isinstance(value, yaml.MappingNode):
-                found[str(key.value)] = self._mapping(value, f"{name}.", places)
+                self._diagnostics.report("control.double-parameter", text, key.span)
+            if isinstance(value, YamlMapping):
+                found[key.text] = self._mapping(value, f"{name}.", places)
             else:
-                found[str(key.value)] = self._value(value)
+                found[key.text] = self._value(value)
         return found
 
-    def _pairs(self, node: yaml.MappingNode) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
+    def _pairs(self, node: YamlMapping) -> Iterator[tuple[YamlScalar, YamlNode]]:
         """Yield keys and values; what a parameter's name cannot be is reported."""
-        for key, value in node.value:
-            if isinstance(key, yaml.ScalarNode):
+        for key, value in node.pairs:
+            if isinstance(key, YamlScalar):
                 yield key, value
             else:
                 text = "a name of a parameter is a word, not a list or a mapping"
-                self._diagnostics.report("control.parameter-file", text, self._span(key))
+                self._diagnostics.report("control.parameter-file", text, key.span)
 
-    def _value(self, node: yaml.Node) -> Any:
-        if isinstance(node, yaml.SequenceNode):
-            return [self._value(item) for item in node.value]
-        if isinstance(node, yaml.ScalarNode) and node.style is None and _is_float(node):
-            return float(node.value)
-        constructor = LimitedLoader("")
+    def _value(self, node: YamlNode) -> Any:
+        if isinstance(node, YamlSequence):
+            return [self._value(item) for item in node.items]
         try:
-            return constructor.construct_object(node, deep=True)
-        except yaml.YAMLError as error:
+            return value_of(node, RCL)
+        except YamlError as error:
             text = f"this value cannot be read: {error}"
-            self._diagnostics.report("control.parameter-file", text, self._span(node))
+            self._diagnostics.report("control.parameter-file", text, node.span)
             return None
-
-    def _span(self, node: yaml.Node) -> SourceSpan:
-        return SourceSpan(self._file, node.start_mark.line + 1, node.start_mark.column + 1)
-
-
-def _is_float(node: yaml.ScalarNode) -> bool:
-    return node.tag == "tag:yaml.org,2002:str" and _FLOAT.fullmatch(node.value) is not None

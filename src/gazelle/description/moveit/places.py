@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml.loader import LimitedLoader
+from gazelle.documents.yaml import YamlError, YamlNode, entries
+from gazelle.documents.yaml import read_yaml as read_document
 
 __all__ = ["read_yaml"]
 
@@ -35,25 +34,20 @@ def read_yaml(
         diagnostics.report("moveit.bad-yaml", message, SourceSpan(str(file)))
         return {}, {}
     text = _substituted(text, file, arguments or {}, diagnostics)
+    document = read_document(text, str(file))
     try:
-        root = yaml.compose(text, Loader=LimitedLoader)
-        loader = LimitedLoader("")
-        value = None if root is None else loader.construct_document(root)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        span = SourceSpan(str(file), mark.line + 1, mark.column + 1) if mark else None
-        message = f"not YAML: {getattr(error, 'problem', None) or error}"
-        diagnostics.report("moveit.bad-yaml", message, span or SourceSpan(str(file)))
+        value = document.value
+    except YamlError as error:
+        problem = error.problem
+        diagnostics.report("moveit.bad-yaml", f"not YAML: {problem.what}", problem.span)
         return {}, {}
-    if root is None or value is None:
+    if document.root is None or value is None:
         return {}, {}
     if not isinstance(value, dict):
         message = "the file holds no mapping of names to values"
         diagnostics.report("moveit.bad-yaml", message, SourceSpan(str(file), 1, 1))
         return {}, {}
-    places: dict[tuple[str, ...], SourceSpan] = {}
-    _collect(root, (), places, str(file), diagnostics)
-    return value, places
+    return value, _places(document.root, diagnostics)
 
 
 def _substituted(
@@ -73,27 +67,11 @@ def _substituted(
     return _ARGUMENT.sub(value, text)
 
 
-def _collect(
-    node: yaml.Node,
-    path: tuple[str, ...],
-    places: dict[tuple[str, ...], SourceSpan],
-    file: str,
-    diagnostics: Diagnostics,
-) -> None:
-    if isinstance(node, yaml.SequenceNode):
-        for index, item in enumerate(node.value):
-            places[*path, str(index)] = _span(item, file)
-            _collect(item, (*path, str(index)), places, file, diagnostics)
-    if not isinstance(node, yaml.MappingNode):
-        return
-    for key, value in node.value:
-        name = (*path, str(key.value))
-        if name in places:
-            message = f"'{key.value}' is there twice; the last one counts"
-            diagnostics.report("moveit.double-key", message, _span(key, file))
-        places[name] = _span(key, file)
-        _collect(value, name, places, file, diagnostics)
-
-
-def _span(node: yaml.Node, file: str) -> SourceSpan:
-    return SourceSpan(file, node.start_mark.line + 1, node.start_mark.column + 1)
+def _places(root: YamlNode, diagnostics: Diagnostics) -> dict[tuple[str, ...], SourceSpan]:
+    places: dict[tuple[str, ...], SourceSpan] = {}
+    for path, key, value in entries(root, lists=True):
+        if path in places and key is not value:
+            message = f"'{key.text}' is there twice; the last one counts"
+            diagnostics.report("moveit.double-key", message, key.span)
+        places[path] = key.span
+    return places

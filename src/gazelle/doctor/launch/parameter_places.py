@@ -5,13 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
-
-import yaml
+from functools import reduce
 
 from gazelle.diagnostics import Diagnostic, SourceSpan
-from gazelle.documents import read_text_limited
-from gazelle.documents.yaml.loader import LimitedLoader
+from gazelle.documents.yaml import entries, read_yaml_file
 from gazelle.graph.names import resolve
 from gazelle.launch.config import LaunchConfig
 
@@ -39,19 +36,7 @@ def placed(item: Diagnostic, places: Mapping[str, SourceSpan]) -> Diagnostic:
 
 
 def _lines(file: str, target: str) -> Iterator[tuple[str, SourceSpan]]:
-    try:
-        root = yaml.compose(read_text_limited(Path(file)), Loader=LimitedLoader)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError):
-        return  # whoever loaded it has told why it cannot be read
-    if isinstance(root, yaml.MappingNode):
-        yield from _leaves(root, target or "/", file)
-
-
-def _leaves(node: yaml.MappingNode, name: str, file: str) -> Iterator[tuple[str, SourceSpan]]:
-    for key, value in node.value:
-        full = resolve(str(key.value), name)
-        mark = key.start_mark
-        length = len(str(key.value))
-        yield full, SourceSpan(file, mark.line + 1, mark.column + 1, length)
-        if isinstance(value, yaml.MappingNode):
-            yield from _leaves(value, full, file)
+    # Whoever loaded it has told why it cannot be read.
+    root = read_yaml_file(file).root
+    for path, key, _ in entries(root) if root is not None else ():
+        yield reduce(lambda above, name: resolve(name, above), path, target or "/"), key.span

@@ -7,8 +7,6 @@ import re
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 
-import yaml
-
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.records import (
@@ -21,7 +19,8 @@ from gazelle.doctor.launch_ros2.records import (
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
-from gazelle.doctor.parameters.document import Document, read_document
+from gazelle.doctor.parameters.document import read_document
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
 from gazelle.workspace import Workspace
 
 __all__ = ["read_xml_file", "read_yaml_file"]
@@ -56,36 +55,36 @@ def read_yaml_file(
     if document is None:
         return None
     inner = document.find("launch")
-    tag = Tag("launch", document.span(document.root), {}, _children(document, "launch", inner))
+    tag = Tag("launch", document.root.span, {}, _children("launch", inner))
     return _Reader(path, Substitutions(path, given, workspace)).read(tag)
 
 
-def _children(document: Document, name: str, node: yaml.Node | None) -> tuple[Tag, ...]:
+def _children(name: str, node: YamlNode | None) -> tuple[Tag, ...]:
     """Return the elements below a YAML node: ``- node: {pkg: …}`` is ``<node pkg="…"/>``."""
     found: list[Tag] = []
-    if isinstance(node, yaml.SequenceNode):
-        for item in node.value:
-            if isinstance(item, yaml.MappingNode) and len(item.value) == 1 and name in {
+    if isinstance(node, YamlSequence):
+        for item in node.items:
+            if isinstance(item, YamlMapping) and len(item.pairs) == 1 and name in {
                 "launch", "group",
             }:  # fmt: skip
-                key, value = item.value[0]
-                found.append(_element(document, str(key.value), key, value))
+                key, value = item.pairs[0]
+                found.append(_element(key.text, key, value))
             else:
-                found.append(_element(document, name, item, item))
+                found.append(_element(name, item, item))
     return tuple(found)
 
 
-def _element(document: Document, name: str, place: yaml.Node, node: yaml.Node) -> Tag:
+def _element(name: str, place: YamlNode, node: YamlNode) -> Tag:
     attributes: dict[str, str] = {}
     children: list[Tag] = []
-    if isinstance(node, yaml.SequenceNode):
-        children += _children(document, "group", node)
-    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
-        if isinstance(value, yaml.ScalarNode):
-            attributes[str(key.value)] = value.value
+    if isinstance(node, YamlSequence):
+        children += _children("group", node)
+    for key, value in node.pairs if isinstance(node, YamlMapping) else ():
+        if isinstance(value, YamlScalar):
+            attributes[key.text] = value.text
         else:
-            children += _children(document, str(key.value), value)
-    return Tag(name, document.span(place), attributes, tuple(children))
+            children += _children(key.text, value)
+    return Tag(name, place.span, attributes, tuple(children))
 
 
 class _Reader:

@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-import yaml
-
 from gazelle.control.controllers.registry import controller_class
 from gazelle.control.parameters import ControllerParameters, flattened, nested
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
 from gazelle.doctor.parameters.layouts import MARK, Layout
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
 
 __all__ = ["FoundController", "FoundControllers", "check_controllers", "controllers_in"]
 
@@ -38,7 +37,7 @@ class FoundController:
     type: str
     generation: int
     tree: Mapping[str, Any]
-    nodes: Mapping[str, tuple[yaml.Node, SourceSpan]] = field(repr=False)
+    nodes: Mapping[str, tuple[YamlNode, SourceSpan]] = field(repr=False)
     span: SourceSpan
 
 
@@ -111,7 +110,7 @@ class FoundControllers:
         return None if item is None else item.nodes.get(key, (None, item.span))[1]
 
 
-def _place(nodes: Mapping[str, tuple[yaml.Node, SourceSpan]], key: str) -> SourceSpan | None:
+def _place(nodes: Mapping[str, tuple[YamlNode, SourceSpan]], key: str) -> SourceSpan | None:
     return nodes[key][1] if key in nodes else None
 
 
@@ -121,70 +120,68 @@ def _full(prefix: str, key: str) -> str:
 
 def _of_ros2(document: Document) -> Iterator[FoundController]:
     sections = list(_sections(document.root, ""))
-    types: dict[str, tuple[str, yaml.Node]] = {}
+    types: dict[str, tuple[str, YamlNode]] = {}
     for node_name, section in sections:
-        for key, value in section.value:
+        for key, value in section.pairs:
             kind = _type_of(value)
             if kind is not None:
-                types.setdefault(str(key.value).strip("/"), (kind.value, kind))
+                types.setdefault(key.text.strip("/"), (kind.text, kind))
         own = _type_of(section)
         if own is not None and not node_name.endswith(_MANAGER):
-            types.setdefault(node_name.rpartition("/")[2], (own.value, own))
+            types.setdefault(node_name.rpartition("/")[2], (own.text, own))
     for name, (type_name, place) in types.items():
         tree: dict[str, Any] = {}
-        nodes: dict[str, tuple[yaml.Node, SourceSpan]] = {}
+        nodes: dict[str, tuple[YamlNode, SourceSpan]] = {}
         for node_name, section in sections:
             if node_name.rpartition("/")[2] == name:
                 tree.update(plain(section))
-                nodes.update(_leaves(document, section, ""))
+                nodes.update(_leaves(section, ""))
         tree.pop("type", None)
         kind_name = type_name.replace("::", "/")
-        yield FoundController(name, name, kind_name, 2, tree, nodes, document.span(place))
+        yield FoundController(name, name, kind_name, 2, tree, nodes, place.span)
 
 
 def _of_ros1(
-    document: Document, node: yaml.MappingNode, above: tuple[str, ...]
+    document: Document, node: YamlMapping, above: tuple[str, ...]
 ) -> Iterator[FoundController]:
     kind = _type_of(node)
-    if kind is not None and controller_class(kind.value) is not None:
+    if kind is not None and controller_class(kind.text) is not None:
         tree = dict(plain(node))
         tree.pop("type", None)
         name = above[-1] if above else document.file.stem
-        nodes = _leaves(document, node, "")
+        nodes = _leaves(node, "")
         full = "/" + "/".join(above)
-        yield FoundController(name, full, kind.value, 1, tree, nodes, document.span(kind))
+        yield FoundController(name, full, kind.text, 1, tree, nodes, kind.span)
         return
-    for key, value in node.value:
-        if isinstance(value, yaml.MappingNode):
-            yield from _of_ros1(document, value, (*above, *str(key.value).strip("/").split("/")))
+    for key, value in node.pairs:
+        if isinstance(value, YamlMapping):
+            yield from _of_ros1(document, value, (*above, *key.text.strip("/").split("/")))
 
 
-def _sections(node: yaml.MappingNode, name: str) -> Iterator[tuple[str, yaml.MappingNode]]:
-    for key, value in node.value:
-        if not isinstance(value, yaml.MappingNode):
+def _sections(node: YamlMapping, name: str) -> Iterator[tuple[str, YamlMapping]]:
+    for key, value in node.pairs:
+        if not isinstance(value, YamlMapping):
             continue
-        if key.value == MARK:
+        if key.text == MARK:
             yield name, value
         else:
-            yield from _sections(value, f"{name}/{str(key.value).strip('/')}")
+            yield from _sections(value, f"{name}/{key.text.strip('/')}")
 
 
-def _type_of(node: yaml.Node) -> yaml.ScalarNode | None:
+def _type_of(node: YamlNode) -> YamlScalar | None:
     """Return the ``type`` of a mapping, None when it has none that names a class."""
-    pairs = node.value if isinstance(node, yaml.MappingNode) else []
-    found = next((value for key, value in pairs if key.value == "type"), None)
-    is_class = isinstance(found, yaml.ScalarNode) and ("/" in found.value or "::" in found.value)
-    return found if is_class and isinstance(found, yaml.ScalarNode) else None
+    pairs = node.pairs if isinstance(node, YamlMapping) else ()
+    found = next((value for key, value in pairs if key.text == "type"), None)
+    is_class = isinstance(found, YamlScalar) and ("/" in found.text or "::" in found.text)
+    return found if is_class and isinstance(found, YamlScalar) else None
 
 
-def _leaves(
-    document: Document, node: yaml.Node, prefix: str
-) -> dict[str, tuple[yaml.Node, SourceSpan]]:
-    found: dict[str, tuple[yaml.Node, SourceSpan]] = {}
-    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
-        name = f"{prefix}{key.value}".replace("/", ".")
-        found[name] = (value, document.span(key))
-        found.update(_leaves(document, value, f"{name}."))
+def _leaves(node: YamlNode, prefix: str) -> dict[str, tuple[YamlNode, SourceSpan]]:
+    found: dict[str, tuple[YamlNode, SourceSpan]] = {}
+    for key, value in node.pairs if isinstance(node, YamlMapping) else ():
+        name = f"{prefix}{key.text}".replace("/", ".")
+        found[name] = (value, key.span)
+        found.update(_leaves(value, f"{name}."))
     return found
 
 
@@ -210,18 +207,17 @@ def _check_types(item: FoundController, diagnostics: Diagnostics) -> None:
         diagnostics.report("parameters.wrong-type", text, span, fix=f"write {fix}")
 
 
-def _given(node: yaml.Node) -> str:
+def _given(node: YamlNode) -> str:
     """Return ``integer``, ``double`` or ``integer_array`` of plain numbers, empty for others."""
-    if isinstance(node, yaml.SequenceNode):
-        inner = {_given(item) for item in node.value}
+    if isinstance(node, YamlSequence):
+        inner = {_given(item) for item in node.items}
         return "integer_array" if inner == {"integer"} else ""
-    if not isinstance(node, yaml.ScalarNode) or node.style is not None:
+    if not isinstance(node, YamlScalar) or not node.is_plain:
         return ""
-    tag = node.tag.rpartition(":")[2]
-    return {"int": "integer", "float": "double"}.get(tag, "")
+    return {"int": "integer", "float": "double"}.get(node.tag, "")
 
 
-def _shown(node: yaml.Node, *, with_point: bool = False) -> str:
-    if isinstance(node, yaml.SequenceNode):
-        return f"[{', '.join(_shown(item, with_point=with_point) for item in node.value)}]"
-    return f"{node.value.lstrip('0') or 0}.0" if with_point else str(node.value)
+def _shown(node: YamlNode, *, with_point: bool = False) -> str:
+    if isinstance(node, YamlSequence):
+        return f"[{', '.join(_shown(item, with_point=with_point) for item in node.items)}]"
+    return f"{node.text.lstrip('0') or 0}.0" if with_point else node.text

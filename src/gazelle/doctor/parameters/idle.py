@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
 from gazelle.doctor.parameters.layouts import MARK
+from gazelle.documents.yaml import YamlMapping, YamlNode
 from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
 
 __all__ = ["check_idle"]
@@ -28,30 +27,28 @@ def check_idle(document: Document, diagnostics: Diagnostics) -> None:
             continue
         for item in idle_parameters(node, found, 2):
             text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
-            diagnostics.report("navigation.idle-parameter", text, _span(document, values, item.key))
+            diagnostics.report("navigation.idle-parameter", text, _span(values, item.key))
 
 
-def _nodes(
-    node: yaml.MappingNode, above: tuple[str, ...]
-) -> Iterator[tuple[tuple[str, ...], yaml.Node]]:
-    for key, value in node.value:
-        if key.value == MARK and above:
+def _nodes(node: YamlMapping, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], YamlNode]]:
+    for key, value in node.pairs:
+        if key.text == MARK and above:
             yield above, value
-        elif isinstance(value, yaml.MappingNode):
-            yield from _nodes(value, (*above, str(key.value).strip("/")))
+        elif isinstance(value, YamlMapping):
+            yield from _nodes(value, (*above, key.text.strip("/")))
 
 
-def _span(document: Document, node: yaml.Node, name: str) -> SourceSpan:
+def _span(node: YamlNode, name: str) -> SourceSpan:
     """Return the place of a key; levels may be written as mappings or with dots."""
     place = node
     words = name.split(".")
-    while words and isinstance(node, yaml.MappingNode):
+    while words and isinstance(node, YamlMapping):
         for count in range(len(words), 0, -1):
             key = ".".join(words[:count])
-            pair = next((pair for pair in node.value if pair[0].value == key), None)
+            pair = node.pair(key)
             if pair is not None:
                 place, node, words = pair[0], pair[1], words[count:]
                 break
         else:
             break
-    return document.span(place)
+    return place.span

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import enum
 
-import yaml
-
 from gazelle.control.controllers.registry import known_types
 from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
 from gazelle.doctor.parameters.document import Document
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar
 
 __all__ = ["MARK", "Layout", "check_layout", "layout_of"]
 
@@ -60,12 +59,12 @@ def check_layout(
         diagnostics: receives the findings.
     """
     if layout is Layout.ROS2:
-        _check_mistyped(document, document.root, diagnostics)
-        _check_values_above(document, document.root, diagnostics)
+        _check_mistyped(document.root, diagnostics)
+        _check_values_above(document.root, diagnostics)
         if generation == 1:
             _report_ros2_in_ros1(document, diagnostics)
     elif generation == 2 and layout in {Layout.ROS1, Layout.OTHER}:
-        mistyped = _check_mistyped(document, document.root, diagnostics)
+        mistyped = _check_mistyped(document.root, diagnostics)
         if layout is Layout.ROS1 and not mistyped:
             _report_ros1_in_ros2(document, diagnostics)
 
@@ -75,32 +74,32 @@ def _report_ros2_in_ros1(document: Document, diagnostics: Diagnostics) -> None:
     text = f"the file has '{MARK}', as ROS 2 writes files; roslaunch would make it a part of the "
     text += f"names: /controller/{MARK}/type. Gazelle looks through it"
     fix = f"take the level {MARK} out for ROS 1"
-    diagnostics.report("parameters.ros2-layout", text, document.span(mark), fix=fix)
+    diagnostics.report("parameters.ros2-layout", text, mark.span, fix=fix)
 
 
 def _report_ros1_in_ros2(document: Document, diagnostics: Diagnostics) -> None:
-    key = document.root.value[0][0]
+    key = document.root.pairs[0][0]
     text = f"the file has no '{MARK}'; it is read as ROS 1 wrote such files, real ROS 2 would "
     text += "refuse it (Cannot have a value before ros__parameters)"
-    fix = f"write: {key.value}: / {MARK}: / …"
-    diagnostics.report("control.no-ros-parameters", text, document.span(key), fix=fix)
+    fix = f"write: {key.text}: / {MARK}: / …"
+    diagnostics.report("control.no-ros-parameters", text, key.span, fix=fix)
 
 
-def _check_mistyped(document: Document, node: yaml.MappingNode, diagnostics: Diagnostics) -> bool:
+def _check_mistyped(node: YamlMapping, diagnostics: Diagnostics) -> bool:
     """Report keys that were to be ``ros__parameters``; tell whether there is one."""
     found = False
-    for key, value in node.value:
-        if not isinstance(value, yaml.MappingNode) or key.value == MARK:
+    for key, value in node.pairs:
+        if not isinstance(value, YamlMapping) or key.text == MARK:
             continue
-        word = str(key.value)
+        word = key.text
         if _is_mistyped(word):
             text = f"'{word}' is no '{MARK}': two underscores behind ros, the parameters of the "
             text += "node are not seen (Cannot have a value before ros__parameters)"
             hint = did_you_mean(word, [MARK])
-            diagnostics.report("parameters.layout", text, document.span(key), fix=hint)
+            diagnostics.report("parameters.layout", text, key.span, fix=hint)
             found = True
         else:
-            found = _check_mistyped(document, value, diagnostics) or found
+            found = _check_mistyped(value, diagnostics) or found
     return found
 
 
@@ -109,50 +108,46 @@ def _is_mistyped(word: str) -> bool:
     return is_near and word != MARK
 
 
-def _check_values_above(
-    document: Document, node: yaml.MappingNode, diagnostics: Diagnostics
-) -> None:
+def _check_values_above(node: YamlMapping, diagnostics: Diagnostics) -> None:
     """Report values beside ``ros__parameters``, where only names of nodes can stand."""
-    names = [str(key.value) for key, _ in node.value]
-    for key, value in node.value:
-        if isinstance(value, yaml.MappingNode):
-            if key.value != MARK and not _is_mistyped(str(key.value)):
-                _check_values_above(document, value, diagnostics)
-        elif key.value == MARK:
-            _report_empty(document, key, value, diagnostics)
+    names = [key.text for key, _ in node.pairs]
+    for key, value in node.pairs:
+        if isinstance(value, YamlMapping):
+            if key.text != MARK and not _is_mistyped(key.text):
+                _check_values_above(value, diagnostics)
+        elif key.text == MARK:
+            _report_empty(key, value, diagnostics)
         else:
             place = "beside" if MARK in names else "above"
-            text = f"'{key.value}' stands {place} '{MARK}', where names of nodes are (Cannot have "
+            text = f"'{key.text}' stands {place} '{MARK}', where names of nodes are (Cannot have "
             text += "a value before ros__parameters); real ROS 2 refuses the whole file"
             fix = f"indent it below {MARK}:"
-            diagnostics.report("parameters.layout", text, document.span(key), fix=fix)
+            diagnostics.report("parameters.layout", text, key.span, fix=fix)
 
 
-def _report_empty(
-    document: Document, key: yaml.Node, value: yaml.Node, diagnostics: Diagnostics
-) -> None:
+def _report_empty(key: YamlNode, value: YamlNode, diagnostics: Diagnostics) -> None:
     text = f"'{MARK}' has nothing below it: real ROS 2 refuses the whole file (No value at line "
-    text += f"{key.start_mark.line + 1})"
-    if isinstance(value, yaml.ScalarNode) and value.value:
-        text = f"'{MARK}' has the value '{value.value}' and no parameters below it"
+    text += f"{key.span.line})"
+    if isinstance(value, YamlScalar) and value.text:
+        text = f"'{MARK}' has the value '{value.text}' and no parameters below it"
     fix = f"write {MARK}: {{}}, or leave the node out"
-    diagnostics.report("parameters.empty", text, document.span(key), fix=fix)
+    diagnostics.report("parameters.empty", text, key.span, fix=fix)
 
 
-def _marks(node: yaml.Node) -> list[yaml.Node]:
-    found: list[yaml.Node] = []
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            found += [key] if key.value == MARK else _marks(value)
+def _marks(node: YamlNode) -> list[YamlNode]:
+    found: list[YamlNode] = []
+    if isinstance(node, YamlMapping):
+        for key, value in node.pairs:
+            found += [key] if key.text == MARK else _marks(value)
     return found
 
 
-def _has_controllers(node: yaml.Node) -> bool:
-    if not isinstance(node, yaml.MappingNode):
+def _has_controllers(node: YamlNode) -> bool:
+    if not isinstance(node, YamlMapping):
         return False
-    for key, value in node.value:
-        if key.value == "type" and isinstance(value, yaml.ScalarNode):
-            if value.value.replace("::", "/") in known_types():
+    for key, value in node.pairs:
+        if key.text == "type" and isinstance(value, YamlScalar):
+            if value.text.replace("::", "/") in known_types():
                 return True
         elif _has_controllers(value):
             return True

@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.control.checks import (
     ConfiguredController,
     MoveItController,
@@ -155,18 +153,18 @@ def _check_moveit(
         for name in names if node is not None else ():
             if name not in joints and node is not None:
                 text = f"'{key}' names joint '{name}', the robot has none of that name"
-                span = document.span(document.key(node, name))
+                span = document.key(node, name).span
                 hint = did_you_mean(name, joints)
                 diagnostics.report("parameters.moveit-name", text, span, fix=hint)
     groups = [name for root in srdfs for name in group_names(root)]
-    for key, value in document.root.value:
-        inner = value if isinstance(value, yaml.MappingNode) else None
-        is_group = "kinematics_solver" in document.keys(inner) if inner is not None else False
-        if is_group and groups and key.value not in groups:
-            text = f"kinematics for group '{key.value}', the SRDF has none of that name (No "
-            text += f"kinematics solver instantiated for group '{key.value}')"
-            hint = did_you_mean(str(key.value), groups)
-            diagnostics.report("parameters.moveit-name", text, document.span(key), fix=hint)
+    for place, value in document.root.pairs:
+        name = place.text
+        is_group = "kinematics_solver" in document.keys(value)
+        if is_group and groups and name not in groups:
+            text = f"kinematics for group '{name}', the SRDF has none of that name (No "
+            text += f"kinematics solver instantiated for group '{name}')"
+            hint = did_you_mean(name, groups)
+            diagnostics.report("parameters.moveit-name", text, place.span, fix=hint)
 
 
 def _rows(

@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.parameters.document import Document, scalars
 from gazelle.doctor.parameters.layouts import MARK, Layout
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
 
 _MARK = "ros__parameters"
 _ADDED_UP = "rcl adds the two up, programs in Python see the last one only"
@@ -20,7 +19,8 @@ __all__ = ["check_values"]
 _ROS1_FLAGS = re.compile(r"(?i:yes|no|on|off|true|false)")
 _ROS2_FLAGS = re.compile(r"[YyNn]|(?i:yes|no|on|off|true|false)")
 _PLAIN_FLAGS = re.compile(r"(?i:true|false)")
-_OCTAL = re.compile(r"[-+]?0\d+")
+# Longer ones are no numbers that somebody meant to be octal or not.
+_OCTAL = re.compile(r"[-+]?0\d{1,20}")
 _BASE_60 = re.compile(r"[-+]?[1-9]\d*(?::[0-5]?\d)+(?:\.\d*)?")
 _NO_POINT = re.compile(r"[-+]?(?:\d+[eE][-+]?\d+|\d*\.?\d+[eE]\d+)")
 _NAME_KEY = re.compile(r"(?:^|_)(?:joints?|links?|frames?|names?|axes|axis|tip|root|group)(?:_|$)")
@@ -46,158 +46,147 @@ def check_values(
     """
     if layout is Layout.MAP:
         return
-    _check_doubles(document, document.root, diagnostics, adds_up=layout is Layout.ROS2)
+    _check_doubles(document.root, diagnostics, adds_up=layout is Layout.ROS2)
     for key, node, inside in scalars(document.root):
-        if node.style is not None or "$(" in node.value:
+        if not node.is_plain or "$(" in node.text:
             continue
-        _check_flag(document, key, node, inside, generation, joints, diagnostics)
-        _check_number(document, key, node, generation, diagnostics)
+        _check_flag(key, node, inside, generation, joints, diagnostics)
+        _check_number(key, node, generation, diagnostics)
         # MoveIt's planners take their parameters as texts.
         if generation == 1 and layout is not Layout.MOVEIT:
-            _check_point(document, key, node, layout, diagnostics)
+            _check_point(key, node, layout, diagnostics)
     if layout is Layout.ROS2 and generation == 2:
-        _check_lists(document, document.root, diagnostics, is_inside=False)
+        _check_lists(document.root, diagnostics, is_inside=False)
     if generation == 1:
-        _check_keys(document, document.root, diagnostics)
+        _check_keys(document.root, diagnostics)
 
 
 def _check_flag(
-    document: Document,
     key: str,
-    node: yaml.ScalarNode,
-    inside: yaml.Node,
+    node: YamlScalar,
+    inside: YamlNode,
     generation: int,
     joints: Collection[str],
     diagnostics: Diagnostics,
 ) -> None:
     """Report words such as ``y`` and ``on`` where a name is meant."""
     flags = _ROS1_FLAGS if generation == 1 else _ROS2_FLAGS
-    if not flags.fullmatch(node.value) or _PLAIN_FLAGS.fullmatch(node.value):
+    if not flags.fullmatch(node.text) or _PLAIN_FLAGS.fullmatch(node.text):
         return
-    is_name = node.value in joints or _NAME_KEY.search(key.lower()) is not None
-    if isinstance(inside, yaml.SequenceNode):
-        others = [item for item in inside.value if isinstance(item, yaml.ScalarNode)]
-        is_name = is_name or not all(flags.fullmatch(item.value) for item in others)
+    is_name = node.text in joints or _NAME_KEY.search(key.lower()) is not None
+    if isinstance(inside, YamlSequence):
+        others = [item for item in inside.items if isinstance(item, YamlScalar)]
+        is_name = is_name or not all(flags.fullmatch(item.text) for item in others)
     if not is_name:
         return
     reader = "roslaunch" if generation == 1 else "ROS 2"
-    outcome = "true" if node.value[0].lower() == "y" or node.value.lower() == "on" else "false"
-    text = f"{reader} reads {node.value} of '{key}' as {outcome}, not as a name"
-    if generation == 2 and isinstance(inside, yaml.SequenceNode):
+    outcome = "true" if node.text[0].lower() == "y" or node.text.lower() == "on" else "false"
+    text = f"{reader} reads {node.text} of '{key}' as {outcome}, not as a name"
+    if generation == 2 and isinstance(inside, YamlSequence):
         text += " (Sequence should be of same type. Value type 'bool' do not belong at line_num "
-        text += f"{node.start_mark.line + 1})"
-    fix = f"write '{node.value}' with quotes"
-    diagnostics.report("parameters.word-as-flag", text, document.span(node), fix=fix)
+        text += f"{node.span.line})"
+    fix = f"write '{node.text}' with quotes"
+    diagnostics.report("parameters.word-as-flag", text, node.span, fix=fix)
 
 
-def _check_number(
-    document: Document, key: str, node: yaml.ScalarNode, generation: int, diagnostics: Diagnostics
-) -> None:
+def _check_number(key: str, node: YamlScalar, generation: int, diagnostics: Diagnostics) -> None:
     text, fix = "", ""
-    if _OCTAL.fullmatch(node.value) and not re.search("[89]", node.value):
-        read = int(node.value, 8)
-        if str(read) != node.value.lstrip("+").lstrip("0") and read:
-            text = f"{node.value} of '{key}' is read as {read}: a number with a 0 in front is octal"
-            fix = f"write {node.value.lstrip('0')}, or '{node.value}' for a text"
-    elif generation == 1 and _BASE_60.fullmatch(node.value):
-        text = f"{node.value} of '{key}' is read as a number to the base 60 by roslaunch"
-        fix = f"write '{node.value}' with quotes"
+    if _OCTAL.fullmatch(node.text) and not re.search("[89]", node.text):
+        read = int(node.text, 8)
+        if str(read) != node.text.lstrip("+").lstrip("0") and read:
+            text = f"{node.text} of '{key}' is read as {read}: a number with a 0 in front is octal"
+            fix = f"write {node.text.lstrip('0')}, or '{node.text}' for a text"
+    elif generation == 1 and _BASE_60.fullmatch(node.text):
+        text = f"{node.text} of '{key}' is read as a number to the base 60 by roslaunch"
+        fix = f"write '{node.text}' with quotes"
     if text:
-        diagnostics.report("parameters.number-form", text, document.span(node), fix=fix)
+        diagnostics.report("parameters.number-form", text, node.span, fix=fix)
 
 
-def _check_point(
-    document: Document, key: str, node: yaml.ScalarNode, layout: Layout, diagnostics: Diagnostics
-) -> None:
+def _check_point(key: str, node: YamlScalar, layout: Layout, diagnostics: Diagnostics) -> None:
     """Report numbers such as 1e-3, which YAML 1.1 takes for a text."""
-    if not _NO_POINT.fullmatch(node.value) or node.tag != "tag:yaml.org,2002:str":
+    if not _NO_POINT.fullmatch(node.text) or node.tag != "str":
         return
-    value = float(node.value)
-    text = f"'{key}' is the text '{node.value}' for roslaunch and no number: YAML 1.1 wants a point"
+    value = float(node.text)
+    text = f"'{key}' is the text '{node.text}' for roslaunch and no number: YAML 1.1 wants a point"
     text += " and a sign, as in 1.0e-3; nodes that ask for a number do not get it"
     fix = f"write {value!r}" if "e" not in repr(value) else f"write {value:.1e}"
     # What the node of such a file does with a text is not known.
     severity = Severity.WARNING if layout is Layout.ROS1 else Severity.INFO
-    span = document.span(node)
-    diagnostics.report("control.number-as-text", text, span, fix=fix, severity=severity)
+    diagnostics.report("control.number-as-text", text, node.span, fix=fix, severity=severity)
 
 
-def _check_doubles(
-    document: Document, node: yaml.Node, diagnostics: Diagnostics, *, adds_up: bool = False
-) -> None:
+def _check_doubles(node: YamlNode, diagnostics: Diagnostics, *, adds_up: bool = False) -> None:
     """Report keys that a mapping has twice.
 
     rcl adds the parameters of a node up when its name comes twice (``find_node`` of its YAML
     parser): only what stands below ``ros__parameters`` is replaced.
     """
-    if isinstance(node, yaml.SequenceNode):
-        for item in node.value:
-            _check_doubles(document, item, diagnostics)
-    if not isinstance(node, yaml.MappingNode):
+    if isinstance(node, YamlSequence):
+        for item in node.items:
+            _check_doubles(item, diagnostics)
+    if not isinstance(node, YamlMapping):
         return
-    first: dict[str, yaml.Node] = {}
-    for key, value in node.value:
-        name = str(key.value)
+    first: dict[str, YamlNode] = {}
+    for key, value in node.pairs:
+        name = key.text
         is_above = adds_up and name != _MARK
-        _check_doubles(document, value, diagnostics, adds_up=is_above)
+        _check_doubles(value, diagnostics, adds_up=is_above)
         if name in first and name != "<<":
-            line = first[name].start_mark.line + 1
+            line = first[name].span.line
             text = f"key '{name}' is there twice, first in line {line}; "
             text += _ADDED_UP if is_above else "the last one counts"
             severity = Severity.INFO if is_above else None
-            span = document.span(key)
-            diagnostics.report("control.double-parameter", text, span, severity=severity)
+            diagnostics.report("control.double-parameter", text, key.span, severity=severity)
         first.setdefault(name, key)
 
 
-def _check_keys(document: Document, node: yaml.Node, diagnostics: Diagnostics) -> None:
+def _check_keys(node: YamlNode, diagnostics: Diagnostics) -> None:
     """Report keys that PyYAML reads as something else than a text."""
-    if not isinstance(node, yaml.MappingNode):
+    if not isinstance(node, YamlMapping):
         return
-    for key, value in node.value:
-        _check_keys(document, value, diagnostics)
-        if isinstance(key, yaml.ScalarNode) and key.style is None and _is_odd(key.value):
-            text = f"the key {key.value} is no text for roslaunch, but "
+    for key, value in node.pairs:
+        _check_keys(value, diagnostics)
+        if isinstance(key, YamlScalar) and key.is_plain and _is_odd(key.text):
+            text = f"the key {key.text} is no text for roslaunch, but "
             text += "a truth value; parameters have names (dictionary key must be string)"
-            fix = f"write '{key.value}': with quotes"
-            diagnostics.report("parameters.word-as-flag", text, document.span(key), fix=fix)
+            fix = f"write '{key.text}': with quotes"
+            diagnostics.report("parameters.word-as-flag", text, key.span, fix=fix)
 
 
 def _is_odd(word: str) -> bool:
     return _ROS1_FLAGS.fullmatch(word) is not None
 
 
-def _check_lists(
-    document: Document, node: yaml.Node, diagnostics: Diagnostics, *, is_inside: bool
-) -> None:
+def _check_lists(node: YamlNode, diagnostics: Diagnostics, *, is_inside: bool) -> None:
     """Report lists of several types, which parameters of ROS 2 cannot be."""
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            inside = is_inside or key.value == MARK
-            _check_lists(document, value, diagnostics, is_inside=inside)
+    if isinstance(node, YamlMapping):
+        for key, value in node.pairs:
+            inside = is_inside or key.text == MARK
+            _check_lists(value, diagnostics, is_inside=inside)
         return
-    if not is_inside or not isinstance(node, yaml.SequenceNode):
+    if not is_inside or not isinstance(node, YamlSequence):
         return
-    kinds = [_kind(item) for item in node.value]
+    kinds = [_kind(item) for item in node.items]
     known = [kind for kind in kinds if kind]
     odd = next((place for place, kind in enumerate(kinds) if kind and kind != known[0]), None)
     if odd is None or kinds[odd] == "bool":
         return
-    item = node.value[odd]
+    item = node.items[odd]
     text = f"a list of {known[0]}s has a value of type {kinds[odd]} (Sequence should be of same "
-    text += f"type. Value type '{kinds[odd]}' do not belong at line_num {item.start_mark.line + 1})"
+    text += f"type. Value type '{kinds[odd]}' do not belong at line_num {item.span.line})"
     fix = "write all numbers with a point: 1.0" if "double" in kinds else "use one type"
-    diagnostics.report("parameters.mixed-list", text, document.span(item), fix=fix)
+    diagnostics.report("parameters.mixed-list", text, item.span, fix=fix)
 
 
-def _kind(node: yaml.Node) -> str:
+def _kind(node: YamlNode) -> str:
     """Return a value's type as ROS 2's parser sees it; empty for what is no plain value."""
-    if not isinstance(node, yaml.ScalarNode) or "$(" in node.value:
+    if not isinstance(node, YamlScalar) or "$(" in node.text:
         return ""
-    if node.style is not None:
+    if not node.is_plain:
         return "string"
-    if _ROS2_FLAGS.fullmatch(node.value):
+    if _ROS2_FLAGS.fullmatch(node.text):
         return "bool"
-    if _NO_POINT.fullmatch(node.value):
+    if _NO_POINT.fullmatch(node.text):
         return "double"
-    return _KINDS.get(node.tag.rpartition(":")[2], "string")
+    return _KINDS.get(node.tag, "string")

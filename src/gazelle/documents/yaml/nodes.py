@@ -21,8 +21,6 @@ __all__ = [
     "node_of",
 ]
 
-_STR = "tag:yaml.org,2002:str"
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlScalar:
@@ -31,14 +29,15 @@ class YamlScalar:
     Attributes:
         text: without quotes.
         is_plain: it has no quotes and is no block.
-        is_str: YAML 1.1 (or the dialect it was read by) takes it for a text.
+        tag: what YAML 1.1 (or the dialect it was read by) takes it for: ``str``, ``int``,
+            ``float``, ``bool``, ``null``, …
         span: where it stands; its length is 0 when it has several lines.
         composed: PyYAML's node.
     """
 
     text: str
     is_plain: bool
-    is_str: bool
+    tag: str
     span: SourceSpan
     composed: yaml.Node = field(repr=False)
 
@@ -82,13 +81,9 @@ class YamlMapping:
         """The mapping as it is written."""
         return _written(self.composed)
 
-    def get(self, name: str) -> YamlNode | None:
-        """Return the value of the first key of this text; None without one."""
-        return next((value for key, value in self.pairs if key.text == name), None)
-
-    def key(self, name: str) -> YamlNode | None:
-        """Return the first key of this text; None without one."""
-        return next((key for key, _ in self.pairs if key.text == name), None)
+    def pair(self, name: str) -> tuple[YamlNode, YamlNode] | None:
+        """Return the first key of this text and its value; None without one."""
+        return next((pair for pair in self.pairs if pair[0].text == name), None)
 
 
 YamlNode = YamlScalar | YamlSequence | YamlMapping
@@ -159,7 +154,11 @@ def _converted(node: yaml.Node, file: str, known: dict[int, YamlNode]) -> YamlNo
         found = YamlSequence(tuple(_converted(i, file, known) for i in node.value), span, node)
     else:
         found = YamlScalar(
-            node.value, getattr(node, "style", None) is None, node.tag == _STR, span, node
+            node.value,
+            getattr(node, "style", None) is None,
+            node.tag.rpartition(":")[2],
+            span,
+            node,
         )
     known[id(node)] = found
     return found
