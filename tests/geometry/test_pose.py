@@ -7,7 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_from_rpy, rpy_from_quat_xyzw
+from gazelle.geometry import (
+    IDENTITY_POSE,
+    Pose,
+    quat_xyzw_about_axis,
+    quat_xyzw_from_rpy,
+    quat_xyzw_from_yaw,
+    rpy_from_quat_xyzw,
+    unit_quat_xyzw,
+    yaw_from_quat_xyzw,
+)
 
 ANGLE = st.floats(-3.1, 3.1)
 PITCH = st.floats(-1.5, 1.5)
@@ -77,3 +86,29 @@ def test_quarter_turns_survive_the_matrix(axis):
     rpy = tuple(math.pi if i == axis else 0.0 for i in range(3))
     pose = Pose.from_xyz_rpy((0, 0, 0), rpy)
     assert near(Pose.from_matrix(pose.matrix()), pose)
+
+
+@given(ANGLE)
+def test_a_yaw_is_the_turn_about_z(yaw: float):
+    quat = quat_xyzw_from_yaw(yaw)
+    assert quat == pytest.approx(quat_xyzw_from_rpy((0.0, 0.0, yaw)))
+    assert quat == pytest.approx(quat_xyzw_about_axis((0.0, 0.0, 1.0), yaw))
+    assert yaw_from_quat_xyzw(quat) == pytest.approx(yaw)
+
+
+@given(ANGLE, PITCH, ANGLE)
+def test_the_yaw_of_a_quaternion_is_that_of_its_three_angles(roll: float, pitch: float, yaw: float):
+    quat = quat_xyzw_from_rpy((roll, pitch, yaw))
+    assert yaw_from_quat_xyzw(quat) == pytest.approx(rpy_from_quat_xyzw(quat)[2])
+
+
+@given(LENGTH, LENGTH, ANGLE)
+def test_a_pose_of_the_ground_plane_is_seen_from_above_as_it_was_made(
+    x: float, y: float, yaw: float
+):
+    assert Pose.from_xy_yaw(x, y, yaw).xy_yaw == pytest.approx((x, y, yaw))
+
+
+def test_a_quaternion_is_brought_to_length_one_and_zeros_to_no_turn():
+    assert unit_quat_xyzw((0.0, 0.0, 3.0, 4.0)) == (0.0, 0.0, 0.6, 0.8)
+    assert Pose((1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 0.0)).normalised() == Pose((1.0, 2.0, 3.0))

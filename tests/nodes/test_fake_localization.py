@@ -11,7 +11,8 @@ import pytest
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
-from gazelle.nodes.navigation.frames import Frames, fill_pose, pose_of_message
+from gazelle.interfaces.poses import set_pose, unit_pose_of
+from gazelle.nodes.navigation.frames import Frames
 
 _ODOMETRY = "nav_msgs/msg/Odometry"
 _POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
@@ -25,7 +26,7 @@ def _plane(x: float, y: float, yaw: float = 0.0) -> Pose:
 def _truth(pose: Pose, second: int) -> Any:
     message = message_type(_ODOMETRY)()
     message.header.stamp.sec = second
-    fill_pose(message.pose.pose, pose)
+    set_pose(message.pose.pose, pose)
     return message
 
 
@@ -50,7 +51,7 @@ def test_the_true_pose_is_amcls_and_map_to_odometry_follows(bench: Any) -> None:
     bench.eventually(arrived)
     expected = _plane(-1.0, 0.0, -0.5) @ true
     np.testing.assert_allclose(
-        pose_of_message(poses[0].pose.pose).matrix(), expected.matrix(), atol=1e-9
+        unit_pose_of(poses[0].pose.pose).matrix(), expected.matrix(), atol=1e-9
     )
     assert (poses[0].header.frame_id, poses[0].header.stamp.sec) == ("/map", 10)
     assert len(clouds[0].poses) == 1
@@ -78,7 +79,7 @@ def test_an_initial_pose_moves_the_map_under_the_robot(bench: Any) -> None:
     bench.eventually(located)
     wanted = message_type(_POSE)()
     wanted.header.frame_id = "map"
-    fill_pose(wanted.pose.pose, _plane(5.0, 6.0))
+    set_pose(wanted.pose.pose, _plane(5.0, 6.0))
 
     def moved() -> bool:
         # The node has a buffer of its own, which may not know the map's frame yet.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-__all__ = ["header", "message_class", "stamp", "stamped"]
+from gazelle.interfaces.stamps import stamp_message
 
-_NS_PER_S = 1_000_000_000
+__all__ = ["header", "message_class", "stamped"]
 
 
 @cache
@@ -18,15 +18,9 @@ def message_class(name: str) -> Any:
     return message_type(name)
 
 
-def stamp(time_ns: int) -> Any:
-    """Return simulated time as ``builtin_interfaces/Time``."""
-    seconds, rest = divmod(time_ns, _NS_PER_S)
-    return message_class("builtin_interfaces/Time")(sec=seconds, nanosec=rest)
-
-
 def header(time_ns: int, frame_id: str = "") -> Any:
     """Return a ``std_msgs/Header``."""
-    return message_class("std_msgs/Header")(stamp=stamp(time_ns), frame_id=frame_id)
+    return message_class("std_msgs/Header")(stamp=stamp_message(time_ns), frame_id=frame_id)
 
 
 def stamped(name: str, time_ns: int, frame_id: str = "") -> Any:

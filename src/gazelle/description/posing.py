@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 
 from gazelle.description.model import Frame, Joint, JointAxis, JointType, Link, Model
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_about_axis
 
 __all__ = ["movable_joints", "posed_model"]
 
@@ -105,8 +104,7 @@ def _motion(joint: Joint, position: float) -> Pose:
 
 def _step(joint: Joint, axis: JointAxis, position: float) -> Pose:
     x, y, z = axis.xyz
-    sine, cosine = math.sin(position / 2), math.cos(position / 2)
-    turn = (x * sine, y * sine, z * sine, cosine)
+    turn = quat_xyzw_about_axis(axis.xyz, position)
     if joint.type in _TURNING:
         return Pose((0.0, 0.0, 0.0), turn)
     if joint.type is JointType.SCREW:

@@ -30,7 +30,18 @@ from gazelle.geometry.mesh_mass import (
     mesh_mass_properties,
     mesh_volume_m3,
 )
-from gazelle.geometry.pose import IDENTITY_POSE, Pose, quat_xyzw_from_rpy, rpy_from_quat_xyzw
+from gazelle.geometry.pose import (
+    IDENTITY_POSE,
+    Pose,
+    QuatXyzw,
+    Vector3,
+    quat_xyzw_about_axis,
+    quat_xyzw_from_rpy,
+    quat_xyzw_from_yaw,
+    rpy_from_quat_xyzw,
+    unit_quat_xyzw,
+    yaw_from_quat_xyzw,
+)
 from gazelle.geometry.primitives import (
     box_mesh,
     capsule_mesh,
@@ -71,6 +82,8 @@ __all__ = [
     "MeshNote",
     "MeshPart",
     "Pose",
+    "QuatXyzw",
+    "Vector3",
     "announce",
     "announcing",
     "box_mass_properties",
@@ -106,12 +119,16 @@ __all__ = [
     "mesh_volume_m3",
     "plane_mesh",
     "polyline_mesh",
+    "quat_xyzw_about_axis",
     "quat_xyzw_from_rpy",
+    "quat_xyzw_from_yaw",
     "rod_mass_properties",
     "rpy_from_quat_xyzw",
     "semicylinder_mass_properties",
     "sphere_mass_properties",
     "sphere_mesh",
     "spherical_shell_mass_properties",
+    "unit_quat_xyzw",
     "without_splitting",
+    "yaw_from_quat_xyzw",
 ]

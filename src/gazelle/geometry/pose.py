@@ -8,7 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["IDENTITY_POSE", "Pose", "quat_xyzw_from_rpy", "rpy_from_quat_xyzw"]
+__all__ = [
+    "IDENTITY_POSE",
+    "Pose",
+    "QuatXyzw",
+    "Vector3",
+    "quat_xyzw_about_axis",
+    "quat_xyzw_from_rpy",
+    "quat_xyzw_from_yaw",
+    "rpy_from_quat_xyzw",
+    "unit_quat_xyzw",
+    "yaw_from_quat_xyzw",
+]
 
 Vector3 = tuple[float, float, float]
 QuatXyzw = tuple[float, float, float, float]
@@ -32,6 +43,11 @@ class Pose:
         return cls(xyz_m, quat_xyzw_from_rpy(rpy_rad))
 
     @classmethod
+    def from_xy_yaw(cls, x_m: float, y_m: float, yaw_rad: float) -> Pose:
+        """Build from a place in the ground plane, metres, and a direction in radians."""
+        return cls((x_m, y_m, 0.0), quat_xyzw_from_yaw(yaw_rad))
+
+    @classmethod
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
         """Build from a 4×4 (or 3×4) homogeneous matrix."""
         position = tuple(float(value) for value in matrix[:3, 3])
@@ -41,7 +57,11 @@ class Pose:
         """Compose: ``T_a_c = T_a_b @ T_b_c``."""
         turned = _rotate(self.quat_xyzw, other.position_m)
         x, y, z = (a + b for a, b in zip(self.position_m, turned, strict=True))
-        return Pose((x, y, z), _normalised(_multiply(self.quat_xyzw, other.quat_xyzw)))
+        return Pose((x, y, z), unit_quat_xyzw(_multiply(self.quat_xyzw, other.quat_xyzw)))
+
+    def normalised(self) -> Pose:
+        """Return it with a unit quaternion: see `unit_quat_xyzw`."""
+        return Pose(self.position_m, unit_quat_xyzw(self.quat_xyzw))
 
     def inverse(self) -> Pose:
         """Return ``T_b_a``."""
@@ -75,6 +95,12 @@ class Pose:
         return rpy_from_quat_xyzw(self.quat_xyzw)
 
     @property
+    def xy_yaw(self) -> Vector3:
+        """The pose seen from above: x and y in metres, yaw in radians."""
+        x, y, _ = self.position_m
+        return float(x), float(y), yaw_from_quat_xyzw(self.quat_xyzw)
+
+    @property
     def quat_wxyz(self) -> QuatXyzw:
         """The quaternion scalar first, as MuJoCo wants it."""
         x, y, z, w = self.quat_xyzw
@@ -97,13 +123,37 @@ def quat_xyzw_from_rpy(rpy_rad: Vector3) -> QuatXyzw:
     )
 
 
+def quat_xyzw_from_yaw(yaw_rad: float) -> QuatXyzw:
+    """Return the quaternion of a turn about z."""
+    return (0.0, 0.0, math.sin(yaw_rad / 2), math.cos(yaw_rad / 2))
+
+
+def quat_xyzw_about_axis(axis: Vector3, angle_rad: float) -> QuatXyzw:
+    """Return the quaternion of a turn about an axis of length 1."""
+    x, y, z = axis
+    sine = math.sin(angle_rad / 2)
+    return (x * sine, y * sine, z * sine, math.cos(angle_rad / 2))
+
+
 def rpy_from_quat_xyzw(quat_xyzw: QuatXyzw) -> Vector3:
     """Return fixed-axis roll, pitch, yaw in radians; pitch is clamped at the poles."""
-    x, y, z, w = _normalised(quat_xyzw)
+    x, y, z, w = unit_quat_xyzw(quat_xyzw)
     roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return (roll, pitch, yaw)
+    return (roll, pitch, yaw_from_quat_xyzw((x, y, z, w)))
+
+
+def yaw_from_quat_xyzw(quat_xyzw: QuatXyzw) -> float:
+    """Return the turn about z of a unit quaternion in radians, as `rpy_from_quat_xyzw` has it."""
+    x, y, z, w = quat_xyzw
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def unit_quat_xyzw(quat_xyzw: QuatXyzw) -> QuatXyzw:
+    """Return a quaternion at length 1; no turn for one of zeros, as messages are made with."""
+    x, y, z, w = quat_xyzw
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    return (x / norm, y / norm, z / norm, w / norm) if norm > 0 else (0.0, 0.0, 0.0, 1.0)
 
 
 def _multiply(a: QuatXyzw, b: QuatXyzw) -> QuatXyzw:
@@ -128,12 +178,6 @@ def _rotate(quat: QuatXyzw, vector: Vector3) -> Vector3:
     )
 
 
-def _normalised(quat: QuatXyzw) -> QuatXyzw:
-    x, y, z, w = quat
-    norm = math.sqrt(x * x + y * y + z * z + w * w)
-    return (x / norm, y / norm, z / norm, w / norm) if norm > 0 else (0.0, 0.0, 0.0, 1.0)
-
-
 def _quat_from_rotation(rotation: NDArray[np.float64]) -> QuatXyzw:
     """Shepperd's method: divide by the largest component."""
     m = rotation.tolist()
@@ -141,10 +185,10 @@ def _quat_from_rotation(rotation: NDArray[np.float64]) -> QuatXyzw:
     if trace > 0:
         s = 2 * math.sqrt(trace + 1)
         quat = ((m[2][1] - m[1][2]) / s, (m[0][2] - m[2][0]) / s, (m[1][0] - m[0][1]) / s, s / 4)
-        return _normalised(quat)
+        return unit_quat_xyzw(quat)
     i = max(range(3), key=lambda axis: float(m[axis][axis]))
     j, k = (i + 1) % 3, (i + 2) % 3
     s = 2 * math.sqrt(1 + m[i][i] - m[j][j] - m[k][k])
     parts = [0.0, 0.0, 0.0, (m[k][j] - m[j][k]) / s]
     parts[i], parts[j], parts[k] = s / 4, (m[j][i] + m[i][j]) / s, (m[k][i] + m[i][k]) / s
-    return _normalised((parts[0], parts[1], parts[2], parts[3]))
+    return unit_quat_xyzw((parts[0], parts[1], parts[2], parts[3]))

@@ -15,6 +15,7 @@ from gazelle.graph.clock_sharing import ClockFinder
 from gazelle.graph.clock_waits import Waits
 from gazelle.graph.errors import TimeJumpError
 from gazelle.graph.wire import resolve_type
+from gazelle.interfaces.stamps import ns_of
 
 if TYPE_CHECKING:
     from gazelle.graph.clock_page import PageView
@@ -263,7 +264,7 @@ class Clock:
 
     def _on_clock(self, message: Any) -> None:
         stamp = message.clock
-        now_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        now_ns = ns_of(stamp)
         with self._lock:
             if self._page is not None:
                 # It was on its way when the page was found.

@@ -18,6 +18,7 @@ from gazelle.graph.parameters import ParameterStore
 from gazelle.graph.publisher import Publisher
 from gazelle.graph.service import ServiceClient, ServiceServer
 from gazelle.graph.subscription import Subscription
+from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph.clock import Clock
@@ -339,7 +340,7 @@ class Node:
         assert self._rosout is not None
         message = self._rosout.message_class()
         stamp_ns = record.wall_ns if record.sim_ns is None else record.sim_ns
-        message.stamp.sec, message.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+        set_stamp(message.stamp, stamp_ns)
         message.level = _WIRE_LEVELS[record.level]
         message.name = record.node
         message.msg = record.text

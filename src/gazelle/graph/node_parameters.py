@@ -15,6 +15,7 @@ from gazelle.graph.parameter_values import (
     value_from_message,
     value_message,
 )
+from gazelle.interfaces.stamps import set_stamp
 
 __all__ = ["Descriptor", "NodeParameters"]
 
@@ -259,7 +260,7 @@ class NodeParameters:
         if not values:
             return
         event = _message("ParameterEvent")(node=self.node_name)
-        event.stamp.sec, event.stamp.nanosec = divmod(self._now_ns(), 1_000_000_000)
+        set_stamp(event.stamp, self._now_ns())
         rows = [
             _message("Parameter")(name=name, value=value_message(value, for_writing=True))
             for name, value in values.items()

@@ -13,6 +13,7 @@ from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, Node
 from gazelle.graph.world import is_loading
 from gazelle.interfaces import message_type, ros1_service_type, service_type
+from gazelle.interfaces.stamps import set_stamp
 
 __all__ = ["ManagerClient"]
 
@@ -238,13 +239,13 @@ class ManagerClient:
                 "timeout": switch_timeout_s,
             }
         else:
-            seconds, nanoseconds = divmod(round(switch_timeout_s * 1e9), 1_000_000_000)
-            duration = message_type("builtin_interfaces/Duration")
+            timeout = message_type("builtin_interfaces/Duration")()
+            set_stamp(timeout, round(switch_timeout_s * 1e9))
             fields = {
                 "activate_controllers": list(start),
                 "deactivate_controllers": list(stop),
                 "activate_asap": asap,
-                "timeout": duration(sec=seconds, nanosec=nanoseconds),
+                "timeout": timeout,
             }
         return self.call(
             "switch_controller",

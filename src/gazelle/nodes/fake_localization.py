@@ -20,8 +20,10 @@ from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import MessageFilter, StampedPose, TransformBroadcaster, TransformError
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_pose, unit_pose_of
+from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.navigation.frames import Frames, fill_pose, pose_of_message, stamp_ns_of
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.parameters import private, private_number, start_node
 
 __all__ = ["run"]
@@ -77,7 +79,7 @@ class _FakeLocalization:
                 self._publish(one, T_odom_base)
 
     def _placed(self, message: Any) -> tuple[Any, Pose]:
-        buffer, stamp_ns = self._frames.buffer, stamp_ns_of(message)
+        buffer, stamp_ns = self._frames.buffer, ns_of(message.header.stamp)
         return message, buffer.lookup_transform(self._odom, self._base, stamp_ns).pose
 
     def _tell(self, _message: Any, why: TransformError) -> None:
@@ -85,13 +87,13 @@ class _FakeLocalization:
         self._frames.say("error", text, key="odometry")
 
     def _publish(self, message: Any, T_odom_base: Pose) -> None:
-        T_map_base = self._T_map_world @ pose_of_message(message.pose.pose)
-        stamp_ns = stamp_ns_of(message) + self._ahead_ns
+        T_map_base = self._T_map_world @ unit_pose_of(message.pose.pose)
+        stamp_ns = ns_of(message.header.stamp) + self._ahead_ns
         T_map_odom = T_map_base @ T_odom_base.inverse()
         self._tf.send(StampedPose(self._map, self._odom, stamp_ns, T_map_odom))
         pose: Any = message_type(_POSE)()
         pose.header.stamp, pose.header.frame_id = message.header.stamp, self._shown_frame
-        fill_pose(pose.pose.pose, T_map_base)
+        set_pose(pose.pose.pose, T_map_base)
         self._poses.publish(pose)
         cloud: Any = message_type("geometry_msgs/msg/PoseArray")()
         cloud.header, cloud.poses = pose.header, [pose.pose.pose]
@@ -107,5 +109,5 @@ class _FakeLocalization:
             self._frames.say("warn", f"Failed to lookup transform! ({T_base_map})")
             return
         with self._lock:
-            moved = pose_of_message(message.pose.pose) @ T_base_map
+            moved = unit_pose_of(message.pose.pose) @ T_base_map
             self._T_map_world = moved @ self._T_map_world

@@ -23,6 +23,8 @@ from typing import Any
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_transform
+from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, private_number, start_node
 from gazelle.nodes.tree import (
@@ -111,7 +113,7 @@ class StateToTf:
     def moving(self, message: Any) -> list[Any]:
         """Return the transforms that a JointState is due for; empty when it comes too soon."""
         stamp = message.header.stamp
-        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        stamp_ns = ns_of(stamp)
         if stamp_ns < self._latest_ns:
             # Time has jumped back: a bag started again, or the simulation was reset.
             self._last_ns.clear()
@@ -134,11 +136,9 @@ class StateToTf:
     def _transform(self, item: TreeJoint, pose: Pose, stamp_ns: int) -> Any:
         message = self._type()
         message.header.frame_id = self._frame(item.joint.parent)
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+        set_stamp(message.header.stamp, stamp_ns)
         message.child_frame_id = self._frame(item.joint.child)
-        translation, rotation = message.transform.translation, message.transform.rotation
-        translation.x, translation.y, translation.z = pose.position_m
-        rotation.x, rotation.y, rotation.z, rotation.w = pose.quat_xyzw
+        set_transform(message.transform, pose)
         return message
 
     def _frame(self, name: str) -> str:
@@ -162,7 +162,7 @@ def _connect(node: Node, states: StateToTf, use_tf_static: bool, begin_ns: int) 
         transforms = states.moving(message)
         if transforms and static is None:
             stamp = message.header.stamp
-            transforms += states.fixed(stamp.sec * 1_000_000_000 + stamp.nanosec)
+            transforms += states.fixed(ns_of(stamp))
         if transforms:
             tf.publish(tf_message(transforms=transforms))
 

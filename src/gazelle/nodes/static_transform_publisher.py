@@ -13,6 +13,8 @@ from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_transform
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node, ticks
 
@@ -145,11 +147,7 @@ def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
 
 def _message(transform: StaticTransform, stamp_ns: int) -> Any:
     message: Any = message_type("geometry_msgs/msg/TransformStamped")()
-    message.header.frame_id = transform.frame_id.lstrip("/")
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    set_header(message, stamp_ns, transform.frame_id.lstrip("/"))
     message.child_frame_id = transform.child_frame_id.lstrip("/")
-    translation, rotation = message.transform.translation, message.transform.rotation
-    translation.x, translation.y, translation.z = transform.T_parent_child.position_m
-    quat = transform.T_parent_child.quat_xyzw
-    rotation.x, rotation.y, rotation.z, rotation.w = quat
+    set_transform(message.transform, transform.T_parent_child)
     return message

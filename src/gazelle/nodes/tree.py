@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_about_axis
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
 
@@ -62,9 +61,7 @@ class TreeJoint:
         """Return the child link's pose in the parent link at a joint position (rad or m)."""
         axis = self.joint.axis.xyz if self.joint.axis is not None else (1.0, 0.0, 0.0)
         if self.joint.type in _TURNING:
-            half = position / 2
-            x, y, z = (part * math.sin(half) for part in axis)
-            return self.T_parent_joint @ Pose((0.0, 0.0, 0.0), (x, y, z, math.cos(half)))
+            return self.T_parent_joint @ Pose(quat_xyzw=quat_xyzw_about_axis(axis, position))
         if self.joint.type is JointType.PRISMATIC:
             x, y, z = (part * position for part in axis)
             return self.T_parent_joint @ Pose((x, y, z))

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import pose_of
+from gazelle.interfaces.stamps import stamp_message
 
 __all__ = [
     "header",
@@ -16,15 +18,12 @@ __all__ = [
     "pose_from_message",
     "pose_message",
     "service_class",
-    "stamp",
     "transform_stamped",
     "twist_message",
     "vector_message",
 ]
 
 Vector = tuple[float, ...] | NDArray[np.floating[Any]]
-
-NS_PER_S = 1_000_000_000
 
 
 @cache
@@ -43,15 +42,9 @@ def service_class(name: str) -> Any:
     return service_type(name)
 
 
-def stamp(time_ns: int) -> Any:
-    """Return simulated time as ``builtin_interfaces/Time``."""
-    seconds, rest = divmod(time_ns, NS_PER_S)
-    return message_class("builtin_interfaces/Time")(sec=seconds, nanosec=rest)
-
-
 def header(time_ns: int, frame_id: str) -> Any:
     """Return a ``std_msgs/Header``."""
-    return message_class("std_msgs/Header")(stamp=stamp(time_ns), frame_id=frame_id)
+    return message_class("std_msgs/Header")(stamp=stamp_message(time_ns), frame_id=frame_id)
 
 
 def vector_message(xyz: Vector) -> Any:
@@ -86,10 +79,7 @@ def transform_stamped(time_ns: int, parent: str, child: str, T_parent_child: Pos
 
 def pose_from_message(message: Any) -> Pose:
     """Read a ``geometry_msgs/Pose``; a quaternion of zeros, as unset messages have, is identity."""
-    p, q = message.position, message.orientation
-    norm = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w) ** 0.5
-    quat = (q.x / norm, q.y / norm, q.z / norm, q.w / norm) if norm > 0 else (0.0, 0.0, 0.0, 1.0)
-    return Pose((float(p.x), float(p.y), float(p.z)), quat)
+    return pose_of(message).normalised()
 
 
 def _point(xyz: Vector) -> Any:

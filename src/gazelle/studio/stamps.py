@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["seconds", "stamp_s"]
+from gazelle.interfaces.stamps import seconds_of
 
-
-def seconds(stamp: Any) -> float:
-    """Return a time of a message in seconds."""
-    return float(stamp.sec + stamp.nanosec * 1e-9)
+__all__ = ["stamp_s"]
 
 
 def stamp_s(message: Any, arrived_s: float) -> float:
@@ -17,5 +14,5 @@ def stamp_s(message: Any, arrived_s: float) -> float:
     header = getattr(message, "header", None)
     stamp = getattr(header, "stamp", None)
     if stamp is not None and (stamp.sec or stamp.nanosec):
-        return seconds(stamp)
+        return seconds_of(stamp)
     return arrived_s

@@ -13,6 +13,7 @@ from typing import Any
 from gazelle.graph import Entity, Graph, Kind, Node, Publisher, ServiceClient
 from gazelle.graph.keys import ANY_TYPE
 from gazelle.interfaces import fill, service_type
+from gazelle.interfaces.stamps import seconds_of
 from gazelle.testing.messages import Messages
 from gazelle.testing.own_graph import open_graph
 from gazelle.testing.process_tree import ProcessTree, launch_environment
@@ -256,7 +257,7 @@ class _ClockReading:
         node.create_subscription(_CLOCK, "rosgraph_msgs/msg/Clock", self._take, queue_size=1)
 
     def _take(self, message: Any) -> None:
-        self.time_s = message.clock.sec + message.clock.nanosec * 1e-9
+        self.time_s = seconds_of(message.clock)
         self._waiting.wake()
 
 

@@ -16,8 +16,9 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.navigation.assembling import assemble
-from gazelle.nodes.navigation.frames import Frames, set_stamp
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 
@@ -87,7 +88,7 @@ def test_scan_ahead_of_tf_waits_for_it_and_nothing_is_said(graph: Graph) -> None
     now_ns = node.clock.now_ns()
     # Ahead of this node's clock, too.
     ahead_ns = now_ns + 1_000_000_000
-    set_stamp(scan, ahead_ns, "base")
+    set_header(scan, ahead_ns, "base")
 
     def reach(stamp_ns: int) -> None:
         tf.send(StampedPose("odom", "base", stamp_ns, Pose((0.0, 0.0, 0.0))))

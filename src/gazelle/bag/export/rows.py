@@ -10,6 +10,7 @@ import numpy as np
 from gazelle.bag.records import BagMessage, Connection, Encoding
 from gazelle.bag.types import message_class
 from gazelle.interfaces import Duration, Time, from_cdr, from_ros1
+from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["columns_of", "reader_of", "row_of"]
 
@@ -58,7 +59,7 @@ def _flatten(name: str, value: Any, row: dict[str, Any]) -> None:
     else:
         fields = [item.name for item in type(value).FIELDS]
         if fields == ["sec", "nanosec"]:
-            row[name] = value.sec + value.nanosec / 1e9
+            row[name] = seconds_of(value)
             return
         for field in fields:
             own = getattr(value, field, None)

@@ -17,6 +17,7 @@ from gazelle.bag.types import wire_name_of
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 
 __all__ = ["PlayOptions", "Player"]
 
@@ -161,7 +162,7 @@ class Player:
             near = stamp_ns < due_ns < stamp_ns + 2 * period_ns
             self._clock_ns = due_ns if near else stamp_ns + period_ns
             message = self._clock.message_class()
-            message.clock.sec, message.clock.nanosec = divmod(stamp_ns, 1_000_000_000)
+            set_stamp(message.clock, stamp_ns)
             self._clock.publish(message)
 
     def _wait_for(self, stamp_ns: int) -> bool:

@@ -12,6 +12,7 @@ from gazelle.cli.gz.world_link import WorldLink, pose_line, world_link
 from gazelle.documents import read_text_limited
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_of, set_pose
 
 __all__ = ["COMMAND", "run"]
 
@@ -124,8 +125,7 @@ def _pose_fields(pose: Any) -> dict[str, Any]:
 
 
 def _xyz_rpy(message: Any) -> tuple[float, ...]:
-    place, turn = message.position, message.orientation
-    pose = Pose((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    pose = pose_of(message)
     return (*pose.position_m, *pose.rpy_rad)
 
 
@@ -133,7 +133,5 @@ def _pose_of(xyz_rpy: tuple[float, ...]) -> Any:
     x, y, z, roll, pitch, yaw = xyz_rpy
     pose = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
     message = message_type("geometry_msgs/Pose")()
-    message.position.x, message.position.y, message.position.z = pose.position_m
-    turn = message.orientation
-    turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
+    set_pose(message, pose)
     return message

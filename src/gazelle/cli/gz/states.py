@@ -14,9 +14,9 @@ from gazelle.bag import BagError, Encoding, learn_definitions, open_bag, ros1_na
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import pose_line
-from gazelle.geometry import Pose
 from gazelle.graph.world import world_names
 from gazelle.interfaces import from_cdr, from_ros1, ros1_message_type
+from gazelle.interfaces.poses import pose_of
 
 __all__ = ["LINK_STATES", "MODEL_STATES", "STATE_TOPICS", "Filter", "state_texts"]
 
@@ -113,8 +113,7 @@ def _links(model: str, links: Mapping[str, _Body], wanted: Filter) -> Iterable[s
 
 
 def _pose(message: Any) -> str:
-    place, turn = message.position, message.orientation
-    pose = Pose((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    pose = pose_of(message)
     return pose_line((*pose.position_m, *pose.rpy_rad))
 
 

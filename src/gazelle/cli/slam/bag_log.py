@@ -9,11 +9,12 @@ from typing import Any
 from gazelle.bag import Connection, converter, learn_definitions, open_bag, wire_name_of
 from gazelle.bag.records import BagReader, Encoding
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.geometry import Pose
 from gazelle.graph.tf import TransformBuffer
 from gazelle.interfaces import from_cdr, message_type
+from gazelle.interfaces.poses import pose_of, pose_of_transform
+from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.logs import LogRecord
-from gazelle.nodes.slam.scan_messages import ScanQueue, stamp_ns_of
+from gazelle.nodes.slam.scan_messages import ScanQueue
 
 __all__ = ["read_bag_log"]
 
@@ -130,19 +131,14 @@ def _learn(
     if wire_name_of(connection) != _ODOMETRY:
         static = connection.topic.endswith("tf_static")
         for one in record.transforms:
-            move, turn = one.transform.translation, one.transform.rotation
-            pose = Pose((move.x, move.y, move.z), (turn.x, turn.y, turn.z, turn.w))
             buffer.set_transform(
-                one.header.frame_id, one.child_frame_id, stamp_ns_of(one), pose,
-                authority="tf", is_static=static,
+                one.header.frame_id, one.child_frame_id, ns_of(one.header.stamp),
+                pose_of_transform(one.transform), authority="tf", is_static=static,
             )  # fmt: skip
         return
     known = {frame.name: frame for frame in buffer.frames()}
     child = str(record.child_frame_id).removeprefix("/") or frames[1]
     if child in known and known[child].authority == "tf":
         return
-    move, turn = record.pose.pose.position, record.pose.pose.orientation
-    pose = Pose((move.x, move.y, move.z), (turn.x, turn.y, turn.z, turn.w))
-    buffer.set_transform(
-        record.header.frame_id or frames[0], child, stamp_ns_of(record), pose, authority="odometry"
-    )
+    parent, stamp_ns = record.header.frame_id or frames[0], ns_of(record.header.stamp)
+    buffer.set_transform(parent, child, stamp_ns, pose_of(record.pose.pose), authority="odometry")

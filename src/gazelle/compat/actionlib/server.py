@@ -15,7 +15,6 @@ from gazelle.graph.actions import GoalStateError, ServerGoal, action_types
 
 __all__ = ["ActionServer", "ServerGoalHandle", "nop_cb"]
 
-_NANO = 1_000_000_000
 _UNINITIALISED = "Attempt to set status on an uninitialized ServerGoalHandle"
 
 
@@ -75,8 +74,7 @@ class ServerGoalHandle:
         if self.impl is None:
             logerr("Attempt to get a goal id on an uninitialized ServerGoalHandle")
             return GoalID()
-        seconds, rest = divmod(self.impl.stamp_ns, _NANO)
-        return GoalID(stamp=Time(seconds, rest), id=self.impl.goal_id)
+        return GoalID(stamp=Time(nsecs=self.impl.stamp_ns), id=self.impl.goal_id)
 
     def get_goal_status(self) -> Any:
         """Return the goal's status message."""

@@ -194,7 +194,7 @@ class Bag:
             if connection.id not in readers:
                 readers[connection.id] = _raw_reader(connection) if raw else _reader(connection)
             message = readers[connection.id](data)
-            stamp = Time(*divmod(stamp_ns, _NANO))
+            stamp = Time(nsecs=stamp_ns)
             if return_connection_header:
                 header = _header(connection)
                 yield BagMessageWithConnectionHeader(connection.topic, message, stamp, header)

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.compat.clouds.layout import cloud_points, packed
-from gazelle.compat.tf.conversions import pose_of
 from gazelle.compat.tf.interface import TransformRegistration
 from gazelle.interfaces import message_type, ros1_message_type
+from gazelle.interfaces.poses import pose_of_transform
 
 __all__ = ["do_transform_cloud", "register"]
 
@@ -27,7 +27,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
             f"the cloud has no x, y and z; it has {', '.join(points.dtype.names or ())}"
         )
     old = np.stack([points[name].astype(float) for name in "xyz"], axis=-1)
-    new = pose_of(transform.transform).transform(old)
+    new = pose_of_transform(transform.transform).transform(old)
     for place, name in enumerate("xyz"):
         points[name] = new[..., place]
     found = copy.copy(cloud)

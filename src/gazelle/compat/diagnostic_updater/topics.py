@@ -12,6 +12,7 @@ from gazelle.compat.diagnostic_updater.rates import (
 )
 from gazelle.compat.diagnostic_updater.status import IS_ROS1
 from gazelle.compat.diagnostic_updater.tasks import CompositeDiagnosticTask
+from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["DiagnosedPublisher", "HeaderlessTopicDiagnostic", "TopicDiagnostic"]
 
@@ -64,6 +65,6 @@ class DiagnosedPublisher(TopicDiagnostic):
         """Count a message and publish it."""
         stamp = message.header.stamp
         if not IS_ROS1:
-            stamp = stamp.sec + stamp.nanosec * 1e-9
+            stamp = seconds_of(stamp)
         self.tick(stamp)
         self.publisher.publish(message)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import total_ordering
 from typing import Any
 
-from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import ns_of, set_stamp
 
 __all__ = ["Duration", "DurationType", "Infinite"]
 
@@ -38,7 +38,7 @@ class Duration:
     @classmethod
     def from_msg(cls, msg: Any) -> Duration:
         """Return the duration of a message."""
-        return cls(nanoseconds=stamp_ns(msg))
+        return cls(nanoseconds=ns_of(msg))
 
     def __repr__(self) -> str:
         return f"Duration(nanoseconds={self._nanoseconds})"

@@ -7,8 +7,8 @@ from functools import total_ordering
 from typing import Any
 
 from gazelle.compat.rclpy.duration import S_TO_NS, Duration
-from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import ns_of, set_stamp
 
 __all__ = ["CONVERSION_CONSTANT", "ClockType", "Time"]
 
@@ -68,7 +68,7 @@ class Time:
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
         """Return the time of a message."""
-        return cls(nanoseconds=stamp_ns(msg), clock_type=clock_type)
+        return cls(nanoseconds=ns_of(msg), clock_type=clock_type)
 
     def __repr__(self) -> str:
         return f"Time(nanoseconds={self._nanoseconds}, clock_type={self._clock_type.name})"

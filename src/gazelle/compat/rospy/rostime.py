@@ -66,8 +66,7 @@ def get_rostime() -> Time:
     """
     if STATE.node is None:
         raise ROSInitException("time is not initialized. Have you called init_node()?")
-    seconds, nanoseconds = divmod(STATE.node.clock.now_ns(), 1_000_000_000)
-    return Time(seconds, nanoseconds)
+    return Time(nsecs=STATE.node.clock.now_ns())
 
 
 def get_time() -> float:
@@ -149,7 +148,7 @@ class Rate:
                 raise
             self.last_time = get_rostime()
             return
-        self.last_time = Time(*_split(self.last_time.to_nsec() + self.sleep_dur.to_nsec()))
+        self.last_time = Time(nsecs=self.last_time.to_nsec() + self.sleep_dur.to_nsec())
         # A loop that takes longer than two periods does not try to catch up.
         if now.to_nsec() - self.last_time.to_nsec() > self.sleep_dur.to_nsec() * 2:
             self.last_time = now
@@ -158,7 +157,7 @@ class Rate:
         if self.last_time > now:
             self.last_time = Time(now.secs, now.nsecs)
         elapsed_ns = now.to_nsec() - self.last_time.to_nsec()
-        return Duration(*_split(self.sleep_dur.to_nsec() - elapsed_ns))
+        return Duration(nsecs=self.sleep_dur.to_nsec() - elapsed_ns)
 
 
 class TimerEvent:
@@ -237,7 +236,3 @@ class Timer(threading.Thread):
             last_duration = wall_time.monotonic() - start
             last_expected, last_real = expected, real
             expected = expected + self._period
-
-
-def _split(total_ns: int) -> tuple[int, int]:
-    return divmod(total_ns, 1_000_000_000)

@@ -8,10 +8,11 @@ from typing import Any
 
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.tf.conversions import generation, nanoseconds, pose_of, stamped, time_of
+from gazelle.compat.tf.conversions import generation, nanoseconds, stamped, time_of
 from gazelle.compat.tf.errors import TransformException, as_tf2_error
 from gazelle.compat.tf.interface import BufferInterface
 from gazelle.graph import tf as graph_tf
+from gazelle.interfaces.poses import pose_of_transform
 
 __all__ = ["Buffer"]
 
@@ -197,7 +198,7 @@ class Buffer(BufferInterface):
             transform.header.frame_id,
             transform.child_frame_id,
             nanoseconds(transform.header.stamp),
-            pose_of(transform.transform),
+            pose_of_transform(transform.transform),
             authority=authority,
             is_static=is_static,
         )

@@ -7,12 +7,12 @@ from typing import Any, Literal
 
 from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
-from gazelle.geometry import Pose
 from gazelle.graph import tf as graph_tf
-from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.interfaces import message_type, ros1_message_type
+from gazelle.interfaces.poses import set_transform
+from gazelle.interfaces.stamps import ns_of, set_stamp
 
-__all__ = ["generation", "nanoseconds", "pose_of", "stamped", "time_of"]
+__all__ = ["generation", "nanoseconds", "stamped", "time_of"]
 
 Generation = Literal[1, 2]
 
@@ -30,7 +30,7 @@ def nanoseconds(value: Any) -> int:
         return int(value.to_nsec())
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
-    return stamp_ns(value) if hasattr(value, "nanosec") else int(float(value) * 1e9)
+    return ns_of(value) if hasattr(value, "nanosec") else int(float(value) * 1e9)
 
 
 def stamped(found: graph_tf.StampedPose, made_for: Generation = 1) -> Any:
@@ -40,26 +40,18 @@ def stamped(found: graph_tf.StampedPose, made_for: Generation = 1) -> Any:
     message.header.frame_id = found.frame_id
     message.child_frame_id = found.child_frame_id
     if made_for == 1:
-        message.header.stamp = Time(*divmod(found.stamp_ns, 1_000_000_000))
+        message.header.stamp = Time(nsecs=found.stamp_ns)
     else:
         set_stamp(message.header.stamp, found.stamp_ns)
-    move, turn = message.transform.translation, message.transform.rotation
-    move.x, move.y, move.z = found.pose.position_m
-    turn.x, turn.y, turn.z, turn.w = found.pose.quat_xyzw
+    set_transform(message.transform, found.pose)
     return message
 
 
 def time_of(stamp: int, made_for: Generation) -> Any:
     """Return a time in nanoseconds as rospy's or rclpy's class."""
     if made_for == 1:
-        return Time(*divmod(stamp, 1_000_000_000))
+        return Time(nsecs=stamp)
     from gazelle.compat.rclpy.time import ClockType
     from gazelle.compat.rclpy.time import Time as Rclpy
 
     return Rclpy(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
-
-
-def pose_of(transform: Any) -> Pose:
-    """Return the pose of a ``geometry_msgs/Transform``."""
-    move, turn = transform.translation, transform.rotation
-    return Pose((move.x, move.y, move.z), (turn.x, turn.y, turn.z, turn.w))

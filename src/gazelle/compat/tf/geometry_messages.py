@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.compat.tf.conversions import pose_of
 from gazelle.compat.tf.interface import TransformRegistration
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type, ros1_message_type
+from gazelle.interfaces.poses import pose_of, pose_of_transform, set_pose, set_xyz, xyz_of
 
 __all__ = [
     "do_transform_point",
@@ -27,15 +27,15 @@ __all__ = [
 def do_transform_point(point: Any, transform: Any) -> Any:
     """Return a ``PointStamped`` in the transform's frame."""
     found = _copied(point, transform)
-    pose = pose_of(transform.transform) @ Pose((point.point.x, point.point.y, point.point.z))
-    found.point.x, found.point.y, found.point.z = pose.position_m
+    pose = pose_of_transform(transform.transform) @ Pose(xyz_of(point.point))
+    set_xyz(found.point, pose.position_m)
     return found
 
 
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
     """Return a ``Vector3Stamped``, turned and not moved."""
     found = _copied(vector3, transform)
-    _rotate(found.vector, pose_of(transform.transform))
+    _rotate(found.vector, pose_of_transform(transform.transform))
     return found
 
 
@@ -60,7 +60,7 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
     found = _copied(pose, transform)
     _move(found.pose.pose, transform)
     turn = np.zeros((6, 6))
-    turn[:3, :3] = turn[3:, 3:] = pose_of(transform.transform).matrix()[:3, :3]
+    turn[:3, :3] = turn[3:, 3:] = pose_of_transform(transform.transform).matrix()[:3, :3]
     covariance = np.array(pose.pose.covariance, float).reshape(6, 6)
     found.pose.covariance = (turn @ covariance @ turn.T).ravel().tolist()
     return found
@@ -69,7 +69,7 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
     """Return a ``WrenchStamped``, force and torque turned."""
     found = _copied(wrench, transform)
-    pose = pose_of(transform.transform)
+    pose = pose_of_transform(transform.transform)
     _rotate(found.wrench.force, pose)
     _rotate(found.wrench.torque, pose)
     return found
@@ -99,12 +99,8 @@ def _copied(message: Any, transform: Any) -> Any:
 
 
 def _move(pose: Any, transform: Any) -> None:
-    at, turn = pose.position, pose.orientation
-    inner = Pose((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
-    result = pose_of(transform.transform) @ inner
-    at.x, at.y, at.z = result.position_m
-    turn.x, turn.y, turn.z, turn.w = result.quat_xyzw
+    set_pose(pose, pose_of_transform(transform.transform) @ pose_of(pose))
 
 
 def _rotate(vector: Any, pose: Pose) -> None:
-    vector.x, vector.y, vector.z = pose.rotate((vector.x, vector.y, vector.z))
+    set_xyz(vector, pose.rotate(xyz_of(vector)))

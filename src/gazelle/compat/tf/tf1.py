@@ -19,6 +19,7 @@ from gazelle.compat.tf.geometry_messages import (
 from gazelle.geometry import Pose
 from gazelle.graph import tf as graph_tf
 from gazelle.interfaces import ros1_message_type
+from gazelle.interfaces.poses import pose_of_transform, quat_xyzw_of, set_quat_xyzw, xyz_of
 
 __all__ = [
     "ConnectivityException",
@@ -64,7 +65,7 @@ class Transformer:
             LookupException, ConnectivityException, ExtrapolationException: it is not known.
         """
         found = self._buffer.lookup_transform(_bare(target_frame), _bare(source_frame), time)
-        pose = tf2_ros.pose_of(found.transform)
+        pose = pose_of_transform(found.transform)
         return pose.position_m, pose.quat_xyzw
 
     def lookupTransformFull(
@@ -83,7 +84,7 @@ class Transformer:
         found = self._buffer.lookup_transform_full(
             _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         )
-        pose = tf2_ros.pose_of(found.transform)
+        pose = pose_of_transform(found.transform)
         return pose.position_m, pose.quat_xyzw
 
     def canTransform(self, target_frame: str, source_frame: str, time: Any) -> bool:
@@ -232,19 +233,17 @@ class TransformerROS(Transformer):
     def transformQuaternion(self, target_frame: str, ps: Any) -> Any:
         """Return a ``QuaternionStamped`` in another frame."""
         found = self._found(target_frame, ps)
-        turn = ps.quaternion
-        own = Pose((0.0, 0.0, 0.0), (turn.x, turn.y, turn.z, turn.w))
-        pose = tf2_ros.pose_of(found.transform) @ own
+        own = Pose(quat_xyzw=quat_xyzw_of(ps.quaternion))
+        pose = pose_of_transform(found.transform) @ own
         result = type(ps)()
         result.header.stamp, result.header.frame_id = ps.header.stamp, target_frame
-        onto = result.quaternion
-        onto.x, onto.y, onto.z, onto.w = pose.quat_xyzw
+        set_quat_xyzw(result.quaternion, pose.quat_xyzw)
         return result
 
     def transformPointCloud(self, target_frame: str, point_cloud: Any) -> Any:
         """Return a ``PointCloud`` in another frame; its channels go with it."""
         found = self._found(target_frame, point_cloud)
-        pose = tf2_ros.pose_of(found.transform)
+        pose = pose_of_transform(found.transform)
         result = type(point_cloud)(channels=point_cloud.channels)
         result.header.stamp = point_cloud.header.stamp
         result.header.frame_id = target_frame
@@ -296,12 +295,12 @@ def strip_leading_slash(s: str) -> str:
 
 def xyz_to_mat44(pos: Any) -> NDArray[np.float64]:
     """Return the 4×4 matrix of a ``Point`` or ``Vector3``."""
-    return _pose((pos.x, pos.y, pos.z), (0.0, 0.0, 0.0, 1.0)).matrix()
+    return Pose(xyz_of(pos)).matrix()
 
 
 def xyzw_to_mat44(ori: Any) -> NDArray[np.float64]:
     """Return the 4×4 matrix of a ``Quaternion``."""
-    return _pose((0.0, 0.0, 0.0), (ori.x, ori.y, ori.z, ori.w)).matrix()
+    return Pose(quat_xyzw=quat_xyzw_of(ori)).matrix()
 
 
 _bare = strip_leading_slash

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.compat.tf.buffer import Buffer
-from gazelle.compat.tf.conversions import nanoseconds, pose_of, stamped
+from gazelle.compat.tf.conversions import nanoseconds, stamped
 from gazelle.compat.tf.endpoints import (
     StaticTransformBroadcaster,
     TransformBroadcaster,
@@ -48,7 +48,6 @@ __all__ = [
     "as_tf2_error",
     "convert",
     "nanoseconds",
-    "pose_of",
     "stamped",
 ]
 

@@ -10,13 +10,12 @@ from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import (
     POSE_INTERFACES,
-    point,
-    quaternion,
     sensor_places,
-    vector,
 )
 from gazelle.control.messages import message_class, stamped
 from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.geometry import Pose
+from gazelle.interfaces.poses import set_pose, set_transform
 
 __all__ = ["PoseBroadcaster"]
 
@@ -76,8 +75,7 @@ class PoseBroadcaster(Controller):
         values = self.robot.bank.states[self._places]
         if self._publisher.matched:
             message = stamped("geometry_msgs/PoseStamped", time_ns, self._frame_id)
-            message.pose.position = point(values[:3])
-            message.pose.orientation = quaternion(values[3:])
+            set_pose(message.pose, _pose(values))
             self._publisher.publish(message)
         if not _is_valid(values):
             self._complain(time_ns, values)
@@ -89,8 +87,7 @@ class PoseBroadcaster(Controller):
     def _transform(self, time_ns: int, values: Array) -> Any:
         message = stamped("geometry_msgs/TransformStamped", time_ns, self._frame_id)
         message.child_frame_id = self._child_frame_id
-        message.transform.translation = vector(values[:3])
-        message.transform.rotation = quaternion(values[3:])
+        set_transform(message.transform, _pose(values))
         return message_class("tf2_msgs/TFMessage")(transforms=[message])
 
     def _complain(self, time_ns: int, values: Array) -> None:
@@ -99,6 +96,11 @@ class PoseBroadcaster(Controller):
         self._next_word_ns = time_ns + _SAY_EVERY_NS
         text = f"Invalid pose {np.array2string(values[:3])}, {np.array2string(values[3:])}"
         self.context.ports.log("error", f"{self.context.name}: {text}")
+
+
+def _pose(values: Array) -> Pose:
+    x, y, z, qx, qy, qz, qw = values.tolist()
+    return Pose((x, y, z), (qx, qy, qz, qw))
 
 
 def _is_valid(values: Array) -> bool:

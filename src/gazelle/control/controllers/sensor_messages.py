@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.messages import message_class
+from gazelle.interfaces.poses import set_quat_xyzw, set_xyz
 
 __all__ = [
     "IMU_INTERFACES",
@@ -16,10 +16,7 @@ __all__ = [
     "WRENCH_INTERFACES",
     "fill_imu",
     "fill_wrench",
-    "point",
-    "quaternion",
     "sensor_places",
-    "vector",
 ]
 
 IMU_INTERFACES = (
@@ -44,27 +41,10 @@ def sensor_places(context: ControllerContext, sensor: str, interfaces: tuple[str
     return context.state_places([f"{sensor}/{interface}" for interface in interfaces])
 
 
-def vector(values: Array) -> Any:
-    """Return a ``geometry_msgs/Vector3``."""
-    x, y, z = values.tolist()
-    return message_class("geometry_msgs/Vector3")(x=x, y=y, z=z)
-
-
-def point(values: Array) -> Any:
-    """Return a ``geometry_msgs/Point``."""
-    x, y, z = values.tolist()
-    return message_class("geometry_msgs/Point")(x=x, y=y, z=z)
-
-
-def quaternion(values: Array) -> Any:
-    """Return a ``geometry_msgs/Quaternion`` of x, y, z, w."""
-    x, y, z, w = values.tolist()
-    return message_class("geometry_msgs/Quaternion")(x=x, y=y, z=z, w=w)
-
-
 def fill_wrench(message: Any, values: Array) -> None:
     """Put force (N) and torque (N·m) into a ``geometry_msgs/WrenchStamped``."""
-    message.wrench.force, message.wrench.torque = vector(values[:3]), vector(values[3:])
+    set_xyz(message.wrench.force, values[:3])
+    set_xyz(message.wrench.torque, values[3:])
 
 
 def fill_imu(message: Any, values: Array) -> None:
@@ -72,10 +52,10 @@ def fill_imu(message: Any, values: Array) -> None:
 
     What is NaN is not measured: it is 0 and its covariance begins with -1 (REP-145).
     """
-    for name, share, make in zip(
+    for name, share, put in zip(
         ("orientation", "angular_velocity", "linear_acceleration"),
         _SHARES,
-        (quaternion, vector, vector),
+        (set_quat_xyzw, set_xyz, set_xyz),
         strict=True,
     ):
         part = values[share]
@@ -84,4 +64,4 @@ def fill_imu(message: Any, values: Array) -> None:
             covariance[0] = -1.0
             setattr(message, f"{name}_covariance", covariance)
             part = np.zeros(len(part))
-        setattr(message, name, make(part))
+        put(getattr(message, name), part)

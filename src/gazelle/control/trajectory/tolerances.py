@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.control.bank import Array, Indices
+from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["ToleranceError", "Tolerances", "goal_tolerances", "violated"]
 
-_NANO = 1e-9
 _EPSILON = float(np.finfo(np.float32).eps)
 _FIELDS = ("position", "velocity", "acceleration")
 
@@ -92,8 +92,7 @@ def goal_tolerances(
         ToleranceError: by ROS 2's rules they are wrong; then the defaults are to be used.
     """
     path, end = defaults.path.copy(), defaults.goal.copy()
-    time = goal.goal_time_tolerance
-    seconds = time.sec + time.nanosec * _NANO
+    seconds = seconds_of(goal.goal_time_tolerance)
     goal_time_s = _resolved(seconds, "goal_time_tolerance", strict)
     for rows, table, title in (
         (goal.path_tolerance, path, "path_tolerance"),

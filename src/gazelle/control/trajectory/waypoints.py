@@ -12,8 +12,9 @@ import numpy as np
 from gazelle.control.bank import Array, Indices
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.splines import JointState
+from gazelle.interfaces.stamps import ns_of
 
-__all__ = ["Waypoints", "check_joints", "duration_ns", "read_waypoints"]
+__all__ = ["Waypoints", "check_joints", "read_waypoints"]
 
 _NANO = 1_000_000_000
 
@@ -38,11 +39,6 @@ class Waypoints:
         """Return the trajectory of some of its joints, given by column."""
         states = tuple(_columns(state, columns) for state in self.states)
         return Waypoints(self.places[columns], self.times_ns, states, self.stamp_ns)
-
-
-def duration_ns(value: Any) -> int:
-    """Return a time or duration message in ns."""
-    return int(value.sec) * _NANO + int(value.nanosec)
 
 
 def check_joints(names: Sequence[str], joints: Sequence[str], *, allow_partial: bool) -> Indices:
@@ -83,14 +79,14 @@ def read_waypoints(trajectory: Any, places: Indices) -> Waypoints:
     states = tuple(
         _state(point, number, order, len(places)) for number, point in enumerate(trajectory.points)
     )
-    times_ns = tuple(duration_ns(point.time_from_start) for point in trajectory.points)
+    times_ns = tuple(ns_of(point.time_from_start) for point in trajectory.points)
     for number, (before, after) in enumerate(pairwise(times_ns)):
         if after <= before:
             text = "Trajectory message contains waypoints that are not strictly increasing in time."
             text += f" Time between points {number} and {number + 1} is not strictly increasing, it"
             text += f" is {before / _NANO:f} and {after / _NANO:f} respectively"
             raise TrajectoryError(ErrorCode.INVALID_GOAL, text)
-    return Waypoints(places[order], times_ns, states, duration_ns(trajectory.header.stamp))
+    return Waypoints(places[order], times_ns, states, ns_of(trajectory.header.stamp))
 
 
 def _state(point: Any, number: int, order: Indices, n_joints: int) -> JointState:

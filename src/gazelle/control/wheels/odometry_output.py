@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +12,8 @@ from gazelle.control.errors import ControllerError
 from gazelle.control.messages import header, message_class
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.wheels.odometry import PlanarOdometry, PlanarPose
+from gazelle.geometry import Pose
+from gazelle.interfaces.poses import set_plane_pose, set_transform
 
 __all__ = ["Frames", "OdometryOutput", "PublishRate", "read_covariance", "read_frames"]
 
@@ -162,9 +163,7 @@ class OdometryOutput:
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
         if self.sends_pose:
-            message.pose.pose.position.x = odometry.pose.x_m
-            message.pose.pose.position.y = odometry.pose.y_m
-            message.pose.pose.orientation = _yaw_quaternion(odometry.pose.yaw_rad)
+            set_plane_pose(message.pose.pose, odometry.pose)
         message.twist.twist.linear.x = odometry.linear_x
         message.twist.twist.linear.y = odometry.linear_y
         message.twist.twist.angular.z = odometry.angular_z
@@ -175,12 +174,5 @@ class OdometryOutput:
         transform = message_class("geometry_msgs/TransformStamped")(
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
-        transform.transform.translation.x = odometry.pose.x_m
-        transform.transform.translation.y = odometry.pose.y_m
-        transform.transform.rotation = _yaw_quaternion(odometry.pose.yaw_rad)
+        set_transform(transform.transform, Pose.from_xy_yaw(*odometry.pose))
         return message_class("tf2_msgs/TFMessage")(transforms=[transform])
-
-
-def _yaw_quaternion(yaw_rad: float) -> Any:
-    half = yaw_rad / 2
-    return message_class("geometry_msgs/Quaternion")(z=math.sin(half), w=math.cos(half))

@@ -7,6 +7,7 @@ from typing import Any
 
 from gazelle.control.ports import Ports
 from gazelle.control.wheels.mecanum import PlanarTwist
+from gazelle.interfaces.stamps import ns_of
 
 __all__ = ["REST", "TwistInput"]
 
@@ -106,7 +107,7 @@ class TwistInput:
         header = getattr(message, "header", None)
         if header is None or not self._uses_stamps:
             return 0
-        return int(header.stamp.sec) * 1_000_000_000 + int(header.stamp.nanosec)
+        return ns_of(header.stamp)
 
     def _timeout_ns(self) -> int:
         return round(self.timeout_s * 1e9)

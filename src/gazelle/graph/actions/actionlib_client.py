@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.comm_state import CommState, steps
 from gazelle.graph.actions.news import News
-from gazelle.graph.actions.stamps import set_stamp
 from gazelle.graph.actions.states import ActionlibStatus
 from gazelle.graph.actions.types import ActionTypes
+from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.goal import ServerGoal
-from gazelle.graph.actions.stamps import set_stamp, stamp_ns
+from gazelle.interfaces.stamps import ns_of, set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph.actions.ports import ActionNode
@@ -94,10 +94,10 @@ class ActionlibWire:
     def _on_goal(self, message: Any) -> None:
         server = self._server
         goal_id = message.goal_id.id or server.new_id()
-        stamp = stamp_ns(message.goal_id.stamp)
+        stamp = ns_of(message.goal_id.stamp)
         goal = ServerGoal(server, goal_id, stamp, message.goal)
         server.post(lambda: server.take(goal))
 
     def _on_cancel(self, message: Any) -> None:
-        stamp = stamp_ns(message.stamp)
+        stamp = ns_of(message.stamp)
         self._server.post(lambda: self._server.cancel_matching(message.id, stamp))

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.goal import ServerGoal
-from gazelle.graph.actions.stamps import set_stamp, stamp_ns
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.errors import ServiceRefusedError
 from gazelle.graph.turns import InTurn
+from gazelle.interfaces.stamps import ns_of, set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph.actions.ports import ActionNode
@@ -103,7 +103,7 @@ class Ros2Wire:
         server = self._server
         goal_id = _hex(request.goal_info.goal_id)
         goal_id = "" if goal_id == _NO_ID else goal_id
-        stamp = stamp_ns(request.goal_info.stamp)
+        stamp = ns_of(request.goal_info.stamp)
         response = self._types.CancelGoal.Response()
         known = server.goal_with(goal_id) if goal_id else None
         if goal_id and known is None:

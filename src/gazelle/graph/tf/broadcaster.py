@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.tf.buffer import StampedPose
 from gazelle.graph.wire import resolve_type
+from gazelle.interfaces.poses import set_transform
+from gazelle.interfaces.stamps import set_header
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
@@ -71,13 +73,9 @@ def to_message(transform: Any) -> Any:
     if not isinstance(transform, StampedPose):
         return convert(transform, wanted)
     message = wanted()
-    stamp = message.header.stamp
-    stamp.sec, stamp.nanosec = divmod(transform.stamp_ns, 1_000_000_000)
-    message.header.frame_id = transform.frame_id
+    set_header(message, transform.stamp_ns, transform.frame_id)
     message.child_frame_id = transform.child_frame_id
-    move, turn = message.transform.translation, message.transform.rotation
-    move.x, move.y, move.z = transform.pose.position_m
-    turn.x, turn.y, turn.z, turn.w = transform.pose.quat_xyzw
+    set_transform(message.transform, transform.pose)
     return message
 
 

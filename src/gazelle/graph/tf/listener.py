@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.geometry import Pose
 from gazelle.graph.tf.buffer import TransformBuffer
 from gazelle.graph.wire import resolve_type
+from gazelle.interfaces.poses import pose_of_transform
+from gazelle.interfaces.stamps import ns_of
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
@@ -50,12 +51,11 @@ class TransformListener:
     def _store(self, message: Any, info: MessageInfo, *, is_static: bool) -> None:
         authority = info.publisher or "unknown_publisher"
         for one in message.transforms:
-            stamp, move, turn = one.header.stamp, one.transform.translation, one.transform.rotation
             self.buffer.set_transform(
                 one.header.frame_id,
                 one.child_frame_id,
-                stamp.sec * 1_000_000_000 + stamp.nanosec,
-                Pose((move.x, move.y, move.z), (turn.x, turn.y, turn.z, turn.w)),
+                ns_of(one.header.stamp),
+                pose_of_transform(one.transform),
                 authority=authority,
                 is_static=is_static,
             )

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from pathlib import Path
 
+from gazelle.geometry import quat_xyzw_from_yaw
 from gazelle.mapping.logs.record import LogRecord
 from gazelle.mapping.poses import Poses, compose
 
@@ -14,10 +14,10 @@ __all__ = ["write_carmen", "write_tum"]
 
 def write_tum(path: Path, stamps_ns: Iterable[int], poses: Poses) -> None:
     """Write ``time x y z qx qy qz qw`` in every line, as TUM's tools and evo read it."""
-    lines = [
-        f"{stamp / 1e9:.9f} {x:.6f} {y:.6f} 0 0 0 {math.sin(yaw / 2):.9f} {math.cos(yaw / 2):.9f}\n"
-        for stamp, (x, y, yaw) in zip(map(int, stamps_ns), poses.tolist(), strict=True)
-    ]
+    lines = []
+    for stamp, (x, y, yaw) in zip(map(int, stamps_ns), poses.tolist(), strict=True):
+        _, _, z, w = quat_xyzw_from_yaw(yaw)
+        lines.append(f"{stamp / 1e9:.9f} {x:.6f} {y:.6f} 0 0 0 {z:.9f} {w:.9f}\n")
     path.write_text("".join(lines))
 
 

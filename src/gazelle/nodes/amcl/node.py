@@ -15,6 +15,8 @@ from gazelle.errors import GraphError
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces import service_type
+from gazelle.interfaces.poses import unit_pose_of
+from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.poses import between, compose, inverse
 from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, Estimate
 from gazelle.nodes.amcl.outputs import Outputs
@@ -25,13 +27,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.navigation.frames import (
-    Frames,
-    PlanePose,
-    plane_of,
-    pose_of_message,
-    stamp_ns_of,
-)
+from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.reconfigure import offer
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node
@@ -268,13 +264,13 @@ class AmclNode:
                 f'frame, "{self._map_frame}"',
             )
             return
-        pose = plane_of(pose_of_message(message.pose.pose))
+        pose = unit_pose_of(message.pose.pose).xy_yaw
         covariance = np.asarray(message.pose.covariance, float).reshape(6, 6)
         covariance = covariance[np.ix_([0, 1, 5], [0, 1, 5])]
         if not (np.isfinite(pose).all() and np.isfinite(covariance).all()):
             self._node.log("error", "Received initial pose that is no number; it is not taken")
             return
-        pose = self._moved_since(pose, stamp_ns_of(message))
+        pose = self._moved_since(pose, ns_of(message.header.stamp))
         text = f"Setting pose: ({pose[0]:.3f} {pose[1]:.3f} {pose[2]:.3f})"
         self._node.log("info", text)
         with self._lock:
@@ -302,7 +298,7 @@ class AmclNode:
         now = self._frames.between(self._odom_frame, self._base_frame)
         if stamp_ns == 0 or isinstance(then, str) or isinstance(now, str):
             return pose
-        return _triple(compose(pose, between(plane_of(then), plane_of(now))))
+        return _triple(compose(pose, between(then.xy_yaw, now.xy_yaw)))
 
     def _on_scan(self, message: Any) -> None:
         if not self._running:
@@ -311,7 +307,10 @@ class AmclNode:
             text = "AMCL cannot publish a pose or update the transform. Please set the initial pose"
             self._frames.say("warn", f"{text}...", key="initial pose")
             return
-        frame, stamp_ns = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
+        frame, stamp_ns = (
+            str(message.header.frame_id).removeprefix("/"),
+            ns_of(message.header.stamp),
+        )
         try:
             laser = self._frames.buffer.lookup_transform(self._base_frame, frame)
             found = self._frames.buffer.lookup_transform(
@@ -321,7 +320,7 @@ class AmclNode:
             text = f"a scan in frame '{frame}' is left out, its place is not known: {error}"
             self._frames.say("warn", text, key=f"scan {frame}")
             return
-        odometry = plane_of(found.pose)
+        odometry = found.pose.xy_yaw
         self._tell_jumps(odometry, stamp_ns)
         scan = scan_of_message(message, laser.pose)
         if scan.range_max_m <= 0 or scan.range_min_m < 0:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,8 +10,10 @@ from numpy.typing import NDArray
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose
+from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.localisation import Estimate
-from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
+from gazelle.nodes.navigation.frames import PlanePose
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -36,8 +37,8 @@ class Outputs:
     def pose(self, estimate: Estimate, stamp_ns: int) -> None:
         """Publish where the robot is."""
         message: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")()
-        set_stamp(message, stamp_ns, self._frame_id)
-        fill_pose(message.pose.pose, estimate.pose)
+        set_header(message, stamp_ns, self._frame_id)
+        set_plane_pose(message.pose.pose, estimate.pose)
         covariance = np.zeros((6, 6))
         covariance[:2, :2] = estimate.covariance[:2, :2]
         covariance[5, 5] = estimate.covariance[2, 2]
@@ -52,10 +53,9 @@ class Outputs:
             return
         poses = []
         kind = message_type("geometry_msgs/msg/Pose")
-        for x, y, yaw in particles.tolist():
+        for particle_pose in particles.tolist():
             pose: Any = kind()
-            pose.position.x, pose.position.y = x, y
-            pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+            set_plane_pose(pose, particle_pose)
             poses.append(pose)
         message: Any
         if self._generation == 2:
@@ -68,7 +68,7 @@ class Outputs:
         else:
             message = message_type("geometry_msgs/msg/PoseArray")()
             message.poses = poses
-        set_stamp(message, now_ns, self._frame_id)
+        set_header(message, now_ns, self._frame_id)
         self._cloud.publish(message)
 
     def transform(self, T_map_odom: PlanePose, stamp_ns: int) -> None:

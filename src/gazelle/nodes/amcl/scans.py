@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from gazelle.geometry import Pose
+from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.scans import Scan
-from gazelle.nodes.navigation.frames import plane_of, stamp_ns_of
 
 __all__ = ["scan_of_message"]
 
@@ -19,12 +19,12 @@ def scan_of_message(message: Any, T_base_laser: Pose) -> Scan:
         T_base_laser.position_m
     )
     return Scan(
-        stamp_ns_of(message),
+        ns_of(message.header.stamp),
         float(message.angle_min),
         float(message.angle_increment),
         np.asarray(message.ranges, np.float32),
         float(message.range_min),
         float(message.range_max),
-        plane_of(T_base_laser),
+        T_base_laser.xy_yaw,
         upside_down=bool(z_axis < 0),
     )

@@ -7,7 +7,8 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.world import world_names
-from gazelle.nodes.navigation.frames import PlanePose, plane_of, pose_of_message
+from gazelle.interfaces.poses import unit_pose_of
+from gazelle.nodes.navigation.frames import PlanePose
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -44,7 +45,7 @@ class SpawnHint:
         if not self._subscriptions or index is None:
             return
         self.close()
-        x, y, yaw = plane_of(pose_of_message(message.pose[index]))
+        x, y, yaw = unit_pose_of(message.pose[index]).xy_yaw
         bx, by, byaw = self._begins
         turn = abs(math.remainder(yaw - byaw, math.tau))
         if math.hypot(x - bx, y - by) < _FAR_M and turn < _FAR_RAD:

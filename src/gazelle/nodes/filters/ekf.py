@@ -15,6 +15,8 @@ from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_pose, set_xyz
+from gazelle.interfaces.stamps import ns_of, set_header
 from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.filters.fusing import Fusion
@@ -26,7 +28,6 @@ from gazelle.nodes.filters.measuring import (
 )
 from gazelle.nodes.filters.tables import report_ekf, threshold_owners
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.navigation.frames import fill_pose, set_stamp, stamp_ns_of
 from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import start_node, ticks
 
@@ -152,7 +153,7 @@ class _Localization:
         node.create_subscription(str(self._tree[name]), _INPUTS[kind], on_message, queue_size=10)
 
     def _measurements(self, name: str, kind: str, message: Any) -> list[tuple[Measurement, str]]:
-        stamp_ns = stamp_ns_of(message)
+        stamp_ns = ns_of(message.header.stamp)
         if kind == "odom":
             return [
                 (measure_pose(message.pose, stamp_ns), "pose"),
@@ -176,7 +177,7 @@ class _Localization:
         return [(found, "pose"), (turning, "twist")]
 
     def _on_set_pose(self, message: Any) -> None:
-        self._fusion.place(measure_pose(message.pose, stamp_ns_of(message)))
+        self._fusion.place(measure_pose(message.pose, ns_of(message.header.stamp)))
 
     def publish(self) -> None:
         """Publish state and transform."""
@@ -186,13 +187,13 @@ class _Localization:
         x, y, z, roll, pitch, yaw = map(float, state[:6])
         pose = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
         message: Any = message_type("nav_msgs/msg/Odometry")()
-        set_stamp(message, stamp_ns, self._world)
+        set_header(message, stamp_ns, self._world)
         message.child_frame_id = self._base
-        fill_pose(message.pose.pose, pose)
+        set_pose(message.pose.pose, pose)
         message.pose.covariance = covariance[:6, :6].ravel().tolist()
         linear, angular = message.twist.twist.linear, message.twist.twist.angular
-        linear.x, linear.y, linear.z = map(float, state[6:9])
-        angular.x, angular.y, angular.z = map(float, state[9:12])
+        set_xyz(linear, state[6:9])
+        set_xyz(angular, state[9:12])
         message.twist.covariance = covariance[6:12, 6:12].ravel().tolist()
         self._out.publish(message)
         if self._tree.get("publish_tf", True):

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import ns_of
 from gazelle.navigation.filters import FlatScan, scan_of_depth, scan_of_points
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.navigation.frames import Frames, stamp_ns_of
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.sensing import cloud_points
 from gazelle.nodes.parameters import private, private_number, start_node
 
@@ -160,7 +161,7 @@ class _CloudToScan:
             self._frames.say("error", f"a cloud is left out: {error}")
             return
         if frame != source:
-            T = self._frames.between(frame, source, stamp_ns_of(message))
+            T = self._frames.between(frame, source, ns_of(message.header.stamp))
             if isinstance(T, str):
                 self._frames.say("warn", f"Transform failure: {T}", key=f"cloud {source}")
                 return

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, unit_quat_xyzw
+from gazelle.interfaces.poses import quat_xyzw_of, unit_pose_of
 from gazelle.navigation.filters.ekf import rotation_of
-from gazelle.nodes.navigation.frames import pose_of_message
 
 __all__ = ["Measurement", "differential", "measure_imu", "measure_pose", "measure_twist"]
 
@@ -37,7 +37,7 @@ class Measurement:
 
 def measure_pose(message: Any, stamp_ns: int) -> Measurement:
     """Read a ``PoseWithCovariance``."""
-    pose = pose_of_message(message.pose)
+    pose = unit_pose_of(message.pose)
     values, covariance = np.zeros(15), np.zeros((15, 15))
     values[:3], values[3:6] = pose.position_m, pose.rpy_rad
     covariance[:6, :6] = np.asarray(message.covariance, float).reshape(6, 6)
@@ -62,8 +62,7 @@ def measure_imu(
     A covariance that begins with −1 says that the sensor does not measure that.
     """
     turn = rotation_of(*T_base_imu.rpy_rad)
-    q = message.orientation
-    world_imu = Pose((0.0, 0.0, 0.0), _unit(q.x, q.y, q.z, q.w))
+    world_imu = Pose(quat_xyzw=unit_quat_xyzw(quat_xyzw_of(message.orientation)))
     base = world_imu @ Pose((0.0, 0.0, 0.0), T_base_imu.quat_xyzw).inverse()
     values, covariance = np.zeros(15), np.zeros((15, 15))
     values[3:6] = base.rpy_rad
@@ -99,8 +98,3 @@ def differential(before: Measurement, after: Measurement) -> Measurement | None:
     measured = np.zeros(15, bool)
     measured[6:12] = before.measured[:6] & after.measured[:6]
     return Measurement(after.stamp_ns, values, covariance, measured)
-
-
-def _unit(x: float, y: float, z: float, w: float) -> tuple[float, float, float, float]:
-    norm = math.sqrt(x * x + y * y + z * z + w * w)
-    return (x / norm, y / norm, z / norm, w / norm) if norm > 1e-9 else (0.0, 0.0, 0.0, 1.0)

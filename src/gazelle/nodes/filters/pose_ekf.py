@@ -11,13 +11,14 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_pose
+from gazelle.interfaces.stamps import ns_of, set_header
 from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.filters.fusing import Fusion
 from gazelle.nodes.filters.measuring import measure_imu, measure_pose
 from gazelle.nodes.filters.tables import report_pose_ekf
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.navigation.frames import fill_pose, set_stamp, stamp_ns_of
 from gazelle.nodes.parameters import parameter_tree, private, private_number, start_node, ticks
 
 __all__ = ["run"]
@@ -48,8 +49,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         x, y, z, roll, pitch, yaw = map(float, state[:6])
         pose = Pose.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
         message = kind()
-        set_stamp(message, stamp_ns, parent)
-        fill_pose(message.pose.pose, pose)
+        set_header(message, stamp_ns, parent)
+        set_pose(message.pose.pose, pose)
         message.pose.covariance = covariance[:6, :6].ravel().tolist()
         out.publish(message)
         fusion.send(parent, base, pose, stamp_ns)
@@ -65,7 +66,7 @@ def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) ->
 
     def on_odometry(name: str) -> Any:
         def take(message: Any) -> None:
-            found = measure_pose(message.pose, stamp_ns_of(message))
+            found = measure_pose(message.pose, ns_of(message.header.stamp))
             fusion.take(name, found, _POSE, by_difference=True)
 
         return take
@@ -77,7 +78,7 @@ def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) ->
             text = f"Could not transform imu message from {frame} to {base}. Imu will not be "
             fusion.frames.say("warn", f"{text}activated yet. ({T_base_imu})", key="imu")
             return
-        found = measure_imu(message, stamp_ns_of(message), T_base_imu)
+        found = measure_imu(message, ns_of(message.header.stamp), T_base_imu)
         fusion.take("imu", found, _TURN, by_difference=True)
         fusion.take("imu level", found, _LEVEL)
 

@@ -22,6 +22,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_xyz, xyz_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
@@ -98,7 +99,7 @@ def _connect(node: Node, targets: tuple[str, ...], timeout_s: float) -> None:
             turned.header.stamp, turned.header.frame_id = message.header.stamp, target
             for part in ("force", "torque"):
                 given, made = getattr(message.wrench, part), getattr(turned.wrench, part)
-                made.x, made.y, made.z = pose.rotate((given.x, given.y, given.z))
+                set_xyz(made, pose.rotate(xyz_of(given)))
             output.publish(turned)
 
     node.create_subscription("~/wrench", kind, on_wrench)

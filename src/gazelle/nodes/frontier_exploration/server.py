@@ -12,13 +12,15 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.actions import ActionClient, ClientGoal, ServerGoal
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose
+from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.frontier_exploration.area import Area, Corners
 from gazelle.nodes.frontier_exploration.services import Services
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
-from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
+from gazelle.nodes.navigation.frames import PlanePose
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import start_node
@@ -241,5 +243,5 @@ class _Explorer:
         self._goals.feedback(self._feedback)
 
     def _fill(self, message: Any, pose: PlanePose) -> None:
-        set_stamp(message, self._node.clock.now_ns(), self._costmap.global_frame)
-        fill_pose(message.pose, tuple(np.asarray(pose, float).tolist()))
+        set_header(message, self._node.clock.now_ns(), self._costmap.global_frame)
+        set_plane_pose(message.pose, tuple(np.asarray(pose, float).tolist()))

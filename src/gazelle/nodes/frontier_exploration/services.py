@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
+from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.frontier_exploration.area import Area, Corners
-from gazelle.nodes.navigation.frames import fill_pose, plane_of, pose_of_message, set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -68,7 +69,7 @@ class Services:
             data=data.tobytes(),
             is_dense=True,
         )  # fmt: skip
-        set_stamp(cloud, self._node.clock.now_ns(), self._area.costmap.global_frame)
+        set_header(cloud, self._node.clock.now_ns(), self._area.costmap.global_frame)
         self._out.publish(cloud)
 
     def _placed(self, header: Any, point: Any) -> tuple[float, float] | str:
@@ -93,12 +94,12 @@ class Services:
         start = costmap.frames.message_in(request.start_pose, costmap.global_frame)
         if isinstance(start, str):
             raise ValueError(start)
-        here = plane_of(pose_of_message(start.pose))[:2]
+        here = unit_pose_of(start.pose).xy_yaw[:2]
         frontiers = self._area.frontiers(here)
         self.show(frontiers)
         if not frontiers:
             raise ValueError("No frontiers found, exploration complete")
         response = self._next.Response()
-        set_stamp(response.next_frontier, self._node.clock.now_ns(), costmap.global_frame)
-        fill_pose(response.next_frontier.pose, self._area.goal(frontiers[0], here))
+        set_header(response.next_frontier, self._node.clock.now_ns(), costmap.global_frame)
+        set_plane_pose(response.next_frontier.pose, self._area.goal(frontiers[0], here))
         return response

@@ -16,12 +16,12 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.joy.device import devices, name_of, open_device
 from gazelle.nodes.joy.events import EVENT_BYTES, JoyState, read_event
 from gazelle.nodes.joy.options import JoyOptions, read_options
-from gazelle.nodes.navigation.frames import set_stamp
 from gazelle.nodes.parameters import parameter_tree, start_node
 
 __all__ = ["list_devices", "run"]
@@ -150,7 +150,7 @@ class _Joystick:
 
     def _send(self, state: JoyState) -> None:
         message = self._message(axes=list(state.axes), buttons=list(state.buttons))
-        set_stamp(message, self._node.clock.now_ns(), self._options.frame_id)
+        set_header(message, self._node.clock.now_ns(), self._options.frame_id)
         self._out.publish(message)
 
 

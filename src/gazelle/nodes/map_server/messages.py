@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_of, set_plane_pose
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.mapping.grids import OccupancyGrid
 
 __all__ = ["grid_of_message", "message_of_grid"]
-
-_NANO = 1_000_000_000
 
 
 def message_of_grid(grid: OccupancyGrid, frame_id: str, now_ns: int) -> Any:
@@ -20,13 +19,10 @@ def message_of_grid(grid: OccupancyGrid, frame_id: str, now_ns: int) -> Any:
     message = message_type("nav_msgs/msg/OccupancyGrid")()
     message.header.frame_id = frame_id
     for stamp in (message.header.stamp, message.info.map_load_time):
-        stamp.sec, stamp.nanosec = divmod(now_ns, _NANO)
+        set_stamp(stamp, now_ns)
     message.info.resolution = float(np.float32(grid.resolution_m))
     message.info.width, message.info.height = grid.width, grid.height
-    x, y, yaw = grid.origin
-    message.info.origin.position.x, message.info.origin.position.y = x, y
-    turn = message.info.origin.orientation
-    turn.z, turn.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    set_plane_pose(message.info.origin, grid.origin)
     message.data = np.ascontiguousarray(grid.cells).reshape(-1)
     return message
 
@@ -41,10 +37,7 @@ def grid_of_message(message: Any) -> OccupancyGrid:
     data = np.asarray(message.data, np.int64).astype(np.int8)
     if data.size != width * height or not data.size:
         raise ValueError(f"the map says {width} × {height} cells and has {data.size}")
-    q = message.info.origin.orientation
-    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-    place = message.info.origin.position
     # A float32 of 0.05 is 0.0500000007…, which is not what the map was made with.
     resolution_m = float(f"{float(message.info.resolution):.7g}")
-    origin = (float(place.x), float(place.y), yaw)
+    origin = pose_of(message.info.origin).xy_yaw
     return OccupancyGrid(data.reshape(height, width), resolution_m, origin)

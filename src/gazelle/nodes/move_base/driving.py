@@ -10,10 +10,12 @@ import numpy as np
 
 from gazelle.graph import TimeJumpError
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.move_base.executive import Plan, Trigger
 from gazelle.nodes.move_base.local import LocalPlanner
 from gazelle.nodes.move_base.recoveries import Behaviour, Surroundings
-from gazelle.nodes.navigation.frames import PlanePose, fill_pose, set_stamp
+from gazelle.nodes.navigation.frames import PlanePose
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.single_goal import SingleGoal
 
@@ -163,6 +165,6 @@ class Driver:
         )
         pose = self._whole.pose()
         if pose is not None:
-            set_stamp(message.pose_stamped, self.now_ns(), self._whole.global_frame)
-            fill_pose(message.pose_stamped.pose, pose)
+            set_header(message.pose_stamped, self.now_ns(), self._whole.global_frame)
+            set_plane_pose(message.pose_stamped.pose, pose)
         self._status_out.publish(message)

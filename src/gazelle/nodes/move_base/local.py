@@ -20,7 +20,7 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.move_base.planner import short_name
-from gazelle.nodes.navigation.frames import PlanePose, path_message, plane_of
+from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.settings import Settings
@@ -141,7 +141,7 @@ class LocalPlanner:
         found = frames.between(local, self._plan_frame)
         if isinstance(found, str):
             return f"the plan's frame {self._plan_frame} is not known in {local}: {found}"
-        T_local_plan = plane_of(found)
+        T_local_plan = found.xy_yaw
         if self._T_local_plan != T_local_plan:
             has_moved = self._T_local_plan is not None
             self._T_local_plan = T_local_plan

@@ -13,6 +13,8 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
+from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.planners import NoPlan
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
@@ -24,8 +26,7 @@ from gazelle.nodes.move_base.recoveries import make_behaviours
 from gazelle.nodes.move_base.services import Services
 from gazelle.nodes.move_base.tables import MOVE_BASE
 from gazelle.nodes.navigation.assembling import INHERITED, assemble
-from gazelle.nodes.navigation.frames import Frames, PlanePose, fill_pose, plane_of, set_stamp
-from gazelle.nodes.navigation.frames import pose_of_message as pose_of
+from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.reconfigure import offer
@@ -185,7 +186,7 @@ class MoveBase:
             self.goals.abort(text=found)
             return
         self.driver.rest(False)
-        self._goal = plane_of(pose_of(found.pose))
+        self._goal = unit_pose_of(found.pose).xy_yaw
         self._goal_message = found
         self.local.reset()
         self.executive.begin()
@@ -195,8 +196,8 @@ class MoveBase:
         goal = self.goals.current
         if goal is not None and goal.is_feedback_wanted:
             feedback = message_type("move_base_msgs/msg/MoveBaseFeedback")()
-            set_stamp(feedback.base_position, self.node.clock.now_ns(), self.whole.global_frame)
-            fill_pose(feedback.base_position.pose, pose)
+            set_header(feedback.base_position, self.node.clock.now_ns(), self.whole.global_frame)
+            set_plane_pose(feedback.base_position.pose, pose)
             goal.publish_feedback(feedback)
 
     def _plan_on(self, stop: threading.Event) -> None:

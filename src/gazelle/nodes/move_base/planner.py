@@ -8,13 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import unit_pose_of
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS, NoPlan, Plan, make_plan
-from gazelle.nodes.navigation.frames import (
-    PlanePose,
-    path_message,
-    plane_of,
-    pose_of_message,
-)
+from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.table import Table, table_of
@@ -110,7 +106,7 @@ class GlobalPlanner:
         if isinstance(found, str):
             self._node.log("error", f"make_plan: {found}")
             return None
-        at = plane_of(pose_of_message(found.pose))
+        at = unit_pose_of(found.pose).xy_yaw
         return at if all(map(math.isfinite, at)) else None
 
 

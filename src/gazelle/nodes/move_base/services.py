@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.graph import ServiceRefusedError
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import unit_pose_of
 from gazelle.nodes.move_base.planner import GlobalPlanner
-from gazelle.nodes.navigation.frames import plane_of, pose_of_message
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
@@ -61,7 +61,7 @@ class Services:
         centre = None
         if start.header.frame_id:
             found = whole.frames.message_in(start, whole.global_frame)
-            centre = None if isinstance(found, str) else plane_of(pose_of_message(found.pose))
+            centre = None if isinstance(found, str) else unit_pose_of(found.pose).xy_yaw
         whole.clear_around(2 * radius, inside=True, centre=centre)
 
     def _add_goal(self, plan: Any, goal: Any, whole: LiveCostmap) -> None:
@@ -70,7 +70,7 @@ class Services:
         if isinstance(found, str):
             return
         last = plan.poses[-1].pose
-        if plane_of(pose_of_message(last)) != plane_of(pose_of_message(found.pose)):
+        if unit_pose_of(last).xy_yaw != unit_pose_of(found.pose).xy_yaw:
             end: Any = message_type("geometry_msgs/msg/PoseStamped")(
                 header=plan.header, pose=found.pose
             )

@@ -10,6 +10,8 @@ import numpy as np
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
+from gazelle.interfaces import poses
+from gazelle.interfaces.poses import quat_xyzw_of
 from gazelle.motion.constraints import (
     ForwardKinematics,
     JointConstraint,
@@ -121,7 +123,7 @@ class ConstraintReader:
             text = f"the orientation for link '{item.link_name}' is no quaternion: all is 0"
             raise MoveGroupError(self.code, text)
         T_frame = self.frames.T_planning_frame(item.header.frame_id)
-        rotation = Pose((0.0, 0.0, 0.0), (turn.x, turn.y, turn.z, turn.w)).matrix()[:3, :3]
+        rotation = Pose(quat_xyzw=quat_xyzw_of(turn)).matrix()[:3, :3]
         tolerances = (
             item.absolute_x_axis_tolerance,
             item.absolute_y_axis_tolerance,
@@ -149,11 +151,8 @@ class ConstraintReader:
 
 def pose_of(message: Any) -> Pose:
     """Return a ``geometry_msgs/Pose``; a quaternion of zeros is no rotation, as in MoveIt."""
-    place, turn = message.position, message.orientation
-    quat = (float(turn.x), float(turn.y), float(turn.z), float(turn.w))
-    if not np.linalg.norm(quat) > _TINY_RAD:
-        quat = (0.0, 0.0, 0.0, 1.0)
-    return Pose((float(place.x), float(place.y), float(place.z)), quat)
+    pose = poses.pose_of(message)
+    return pose if np.linalg.norm(pose.quat_xyzw) > _TINY_RAD else Pose(pose.position_m)
 
 
 def _region(shape: Any, pose: FloatArray, code: ErrorCode) -> Region:

@@ -13,6 +13,7 @@ from gazelle.description.moveit import ExecutionSettings
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient, ClientGoal
+from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.move_group.controller_goals import controller_goal, goal_end, part_of
 from gazelle.nodes.move_group.controllers import ControllerSpec, choose_controllers
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
@@ -190,7 +191,7 @@ class TrajectoryExecutor:
         if not settings.duration_monitoring:
             return float("inf")
         last = trajectory.points[-1].time_from_start
-        planned_ns = float(last.sec * _NANO + last.nanosec)
+        planned_ns = float(ns_of(last))
         return max(
             planned_ns * _or(spec.duration_scaling, settings.allowed_duration_scaling)
             + _or(spec.goal_margin_s, settings.allowed_duration_margin_s) * _NANO

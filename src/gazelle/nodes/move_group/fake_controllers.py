@@ -17,6 +17,7 @@ from gazelle.description.moveit import ControllerEntry
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionServer, ServerGoal
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.motion.model import RobotModel
 from gazelle.nodes.move_group.controllers import FAKE_TYPES, fake_action
 
@@ -84,7 +85,7 @@ class FakeControllers:
     def _tell(self, names: list[str], positions: list[float]) -> None:
         message: Any = message_type("sensor_msgs/msg/JointState")(name=names, position=positions)
         now_ns = self._clock.now_ns()
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(now_ns, _NANO)
+        set_stamp(message.header.stamp, now_ns)
         self._out.publish(message)
 
 

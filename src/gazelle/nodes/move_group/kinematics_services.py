@@ -7,6 +7,8 @@ from typing import Any
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import set_xyz
+from gazelle.interfaces.stamps import seconds_of, set_stamp
 from gazelle.motion.constraints import Constrained
 from gazelle.motion.kinematics import link_poses
 from gazelle.motion.scene import PlanningScene
@@ -23,7 +25,6 @@ __all__ = ["offer_kinematics"]
 _IK = "moveit_msgs/GetPositionIK"
 _FK = "moveit_msgs/GetPositionFK"
 _VALIDITY = "moveit_msgs/GetStateValidity"
-_NANO = 1_000_000_000
 _CONTACT_KINDS = {"link": 0, "object": 1, "attached object": 2}
 
 
@@ -66,7 +67,7 @@ def _ik_positions(context: MoveGroupContext, ask: Any) -> FloatArray:
     validity: Validity | None = problem.checker if ask.avoid_collisions else None
     if along:
         validity = Constrained(validity or _Anything(), along)
-    timeout_s = ask.timeout.sec + ask.timeout.nanosec / _NANO
+    timeout_s = seconds_of(ask.timeout)
     timeout_s = timeout_s or problem.solver.settings.timeout_s
     return problem.positions(_solved(problem, target, link, validity, timeout_s))
 
@@ -144,7 +145,7 @@ def _stamped(context: MoveGroupContext, pose: Pose, frame: str) -> Any:
     made: Any = message_type("geometry_msgs/msg/PoseStamped")()
     made.header.frame_id = frame
     now_ns = context.node.clock.now_ns()
-    made.header.stamp.sec, made.header.stamp.nanosec = divmod(now_ns, _NANO)
+    set_stamp(made.header.stamp, now_ns)
     made.pose = pose_message(pose)
     return made
 
@@ -175,9 +176,9 @@ def _contact(context: MoveGroupContext, item: Any) -> Any:
     made: Any = message_type("moveit_msgs/msg/ContactInformation")()
     made.header.frame_id = context.robot.frame
     now_ns = context.node.clock.now_ns()
-    made.header.stamp.sec, made.header.stamp.nanosec = divmod(now_ns, _NANO)
-    made.position.x, made.position.y, made.position.z = item.position_m
-    made.normal.x, made.normal.y, made.normal.z = item.normal
+    set_stamp(made.header.stamp, now_ns)
+    set_xyz(made.position, item.position_m)
+    set_xyz(made.normal, item.normal)
     made.depth = item.depth_m
     made.contact_body_1, made.contact_body_2 = item.first.name, item.second.name
     made.body_type_1 = _CONTACT_KINDS[item.first.kind]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.motion.planning import first_fault
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
@@ -53,7 +54,7 @@ class Attempt:
         begin_ns = self.executed[0][0]
         for at_ns, values in self.executed:
             row: Any = point(positions=[values[name] for name in names])
-            row.time_from_start.sec, row.time_from_start.nanosec = divmod(at_ns - begin_ns, _NANO)
+            set_stamp(row.time_from_start, at_ns - begin_ns)
             made.joint_trajectory.points.append(row)
         return made
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
+from gazelle.geometry import quat_xyzw_from_yaw, yaw_from_quat_xyzw
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import quat_xyzw_of, set_quat_xyzw
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.motion.model import JointKind, RobotJoint, RobotModel
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 
 __all__ = ["joint_state_message", "positions_of", "robot_state_message"]
-
-_NANO = 1_000_000_000
 
 
 def positions_of(message: Any, model: RobotModel, base: FloatArray) -> FloatArray:
@@ -77,7 +77,7 @@ def joint_state_message(
     """Return a ``JointState`` of all joints with one variable."""
     message: Any = message_type("sensor_msgs/msg/JointState")()
     message.header.frame_id = frame
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NANO)
+    set_stamp(message.header.stamp, stamp_ns)
     single = [joint for joint in model.joints if len(joint.variables) == 1]
     message.name = [joint.name for joint in single]
     message.position = [float(positions[joint.first]) for joint in single]
@@ -87,7 +87,7 @@ def joint_state_message(
 def _several(joint: RobotJoint, transform: Any) -> dict[str, float]:
     shift, turn = transform.translation, transform.rotation
     if joint.kind is JointKind.PLANAR:
-        yaw = _yaw(turn)
+        yaw = yaw_from_quat_xyzw(quat_xyzw_of(turn))
         return dict(zip(joint.variables, (shift.x, shift.y, yaw), strict=True))
     values = (shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w)
     return dict(zip(joint.variables, map(float, values), strict=False))
@@ -99,13 +99,7 @@ def _transform(joint: RobotJoint, positions: FloatArray) -> Any:
     shift, turn = message.translation, message.rotation
     if joint.kind is JointKind.PLANAR:
         shift.x, shift.y = values[:2]
-        turn.z, turn.w = math.sin(values[2] / 2), math.cos(values[2] / 2)
+        set_quat_xyzw(turn, quat_xyzw_from_yaw(values[2]))
     else:
         shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w = values
     return message
-
-
-def _yaw(turn: Any) -> float:
-    return math.atan2(
-        2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z)
-    )

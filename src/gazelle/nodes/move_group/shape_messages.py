@@ -9,6 +9,7 @@ import numpy as np
 from gazelle.description.model import Box, Cone, Cylinder, Plane, Sphere
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_pose
 from gazelle.motion.scene import PlacedShape, SceneMesh, SceneShape
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
 
@@ -96,9 +97,7 @@ def add_shapes(message: Any, shapes: tuple[PlacedShape, ...]) -> None:
 def pose_message(pose: Pose) -> Any:
     """Return a ``geometry_msgs/Pose``."""
     made: Any = message_type("geometry_msgs/msg/Pose")()
-    made.position.x, made.position.y, made.position.z = map(float, pose.position_m)
-    turn = made.orientation
-    turn.x, turn.y, turn.z, turn.w = map(float, pose.quat_xyzw)
+    set_pose(made, pose)
     return made
 
 

@@ -9,10 +9,9 @@ from typing import Any
 
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import ns_of
 
 __all__ = ["StateMonitor"]
-
-_NANO = 1_000_000_000
 
 
 class StateMonitor:
@@ -82,7 +81,7 @@ class StateMonitor:
     def _take(self, message: Any) -> None:
         stamp = message.header.stamp
         # States without a stamp are those of now, as fake publishers send them.
-        stamp_ns = stamp.sec * _NANO + stamp.nanosec or self._clock.now_ns()
+        stamp_ns = ns_of(stamp) or self._clock.now_ns()
         with self._changed:
             self._store(self._positions, message.name, message.position)
             self._store(self._velocities, message.name, message.velocity)

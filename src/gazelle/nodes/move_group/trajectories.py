@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.motion.timing import Trajectory
 
 __all__ = ["joint_trajectory", "robot_trajectory"]
@@ -41,6 +42,6 @@ def joint_trajectory(trajectory: Trajectory) -> Any:
     )
     for time_s, positions, velocities, accelerations in rows:
         row: Any = point(positions=positions, velocities=velocities, accelerations=accelerations)
-        row.time_from_start.sec, row.time_from_start.nanosec = divmod(round(time_s * _NANO), _NANO)
+        set_stamp(row.time_from_start, round(time_s * _NANO))
         made.points.append(row)
     return made

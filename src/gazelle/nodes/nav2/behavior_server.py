@@ -13,6 +13,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
+from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
@@ -143,7 +144,7 @@ class _BehaviorServer:
                 self._out.stop()
             took_ns = max(self._node.clock.now_ns() - began_ns, 0)
             elapsed = result.total_elapsed_time
-            elapsed.sec, elapsed.nanosec = divmod(took_ns, _NANO)
+            set_stamp(elapsed, took_ns)
             self._finish(action, kind, result, word, reason)
 
     def _finish(self, action: SingleGoal, kind: str, result: Any, word: str, reason: str) -> None:
@@ -204,18 +205,18 @@ class _BehaviorServer:
 
     def _wait(self, action: SingleGoal, goal: ServerGoal) -> None:
         """Do nothing for a time."""
-        end_ns = self._node.clock.now_ns() + _duration_ns(goal.request.time)
+        end_ns = self._node.clock.now_ns() + ns_of(goal.request.time)
         for now_ns in self._rounds(action, None):
             if now_ns >= end_ns:
                 return
             feedback = action_type("nav2_msgs/Wait").Feedback()
             left = feedback.time_left
-            left.sec, left.nanosec = divmod(end_ns - now_ns, _NANO)
+            set_stamp(left, end_ns - now_ns)
             action.feedback(feedback)
 
     def _rounds(self, action: SingleGoal, goal: ServerGoal | None) -> Iterator[int]:
         """Yield the time at each round; ends with the goal."""
-        allowance_ns = 0 if goal is None else _duration_ns(goal.request.time_allowance)
+        allowance_ns = 0 if goal is None else ns_of(goal.request.time_allowance)
         end_ns = self._node.clock.now_ns() + allowance_ns
         period_ns = int(_NANO / self._settings.number("cycle_frequency"))
         for now_ns in ticks(self._node, period_ns, self._ending):
@@ -266,7 +267,3 @@ class _BehaviorServer:
         found = outline_in_base(self._frames, message, base)
         if found is not None:
             self._footprint = Footprint(tuple((float(x), float(y)) for x, y in found))
-
-
-def _duration_ns(duration: Any) -> int:
-    return int(duration.sec) * _NANO + int(duration.nanosec)

@@ -13,6 +13,8 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
+from gazelle.interfaces.poses import set_plane_pose
+from gazelle.interfaces.stamps import set_header, set_stamp
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.graph_world import GraphWorld
@@ -22,7 +24,7 @@ from gazelle.nodes.nav2.trees.blackboard import Blackboard
 from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, read_trees
 from gazelle.nodes.nav2.trees.messages import path_length_m, plane_pose
 from gazelle.nodes.nav2.trees.node import Status, TreeNode
-from gazelle.nodes.navigation.frames import Frames, fill_pose, set_stamp
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
@@ -246,10 +248,10 @@ class _Navigator:
         assert self._world is not None
         pose = self._world.pose()
         if pose is not None:
-            set_stamp(made.current_pose, self._world.now_ns(), self._settings.text("global_frame"))
-            fill_pose(made.current_pose.pose, (pose.x_m, pose.y_m, pose.yaw_rad))
+            set_header(made.current_pose, self._world.now_ns(), self._settings.text("global_frame"))
+            set_plane_pose(made.current_pose.pose, (pose.x_m, pose.y_m, pose.yaw_rad))
         took_ns = max(self._world.now_ns() - trip.began_ns, 0)
-        made.navigation_time.sec, made.navigation_time.nanosec = divmod(took_ns, _NANO)
+        set_stamp(made.navigation_time, took_ns)
         made.number_of_recoveries = int(trip.blackboard.get("number_recoveries", 0))
         path = trip.blackboard.get("path")
         if path is not None:
@@ -258,7 +260,7 @@ class _Navigator:
             if speed > 0.01:
                 left_ns = int(made.distance_remaining / speed * _NANO)
                 left = made.estimated_time_remaining
-                left.sec, left.nanosec = divmod(left_ns, _NANO)
+                set_stamp(left, left_ns)
         if hasattr(made, "number_of_poses_remaining"):
             made.number_of_poses_remaining = len(trip.blackboard.get("goals") or ())
         goal.publish_feedback(made)
@@ -308,7 +310,7 @@ class _Trip:
         if changes and self._log_out.matched:
             message = self._log_out.message_class(event_log=changes)
             now_ns = self._world.now_ns()
-            message.timestamp.sec, message.timestamp.nanosec = divmod(now_ns, _NANO)
+            set_stamp(message.timestamp, now_ns)
             self._log_out.publish(message)
 
     def _on_change(self, node: TreeNode, before: Status) -> None:
@@ -319,7 +321,7 @@ class _Trip:
                 previous_status=before.value,
                 current_status=node.status.value,
             )
-            change.timestamp.sec, change.timestamp.nanosec = divmod(self._world.now_ns(), _NANO)
+            set_stamp(change.timestamp, self._world.now_ns())
             self._changes.append(change)
 
 

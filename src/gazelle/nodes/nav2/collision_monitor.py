@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
@@ -18,7 +19,7 @@ from gazelle.nodes.nav2.collision.zones import Action, Points, Velocity, Verdict
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
-from gazelle.nodes.navigation.frames import Frames, set_stamp
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.settings import Settings
 
 __all__ = ["run"]
@@ -194,7 +195,7 @@ class _Monitor:
         if not out.matched:
             return
         message = out.message_class()
-        set_stamp(message, now_ns, self._base)
+        set_header(message, now_ns, self._base)
         point: Any = message_type("geometry_msgs/msg/Point32")
         message.polygon.points = [point(x=x, y=y) for x, y in zone.corners()]
         out.publish(message)

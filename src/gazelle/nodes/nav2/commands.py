@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.interfaces import message_type
-from gazelle.nodes.navigation.frames import set_stamp
+from gazelle.interfaces.stamps import set_header
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -28,7 +28,7 @@ class VelocityOutput:
         message: Any = self._out.message_class()
         twist = message.twist if self._stamped else message
         if self._stamped:
-            set_stamp(message, self._node.clock.now_ns(), frame)
+            set_header(message, self._node.clock.now_ns(), frame)
         twist.linear.x, twist.linear.y, twist.angular.z = x, y, turn
         self._out.publish(message)
 

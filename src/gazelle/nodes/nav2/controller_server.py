@@ -13,6 +13,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
+from gazelle.interfaces.poses import unit_pose_of
 from gazelle.mapping.poses import compose
 from gazelle.navigation.controllers import (
     CONTROLLERS,
@@ -39,7 +40,7 @@ from gazelle.nodes.nav2.tables import (
     PROGRESS_CHECKERS,
     controller_table,
 )
-from gazelle.nodes.navigation.frames import PlanePose, path_message, plane_of, pose_of_message
+from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
@@ -240,7 +241,7 @@ class _ControllerServer:
         if not request.path.poses:
             raise _EndError("INVALID_PATH", "Invalid path, Path is empty.")
         frame = str(request.path.header.frame_id or request.path.poses[0].header.frame_id)
-        poses = np.array([plane_of(pose_of_message(one.pose)) for one in request.path.poses])
+        poses = np.array([unit_pose_of(one.pose).xy_yaw for one in request.path.poses])
         drive = _Drive(poses, frame.removeprefix("/"), controller, goals, progress)
         if before is None or before.controller is not controller:
             controller.reset()
@@ -259,7 +260,7 @@ class _ControllerServer:
         found = live.frames.between(live.global_frame, drive.frame)
         if isinstance(found, str):
             raise _EndError("TF_ERROR", f"the path's frame {drive.frame} is not known: {found}")
-        drive.place(plane_of(found))
+        drive.place(found.xy_yaw)
 
     def _pose(self) -> PlanePose:
         assert self._costmap is not None

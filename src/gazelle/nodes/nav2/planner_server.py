@@ -12,6 +12,8 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type, service_type
+from gazelle.interfaces.poses import unit_pose_of
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN
 from gazelle.navigation.planners import (
     PLANNERS,
@@ -25,7 +27,7 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.costmaps import Nav2Costmap
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import PLANNER_SERVER, planner_table
-from gazelle.nodes.navigation.frames import PlanePose, path_message, plane_of, pose_of_message
+from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
 
@@ -141,7 +143,7 @@ class _PlannerServer:
         now_ns = self._node.clock.now_ns()
         result.path = path_message(poses, self._costmap.live.global_frame, now_ns)
         took_ns = max(now_ns - began_ns, 0)
-        result.planning_time.sec, result.planning_time.nanosec = divmod(took_ns, 1_000_000_000)
+        set_stamp(result.planning_time, took_ns)
         if self._out.matched:
             self._out.publish(result.path)
         action.succeed(result)
@@ -199,7 +201,7 @@ class _PlannerServer:
         found = live.frames.message_in(pose, live.global_frame)
         if isinstance(found, str):
             raise _RefusedError("TF_ERROR", found)
-        return plane_of(pose_of_message(found.pose))
+        return unit_pose_of(found.pose).xy_yaw
 
     def _between(self, start: PlanePose, goal: PlanePose, options: PlannerOptions) -> Any:
         assert self._costmap is not None
@@ -213,7 +215,7 @@ class _PlannerServer:
         if self._costmap is None or not request.path.poses:
             return response
         grid = self._costmap.live.snapshot()
-        poses = [plane_of(pose_of_message(one.pose)) for one in request.path.poses]
+        poses = [unit_pose_of(one.pose).xy_yaw for one in request.path.poses]
         costs = [grid.cost_at(x, y) for x, y, _ in poses]
         bad = [place for place, cost in enumerate(costs) if INSCRIBED <= cost < UNKNOWN]
         response.is_valid = not bad

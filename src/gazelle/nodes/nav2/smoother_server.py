@@ -12,12 +12,14 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
+from gazelle.interfaces.poses import unit_pose_of
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import SMOOTHER, SMOOTHER_SERVER
-from gazelle.nodes.navigation.frames import path_message, plane_of, pose_of_message
+from gazelle.nodes.navigation.frames import path_message
 from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
 
@@ -25,7 +27,6 @@ __all__ = ["run", "smoothed"]
 
 _WAIT_S = 0.2
 _SIMPLE = "nav2_smoother::SimpleSmoother"
-_NANO = 1_000_000_000
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -139,13 +140,13 @@ class _SmootherServer:
             action.abort(result, reason)
             return
         began_ns = self._node.clock.now_ns()
-        poses = np.array([plane_of(pose_of_message(one.pose)) for one in path.poses])
+        poses = np.array([unit_pose_of(one.pose).xy_yaw for one in path.poses])
         points = self._smooth(poses[:, :2], self._smoothers[name])
         now_ns = self._node.clock.now_ns()
         result.path = path_message(_directed(points, poses), str(path.header.frame_id), now_ns)
         took_ns = max(now_ns - began_ns, 0)
         duration = result.smoothing_duration
-        duration.sec, duration.nanosec = divmod(took_ns, _NANO)
+        set_stamp(duration, took_ns)
         result.was_completed = True
         if (
             goal.request.check_for_collisions

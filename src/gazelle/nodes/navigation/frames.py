@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose, set_pose, unit_pose_of
+from gazelle.interfaces.stamps import set_header
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -17,12 +18,7 @@ __all__ = [
     "Frames",
     "PlanePose",
     "RobotPose",
-    "fill_pose",
     "path_message",
-    "plane_of",
-    "pose_of_message",
-    "set_stamp",
-    "stamp_ns_of",
 ]
 
 PlanePose = tuple[float, float, float]
@@ -83,7 +79,7 @@ class Frames:
                 return text
             self.say("warn", f"{text}; it is used all the same", key=f"late {global_frame}",
                      every_s=1.0)  # fmt: skip
-        return RobotPose(plane_of(found.pose), found.stamp_ns)
+        return RobotPose(found.pose.xy_yaw, found.stamp_ns)
 
     def between(self, target: str, source: str, stamp_ns: int = 0) -> Pose | str:
         """Return ``T_target_source`` at a time, or why it is not known."""
@@ -106,8 +102,8 @@ class Frames:
         transform = self.between(frame, source)
         if isinstance(transform, str):
             return transform
-        at = transform @ pose_of_message(pose.pose)
-        fill_pose(made.pose, at)
+        at = transform @ unit_pose_of(pose.pose)
+        set_pose(made.pose, at)
         return made
 
     def say(self, level: str, text: str, key: str = "", *, every_s: float = 5.0) -> None:
@@ -121,56 +117,14 @@ class Frames:
         self._node.log(level, text)
 
 
-def plane_of(pose: Pose) -> PlanePose:
-    """Return a pose seen from above."""
-    x, y, z, w = pose.quat_xyzw
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return float(pose.position_m[0]), float(pose.position_m[1]), yaw
-
-
-def pose_of_message(message: Any) -> Pose:
-    """Return a ``geometry_msgs/Pose``; a quaternion of 0 means no rotation."""
-    p, q = message.position, message.orientation
-    quat = (float(q.x), float(q.y), float(q.z), float(q.w))
-    norm = math.sqrt(sum(value * value for value in quat))
-    if norm > 0 and math.isfinite(norm):
-        turn = (quat[0] / norm, quat[1] / norm, quat[2] / norm, quat[3] / norm)
-    else:
-        turn = (0.0, 0.0, 0.0, 1.0)
-    return Pose((float(p.x), float(p.y), float(p.z)), turn)
-
-
-def fill_pose(message: Any, pose: Pose | PlanePose) -> None:
-    """Write a pose into a ``geometry_msgs/Pose``."""
-    if not isinstance(pose, Pose):
-        x, y, yaw = map(float, pose)
-        pose = Pose((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
-    p, q = message.position, message.orientation
-    p.x, p.y, p.z = pose.position_m
-    q.x, q.y, q.z, q.w = pose.quat_xyzw
-
-
-def stamp_ns_of(message: Any) -> int:
-    """Return the stamp of a message with a header."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * _NANO + int(stamp.nanosec)
-
-
-def set_stamp(message: Any, now_ns: int, frame_id: str) -> None:
-    """Write a message's header."""
-    message.header.frame_id = frame_id
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(now_ns, _NANO)
-
-
 def path_message(poses: Any, frame_id: str, now_ns: int) -> Any:
     """Return rows of x, y, yaw as a ``nav_msgs/Path``."""
     stamped: Any = message_type("geometry_msgs/msg/PoseStamped")
     path: Any = message_type("nav_msgs/msg/Path")()
-    set_stamp(path, now_ns, frame_id)
-    for x, y, yaw in poses:
+    set_header(path, now_ns, frame_id)
+    for pose in poses:
         one = stamped()
-        set_stamp(one, now_ns, frame_id)
-        one.pose.position.x, one.pose.position.y = float(x), float(y)
-        one.pose.orientation.z, one.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+        set_header(one, now_ns, frame_id)
+        set_plane_pose(one.pose, pose)
         path.poses.append(one)
     return path

@@ -12,6 +12,7 @@ import numpy as np
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import MessageFilter, TransformError
+from gazelle.interfaces.stamps import ns_of
 from gazelle.navigation.costmap import (
     CostGrid,
     Footprint,
@@ -22,7 +23,7 @@ from gazelle.navigation.costmap import (
 )
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.assembling import Assembly
-from gazelle.nodes.navigation.frames import Frames, PlanePose, plane_of, stamp_ns_of
+from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.sensing import MESSAGE_TYPES, observation_of
 from gazelle.nodes.parameters import ticks
@@ -319,7 +320,7 @@ class LiveCostmap:
         if isinstance(found, str):
             self.frames.say("warn", f"{self.name}: the map is in frame {self._map_frame}: {found}")
             return None
-        return plane_of(found)
+        return found.xy_yaw
 
     def _on_seen(self, source: tuple[str, str], message: Any) -> None:
         """Take a sensor's message in as soon as tf knows where it was taken."""
@@ -330,7 +331,7 @@ class LiveCostmap:
             self._observe(source, held.add(message))
             oldest = held.oldest
         if oldest is not None:
-            waited_ns = self._node.clock.now_ns() - stamp_ns_of(oldest[0])
+            waited_ns = self._node.clock.now_ns() - ns_of(oldest[0].header.stamp)
             if waited_ns > _LONG_WAIT_NS:
                 self._tell_of_tf(self.assembly.sources[source], *oldest)
 
@@ -343,7 +344,7 @@ class LiveCostmap:
 
     def _placed(self, source: SourceOptions, message: Any) -> Observation | None:
         """Return what a message shows, None where there is something wrong with it."""
-        stamp_ns = stamp_ns_of(message)
+        stamp_ns = ns_of(message.header.stamp)
         frame = str(message.header.frame_id).removeprefix("/")
         lookup = self.frames.buffer.lookup_transform
         T_global_frame = lookup(self.global_frame, frame, stamp_ns).pose

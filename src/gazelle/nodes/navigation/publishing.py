@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.costmap import CostGrid, Window, occupancy_of_costs
-from gazelle.nodes.navigation.frames import set_stamp
 
 if TYPE_CHECKING:
     from gazelle.graph import Node, Publisher
@@ -71,7 +71,7 @@ class CostmapPublisher:
             return
         point: Any = message_type("geometry_msgs/msg/Point32")
         message = self._footprint.message_class()
-        set_stamp(message, now_ns, self._frame_id)
+        set_header(message, now_ns, self._frame_id)
         message.polygon.points = [point(x=float(x), y=float(y)) for x, y in corners]
         self._footprint.publish(message)
 
@@ -83,7 +83,7 @@ class CostmapPublisher:
 
     def _full_message(self, grid: CostGrid, now_ns: int) -> Any:
         message = self._full.message_class()
-        set_stamp(message, now_ns, self._frame_id)
+        set_header(message, now_ns, self._frame_id)
         info = message.info
         info.map_load_time = message.header.stamp
         info.resolution = grid.resolution_m
@@ -96,7 +96,7 @@ class CostmapPublisher:
     def _update_message(self, grid: CostGrid, window: Window, now_ns: int) -> Any:
         window = window.within(grid.width, grid.height)
         message = self._updates.message_class()
-        set_stamp(message, now_ns, self._frame_id)
+        set_header(message, now_ns, self._frame_id)
         message.x, message.y = window.x0, window.y0
         message.width, message.height = window.x1 - window.x0, window.y1 - window.y0
         message.data = occupancy_of_costs(grid.costs[window.cells]).ravel()
@@ -105,7 +105,7 @@ class CostmapPublisher:
     def raw_message(self, grid: CostGrid, now_ns: int) -> Any:
         """Return costs as they are (``nav2_msgs/Costmap``)."""
         message: Any = message_type("nav2_msgs/msg/Costmap")()
-        set_stamp(message, now_ns, self._frame_id)
+        set_header(message, now_ns, self._frame_id)
         data = message.metadata
         data.update_time = message.header.stamp
         data.layer = "master"

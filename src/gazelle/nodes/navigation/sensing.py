@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
+from gazelle.interfaces.stamps import ns_of
 from gazelle.navigation.costmap import Observation
-from gazelle.nodes.navigation.frames import stamp_ns_of
 
 __all__ = ["MESSAGE_TYPES", "cloud_points", "observation_of"]
 
@@ -47,7 +47,7 @@ def observation_of(
     else:
         points = np.array([(p.x, p.y, p.z) for p in message.points], float).reshape(-1, 3)
     place = (origin or T_global_sensor).position_m
-    return Observation(stamp_ns_of(message), place, T_global_sensor.transform(points), ends)
+    return Observation(ns_of(message.header.stamp), place, T_global_sensor.transform(points), ends)
 
 
 def cloud_points(cloud: Any) -> NDArray[np.float64]:

@@ -16,6 +16,7 @@ from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.graph.world import first_there, offered_name, world_names
 from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import set_pose
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.parameters import private, start_node
@@ -90,9 +91,7 @@ def _create(
     pose = Pose.from_xyz_rpy(
         (options["x"], options["y"], options["z"]), (options["R"], options["P"], options["Y"])
     )
-    place, turn = request.initial_pose.position, request.initial_pose.orientation
-    place.x, place.y, place.z = pose.position_m
-    turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
+    set_pose(request.initial_pose, pose)
     spawn = offered_name(node.graph, _SPAWN[0])
     answer = node.create_client(spawn, kind).call(request)
     if not answer.success:

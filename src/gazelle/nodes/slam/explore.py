@@ -9,12 +9,14 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
+from gazelle.interfaces.poses import set_plane_pose
+from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.navigation.frames import Frames, fill_pose, set_stamp
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.table import Row, Table, refused
 from gazelle.nodes.parameters import start_node, ticks
@@ -158,7 +160,7 @@ class _Explorer:
         action, name_of_pose = client
         goal = action.types.Goal()
         pose = getattr(goal, name_of_pose)
-        set_stamp(pose, now_ns, frame)
-        fill_pose(pose.pose, (*best.nearest_m, 0.0))
+        set_header(pose, now_ns, frame)
+        set_plane_pose(pose.pose, (*best.nearest_m, 0.0))
         self._to, self._nearest_m, self._nearer_ns = best.nearest_m, math.inf, now_ns
         self._goal = action.send_goal(goal)

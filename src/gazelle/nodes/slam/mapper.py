@@ -105,7 +105,7 @@ class Mapper:
         """Send where odometry's frame is in the map; its origin before the first scan."""
         at = np.zeros(3) if self._T_map_odom is None else self._T_map_odom
         x, y, yaw = at.tolist()
-        pose = Pose((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+        pose = Pose.from_xy_yaw(x, y, yaw)
         stamp_ns = now_ns + int(self.options.tf_ahead_s * _NANO)
         told = self.options
         self._tf_out.send(StampedPose(told.map_frame, told.odom_frame, stamp_ns, pose))

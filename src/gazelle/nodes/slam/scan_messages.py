@@ -10,10 +10,11 @@ import numpy as np
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import MessageFilter, TransformBuffer, TransformError
+from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.poses import Poses
 from gazelle.mapping.scans import Scan
 
-__all__ = ["PlacedScan", "ScanQueue", "plane_pose", "scan_of", "stamp_ns_of"]
+__all__ = ["PlacedScan", "ScanQueue", "scan_of"]
 
 _TILTED = 0.1
 
@@ -28,19 +29,6 @@ class PlacedScan(NamedTuple):
 
     scan: Scan
     odometry: Poses
-
-
-def stamp_ns_of(message: Any) -> int:
-    """Return the time of a message with a header."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
-
-
-def plane_pose(pose: Pose) -> tuple[float, float, float]:
-    """Return x, y, yaw of a pose, seen from above."""
-    x, y, z, w = pose.quat_xyzw
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return float(pose.position_m[0]), float(pose.position_m[1]), yaw
 
 
 def scan_of(message: Any, T_base_laser: Pose, max_range_m: float = math.inf) -> Scan:
@@ -70,7 +58,7 @@ def scan_of(message: Any, T_base_laser: Pose, max_range_m: float = math.inf) -> 
     ahead = T_base_laser.rotate((1.0, 0.0, 0.0))
     mount = (*T_base_laser.position_m[:2], math.atan2(ahead[1], ahead[0]))
     return Scan(
-        stamp_ns_of(message), float(message.angle_min), step, ranges,
+        ns_of(message.header.stamp), float(message.angle_min), step, ranges,
         max(0.0, float(message.range_min)), limit, mount, upside_down=up < 0,
     )  # fmt: skip
 
@@ -125,12 +113,12 @@ class ScanQueue:
 
     def _place(self, message: Any) -> PlacedScan | None:
         """Return a scan in its place, None where there is something wrong with it."""
-        frame, stamp = str(message.header.frame_id).removeprefix("/"), stamp_ns_of(message)
+        frame, stamp = str(message.header.frame_id).removeprefix("/"), ns_of(message.header.stamp)
         mount = self._buffer.lookup_transform(self._base, frame, stamp).pose
         robot = self._buffer.lookup_transform(self._odom, self._base, stamp).pose
         try:
             scan = scan_of(message, mount, self._max_range_m)
-            odometry = np.array(plane_pose(robot))
+            odometry = np.array(robot.xy_yaw)
             if not np.isfinite(odometry).all():
                 raise ValueError(f"tf from {self._odom} to {self._base} is not finite")
         except ValueError as error:

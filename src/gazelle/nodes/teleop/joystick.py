@@ -25,10 +25,10 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.navigation.frames import set_stamp
 from gazelle.nodes.navigation.settings import Settings, flat, nested
 from gazelle.nodes.navigation.table import Row, Table
 from gazelle.nodes.parameters import parameter_tree, start_node
@@ -222,7 +222,7 @@ class _Teleop:
         message: Any = self._out.message_class()
         twist = message
         if self._stamped:
-            set_stamp(message, self._node.clock.now_ns(), self._frame)
+            set_header(message, self._node.clock.now_ns(), self._frame)
             twist = message.twist
         fields = speeds or dict.fromkeys(_FIELDS, 0.0)
         twist.linear.x, twist.linear.y, twist.linear.z = (fields[one] for one in _LINEAR)

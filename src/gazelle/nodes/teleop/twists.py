@@ -6,6 +6,7 @@ from typing import Any
 
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 
 __all__ = ["TwistSender", "twist_sender"]
 
@@ -30,7 +31,7 @@ class TwistSender:
         if self._frame_id is not None:
             now_ns = self._node.clock.now_ns()
             message.header.frame_id = self._frame_id
-            message.header.stamp.sec, message.header.stamp.nanosec = divmod(now_ns, 1_000_000_000)
+            set_stamp(message.header.stamp, now_ns)
             twist = message.twist
         twist.linear.x, twist.linear.y, twist.linear.z = linear_m_s
         twist.angular.z = angular_rad_s

@@ -13,8 +13,10 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import Any, NamedTuple
 
+from gazelle.geometry import yaw_from_quat_xyzw
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import quat_xyzw_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node, ticks
 
@@ -109,10 +111,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         wanderer.ranges = ranges_of(scan)
 
     def on_odometry(odometry: Any) -> None:
-        turn = odometry.pose.pose.orientation
-        sin = 2 * (turn.w * turn.z + turn.x * turn.y)
-        cos = 1 - 2 * (turn.y * turn.y + turn.z * turn.z)
-        wanderer.yaw_rad = math.atan2(sin, cos)
+        wanderer.yaw_rad = yaw_from_quat_xyzw(quat_xyzw_of(odometry.pose.pose.orientation))
 
     name = "cmd_vel_topic_name"
     topic = str(node.parameters.get(name) if node.parameters.has(name) else "") or "cmd_vel"

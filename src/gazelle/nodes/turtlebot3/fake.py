@@ -26,9 +26,12 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import LaunchError
+from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.graph.node_parameters import Descriptor
 from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import set_plane_pose, set_transform
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import node_parameters, start_node, ticks
 
@@ -228,7 +231,7 @@ def _publishing(node: Node, base: FakeBase, setup: _Setup) -> Callable[[int], No
             velocity=list(base.wheel_speeds_rad_s),
             effort=[0.0, 0.0],
         )
-        _stamp(state, now_ns, setup.joints_frame)
+        set_header(state, now_ns, setup.joints_frame)
         joints_out.publish(state)
         tf_out.publish(tf(transforms=[_transform(base, setup, now_ns)]))
 
@@ -237,10 +240,9 @@ def _publishing(node: Node, base: FakeBase, setup: _Setup) -> Callable[[int], No
 
 def _odometry(kind: Any, base: FakeBase, setup: _Setup, now_ns: int) -> Any:
     message = kind(child_frame_id=setup.frames[1])
-    _stamp(message, now_ns, setup.frames[0])
+    set_header(message, now_ns, setup.frames[0])
     pose, twist = message.pose, message.twist
-    pose.pose.position.x, pose.pose.position.y = base.x_m, base.y_m
-    _set_yaw(pose.pose.orientation, base.yaw_rad)
+    set_plane_pose(pose.pose, (base.x_m, base.y_m, base.yaw_rad))
     twist.twist.linear.x, twist.twist.angular.z = base.linear_m_s, base.angular_rad_s
     pose.covariance = twist.covariance = setup.covariance
     return message
@@ -249,19 +251,9 @@ def _odometry(kind: Any, base: FakeBase, setup: _Setup, now_ns: int) -> Any:
 def _transform(base: FakeBase, setup: _Setup, now_ns: int) -> Any:
     message: Any = message_type("geometry_msgs/msg/TransformStamped")()
     message.child_frame_id = setup.frames[1]
-    _stamp(message, now_ns, setup.frames[0])
-    message.transform.translation.x, message.transform.translation.y = base.x_m, base.y_m
-    _set_yaw(message.transform.rotation, base.yaw_rad)
+    set_header(message, now_ns, setup.frames[0])
+    set_transform(message.transform, Pose.from_xy_yaw(base.x_m, base.y_m, base.yaw_rad))
     return message
-
-
-def _set_yaw(rotation: Any, yaw_rad: float) -> None:
-    rotation.z, rotation.w = math.sin(yaw_rad / 2), math.cos(yaw_rad / 2)
-
-
-def _stamp(message: Any, now_ns: int, frame_id: str) -> None:
-    message.header.frame_id = frame_id
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(now_ns, 1_000_000_000)
 
 
 def _parameter(node: Node, name: str, default: Any) -> Any:

@@ -21,9 +21,9 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.navigation.frames import set_stamp
 from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 from gazelle.nodes.twist_mux.inputs import Choice, Input, read_inputs
 from gazelle.nodes.twist_mux.stamped import is_stamped
@@ -124,7 +124,7 @@ def _diagnostics(node: Node, choice: Choice) -> Callable[[int], None]:
         message: Any = array(
             status=[status(name=name, message="ok", hardware_id="none", values=values)]
         )
-        set_stamp(message, now_ns, "")
+        set_header(message, now_ns, "")
         out.publish(message)
 
     return tell

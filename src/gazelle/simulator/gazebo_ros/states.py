@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from gazelle.geometry import Pose
 from gazelle.graph import Publisher
 from gazelle.graph.clock_sharing import share_clock
-from gazelle.simulator.messages import message_class, pose_message, stamp, twist_message
+from gazelle.interfaces.stamps import stamp_message
+from gazelle.simulator.messages import message_class, pose_message, twist_message
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
@@ -82,7 +83,7 @@ def offer_clock(server: WorldServer, resources: Resources, topic: str, rate_hz: 
         if shared is not None and shared.is_on:
             shared.show(engine.time_ns)
         if clock.matched:
-            clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp(engine.time_ns)))
+            clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp_message(engine.time_ns)))
 
     def wanted() -> bool:
         if shared is not None:

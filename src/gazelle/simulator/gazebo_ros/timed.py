@@ -6,6 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from gazelle.interfaces.stamps import ns_of
 from gazelle.simulator.scheduler import ORDER_CONTROL, Task
 
 if TYPE_CHECKING:
@@ -13,18 +14,16 @@ if TYPE_CHECKING:
 
 __all__ = ["JointEfforts", "at_time", "duration_ns"]
 
-_NS = 1_000_000_000
-
 
 def duration_ns(duration: Any) -> int | None:
     """Return a ROS duration in nanoseconds, None for a negative one: for ever."""
-    total = int(duration.sec) * _NS + int(duration.nanosec)
+    total = ns_of(duration)
     return None if total < 0 else total
 
 
 def at_time(server: WorldServer, start: Any, action: Callable[[], None]) -> None:
     """Run an action now, or at a simulated time (``builtin_interfaces/Time``) in the future."""
-    wait_ns = int(start.sec) * _NS + int(start.nanosec) - server.time_ns
+    wait_ns = ns_of(start) - server.time_ns
     if wait_ns <= 0:
         action()
     else:

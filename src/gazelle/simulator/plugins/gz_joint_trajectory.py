@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.description.model import JointType
 from gazelle.diagnostics import did_you_mean
 from gazelle.engine import JointHandle
+from gazelle.interfaces.stamps import ns_of
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
@@ -84,7 +85,7 @@ class _Course:
             self.start_ns = time_ns
         self.index = max(self.index, 0)
         elapsed_ns = time_ns - self.start_ns
-        while not self.is_at_end and _time_ns(self.points[self.index].time_from_start) < elapsed_ns:
+        while not self.is_at_end and ns_of(self.points[self.index].time_from_start) < elapsed_ns:
             self.index += 1
         return self.index != before
 
@@ -129,7 +130,7 @@ class _Controller:
                 text += f"'{name}', which it does not drive; that joint is left out"
                 fix = did_you_mean(name, tuple(self._joints))
                 self._context.report("plugin.missing-joint", text, fix=fix)
-        stamp_ns = _time_ns(message.header.stamp)
+        stamp_ns = ns_of(message.header.stamp)
         start_ns = stamp_ns if self._uses_stamp and stamp_ns else None
         points = list(message.points)
         names = list(message.joint_names)
@@ -181,7 +182,3 @@ def _each(parameters: ParameterReader, key: str, count: int) -> list[float]:
     """Return a number for each joint, in the order of the elements; the rest have the default."""
     given = parameters.numbers(key)[:count]
     return [*given, *[parameters.default_number(key)] * (count - len(given))]
-
-
-def _time_ns(time: Any) -> int:
-    return int(time.sec) * 10**9 + int(time.nanosec)

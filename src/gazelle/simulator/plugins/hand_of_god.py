@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import pose_of_transform
 from gazelle.simulator.messages import message_class, transform_stamped
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import ParameterReader
@@ -70,8 +71,7 @@ class _Frames:
     def take(self, message: Any) -> None:
         """Remember the transforms of a message."""
         for item in message.transforms:
-            t, r = item.transform.translation, item.transform.rotation
-            pose = Pose((t.x, t.y, t.z), (r.x, r.y, r.z, r.w))
+            pose = pose_of_transform(item.transform)
             parent = item.header.frame_id.lstrip("/")
             self._parents[item.child_frame_id.lstrip("/")] = (parent, pose)
 

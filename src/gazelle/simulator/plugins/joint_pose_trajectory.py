@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
+from gazelle.interfaces.stamps import ns_of
 from gazelle.simulator.messages import pose_from_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import ParameterReader
@@ -115,7 +116,7 @@ class _Trajectories:
             self._report("joint", missing[0], known)
             return False
         stamp = message.header.stamp
-        due_ns = max(int(stamp.sec) * 10**9 + int(stamp.nanosec), self._engine.time_ns)
+        due_ns = max(ns_of(stamp), self._engine.time_ns)
         joints = [f"{model}::{name}" for name in message.joint_names]
         self._course = _Course(model, link, joints, list(message.points), due_ns)
         return True
@@ -136,7 +137,7 @@ class _Trajectories:
         else:
             self._engine.set_model_pose(course.model, place)
         wait = point.time_from_start
-        course.due_ns += int(wait.sec) * 10**9 + int(wait.nanosec)
+        course.due_ns += ns_of(wait)
 
     def _place(self, course: _Course) -> Pose:
         if course.link:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from gazelle.interfaces.stamps import stamp_message
 from gazelle.simulator.gazebo_ros.states import offer_clock
 from gazelle.simulator.messages import message_class, transform_stamped
 
@@ -71,11 +72,8 @@ class GzTopics:
 
 
 def _gz_statistics(value: Mapping[str, Any]) -> Any:
-    time_type = message_class("builtin_interfaces/msg/Time")
-
     def time_of(seconds: float) -> Any:
-        nanoseconds = round(seconds * 1e9)
-        return time_type(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
+        return stamp_message(round(seconds * 1e9))
 
     return message_class("gazelle_msgs/WorldStatistics")(
         sim_time=time_of(value["sim_s"]),

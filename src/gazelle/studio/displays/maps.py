@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import unit_pose_of
 from gazelle.studio.displays.showing import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
@@ -177,11 +178,5 @@ def _difference(old: NDArray[np.int8], new: NDArray[np.int8]) -> _Rect | None:
 
 
 def _origin(message: Any) -> Pose:
-    at, turn = message.info.origin.position, message.info.origin.orientation
-    return Pose((at.x, at.y, at.z), _unit(turn.x, turn.y, turn.z, turn.w))
-
-
-def _unit(x: float, y: float, z: float, w: float) -> tuple[float, float, float, float]:
-    """Map servers that leave the orientation at zero mean none."""
-    length = float(np.sqrt(x * x + y * y + z * z + w * w))
-    return (0.0, 0.0, 0.0, 1.0) if length == 0 else (x / length, y / length, z / length, w / length)
+    # Map servers that leave the orientation at zero mean none.
+    return unit_pose_of(message.info.origin)

@@ -7,6 +7,7 @@ from typing import Any
 
 from gazelle.geometry import Pose
 from gazelle.graph.tf import TransformError
+from gazelle.interfaces.stamps import ns_of
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import Frames
 from gazelle.studio.pacing import every
@@ -15,10 +16,9 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Site", "headed", "open_newest", "open_on", "stamp_ns"]
+__all__ = ["Site", "headed", "open_newest", "open_on"]
 
 _RETRY_S = 0.5
-_NANO = 1_000_000_000
 
 
 class Site:
@@ -48,7 +48,7 @@ class Site:
             StudioError: there is no way from its frame to the fixed one; in RViz's words.
         """
         try:
-            return self.frames.pose(self._fixed, header.frame_id, stamp_ns(header.stamp))
+            return self.frames.pose(self._fixed, header.frame_id, ns_of(header.stamp))
         except TransformError as error:
             raise StudioError(
                 f"No transform from [{header.frame_id}] to [{self._fixed}]: {error}"
@@ -65,11 +65,6 @@ def headed(sample: Sample) -> Any:
     if not hasattr(message, "header"):
         raise StudioError(f"{sample.raw.type_name} has no header, so it has no place")
     return message
-
-
-def stamp_ns(stamp: Any) -> int:
-    """Return a time of a message in nanoseconds."""
-    return int(stamp.sec) * _NANO + int(stamp.nanosec)
 
 
 def open_on(site: Site, opener: Callable[[Site], OpenStream]) -> OpenStream:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.publishing import Outbox
 from gazelle.studio.params import Params
@@ -13,7 +14,6 @@ from gazelle.studio.session import Studio
 __all__ = ["publish_joints"]
 
 _TOPIC = "/joint_states"
-_NANO = 1_000_000_000
 
 
 def publish_joints(studio: Studio, params: Params) -> dict[str, Any]:
@@ -24,6 +24,6 @@ def publish_joints(studio: Studio, params: Params) -> dict[str, Any]:
     message_class = message_type("sensor_msgs/msg/JointState")
     message = message_class(name=names, position=positions)
     stamp = message.header.stamp
-    stamp.sec, stamp.nanosec = divmod(studio.graph.clock.now_ns(), _NANO)
+    set_stamp(stamp, studio.graph.clock.now_ns())
     studio.shared(Outbox).publisher(params.text("topic", _TOPIC), message_class).publish(message)
     return {}

@@ -9,10 +9,10 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph.console import Level, level_of
+from gazelle.interfaces.stamps import seconds_of
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
-from gazelle.studio.stamps import seconds
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
@@ -90,7 +90,7 @@ def _unreadable(sample: Sample, error: Exception) -> dict[str, Any]:
 def _record(message: Any) -> dict[str, Any]:
     place = max((number for number in range(5) if _LEVELS[number] <= message.level), default=0)
     return {
-        "stamp_s": seconds(message.stamp),
+        "stamp_s": seconds_of(message.stamp),
         "level": _WORDS[place],
         "name": message.name,
         "message": message.msg,

@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption
 from gazelle.cli.gz.world_link import WorldLink, world_link
 from gazelle.diagnostics import did_you_mean
-from gazelle.geometry import Pose
+from gazelle.interfaces.poses import pose_of
 
 __all__ = ["COMMAND", "OPTIONAL", "run"]
 
@@ -109,8 +109,7 @@ def _joint(link: WorldLink, model: str, name: str) -> list[str]:
 
 
 def _pose_lines(message: Any, space: str, title: str = "Pose") -> list[str]:
-    place, turn = message.position, message.orientation
-    pose = Pose((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    pose = pose_of(message)
     return [
         f"{space}- {title} [ XYZ (m) ] [ RPY (rad) ]:",
         f"{space}  {_numbers(pose.position_m)}",

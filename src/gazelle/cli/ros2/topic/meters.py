@@ -20,6 +20,7 @@ from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.rostopic.rate import RateMeter, rate_table
 from gazelle.cli.tool import ToolError
 from gazelle.graph import RawMessage
+from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["add_arguments_bw", "add_arguments_delay", "add_arguments_hz"]
 __all__ += ["bandwidth_text", "rate_text", "run_bw", "run_delay", "run_hz"]
@@ -147,7 +148,7 @@ def run_delay(options: argparse.Namespace) -> int:
 
         def take(message: Any) -> None:
             stamp = message.header.stamp
-            meter.add(graph.clock.now_ns() / 1e9, stamp.sec + stamp.nanosec / 1e9)
+            meter.add(graph.clock.now_ns() / 1e9, seconds_of(stamp))
 
         node.create_subscription(topic, kind, take, inline=True)
         _repeat(ended, meter.report)

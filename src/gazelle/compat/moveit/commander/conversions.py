@@ -10,6 +10,7 @@ from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
 from gazelle.geometry import Pose
 from gazelle.interfaces import ros1_message_type
+from gazelle.interfaces.poses import set_pose
 
 __all__ = [
     "list_to_pose",
@@ -76,7 +77,5 @@ def list_to_transform(trf_list: Sequence[float]) -> Any:
 
 def _message(pose: Pose) -> Any:
     made: Any = ros1_message_type("geometry_msgs/Pose")()
-    made.position.x, made.position.y, made.position.z = pose.position_m
-    turn = made.orientation
-    turn.x, turn.y, turn.z, turn.w = pose.quat_xyzw
+    set_pose(made, pose)
     return made

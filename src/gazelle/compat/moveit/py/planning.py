@@ -16,6 +16,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 from gazelle.interfaces import convert, message_type
+from gazelle.interfaces.poses import pose_of
 from gazelle.motion.model import RobotModel as MotionRobot
 from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
@@ -327,12 +328,12 @@ class PlanningComponent:
         return state
 
     def _of_pose(self, stamped: Any, link: str) -> Any:
-        place, turn = stamped.pose.position, stamped.pose.orientation
+        pose = pose_of(stamped.pose)
         return pose_constraints(
             link or self._context.robot.group(self.planning_group_name).tip_link,
             stamped.header.frame_id,
-            position_m=(place.x, place.y, place.z),
-            quat_xyzw=(turn.x, turn.y, turn.z, turn.w),
+            position_m=pose.position_m,
+            quat_xyzw=pose.quat_xyzw,
         )
 
 

@@ -9,6 +9,7 @@ from gazelle.control.bank import Array
 from gazelle.control.messages import message_class, stamped
 from gazelle.control.ports import GoalPort, Ports, PublisherPort
 from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +36,7 @@ def point(rows: Iterable[Array | None], time_ns: int, effort: Array | None = Non
             setattr(message, name, values.copy())
     if effort is not None:
         message.effort = effort.copy()
-    message.time_from_start.sec, message.time_from_start.nanosec = divmod(time_ns, _NANO)
+    set_stamp(message.time_from_start, time_ns)
     return message
 
 

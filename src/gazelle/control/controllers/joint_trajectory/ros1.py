@@ -30,7 +30,8 @@ from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.segments import SegmentTrajectory, Track, hold, ramp_down
 from gazelle.control.trajectory.splicing import Splice, splice
 from gazelle.control.trajectory.tolerances import Tolerances, goal_tolerances, violated
-from gazelle.control.trajectory.waypoints import check_joints, duration_ns, read_waypoints
+from gazelle.control.trajectory.waypoints import check_joints, read_waypoints
+from gazelle.interfaces.stamps import ns_of
 
 __all__ = ["Ros1JointTrajectoryController"]
 
@@ -264,7 +265,7 @@ class Ros1JointTrajectoryController(Controller):
     def _on_query(self, request: Any, response: Any) -> None:
         if not self._is_running:
             raise ControllerError("Can't sample trajectory. Controller is not running.")
-        time_ns = duration_ns(request.time)
+        time_ns = ns_of(request.time)
         if time_ns < min(self._following.start_ns, self._time_ns):
             raise ControllerError("Requested sample time precedes trajectory start time.")
         state = self._following.state_at(time_ns)

@@ -33,7 +33,8 @@ from gazelle.control.trajectory.tolerances import (
     goal_tolerances,
     violated,
 )
-from gazelle.control.trajectory.waypoints import Waypoints, duration_ns
+from gazelle.control.trajectory.waypoints import Waypoints
+from gazelle.interfaces.stamps import ns_of
 
 __all__ = ["Ros2JointTrajectoryController"]
 
@@ -297,7 +298,7 @@ class Ros2JointTrajectoryController(Controller):
             response.success = False
             response.message = "Can't sample trajectory. Controller is not active."
             return
-        time_ns = duration_ns(request.time)
+        time_ns = ns_of(request.time)
         state = self._following.state_at(time_ns)
         response.name = list(self._setup.joints.names)
         response.success = state is not None

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.nodes.navigation.frames import Frames, stamp_ns_of
+from gazelle.interfaces.stamps import ns_of
+from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.sensing import observation_of
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ class Source:
         message, limit_s = self._last, self.options.timeout_s
         if message is None:
             return f"nothing has come on {self.options.topic} yet"
-        stamp_ns = stamp_ns_of(message)
+        stamp_ns = ns_of(message.header.stamp)
         age_s = (now_ns - stamp_ns) / 1e9
         if 0 < limit_s < age_s:
             late = f"is {age_s:.2f} s old, source_timeout is {limit_s:g} s"

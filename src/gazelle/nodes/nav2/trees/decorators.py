@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any, ClassVar
 
+from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.nav2.trees.messages import path_length_m, poses_of
 from gazelle.nodes.nav2.trees.node import Decorator, Status
 from gazelle.nodes.nav2.trees.script import evaluate
@@ -303,7 +304,9 @@ class _GoalUpdater(Decorator):
     def tick(self) -> Status:
         goal = self.ports.get("input_goal", None)
         newest = self.world.latest("goal_update", "geometry_msgs/msg/PoseStamped")
-        if newest is not None and (goal is None or _stamp_ns(newest) > _stamp_ns(goal)):
+        if newest is not None and (
+            goal is None or ns_of(newest.header.stamp) > ns_of(goal.header.stamp)
+        ):
             goal = newest
         if goal is not None:
             self.ports.set("output_goal", goal)
@@ -361,11 +364,6 @@ class _PathLongerOnApproach(Decorator):
         if status.is_done:
             self.old = new
         return status
-
-
-def _stamp_ns(message: Any) -> int:
-    stamp = message.header.stamp
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
 
 
 DECORATORS: dict[str, type[Decorator]] = {

@@ -6,6 +6,7 @@ import math
 from itertools import pairwise
 from typing import Any
 
+from gazelle.interfaces.poses import pose_of
 from gazelle.nodes.nav2.trees.world import Pose2
 
 __all__ = ["distance_m", "goals_of", "path_length_m", "plane_pose", "poses_of"]
@@ -23,9 +24,7 @@ def goals_of(goals: Any) -> list[Any]:
 
 def plane_pose(pose: Any) -> Pose2:
     """Return a ``geometry_msgs/Pose`` in the plane."""
-    p, q = pose.position, pose.orientation
-    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-    return Pose2(float(p.x), float(p.y), yaw)
+    return Pose2(*pose_of(pose).xy_yaw)
 
 
 def distance_m(first: Any, second: Any) -> float:
