@@ -11,19 +11,25 @@ that cannot be loaded is a sentence for whoever asked, never the end of the othe
 
 from __future__ import annotations
 
-import importlib.metadata
 from enum import StrEnum
 from functools import cache
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+
+from gazelle.errors import GazelleError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 __all__ = [
     "Extension",
+    "ExtensionError",
     "ExtensionGroup",
     "Extensions",
     "entry_points_of",
     "find_entry_point",
     "folder_of",
+    "load_extension",
     "load_extensions",
     "told",
 ]
@@ -32,16 +38,20 @@ _T = TypeVar("_T")
 
 
 class ExtensionGroup(StrEnum):
-    """The groups of entry points that are looked at."""
+    """The groups of entry points that are looked at, without the ``gazelle.`` before them."""
 
-    BAG_STORAGE = "gazelle.bag_storage"
-    CONTROLLERS = "gazelle.controllers"
-    DISPLAYS = "gazelle.displays"
-    NODES = "gazelle.nodes"
-    PANELS = "gazelle.panels"
-    PIPELINES = "gazelle.planning_pipelines"
-    PLANNERS = "gazelle.planners"
-    PLUGINS = "gazelle.plugins"
+    BAG_STORAGE = "bag_storage"
+    CONTROLLERS = "controllers"
+    DISPLAYS = "displays"
+    NODES = "nodes"
+    PANELS = "panels"
+    PIPELINES = "planning_pipelines"
+    PLANNERS = "planners"
+    PLUGINS = "plugins"
+
+
+class ExtensionError(GazelleError):
+    """A part of another package cannot be had; says which, and why."""
 
 
 class Extension(NamedTuple, Generic[_T]):
@@ -70,28 +80,52 @@ class Extensions(NamedTuple, Generic[_T]):
     problems: tuple[str, ...]
 
 
-def entry_points_of(group: ExtensionGroup) -> tuple[importlib.metadata.EntryPoint, ...]:
+def entry_points_of(group: ExtensionGroup) -> tuple[EntryPoint, ...]:
     """Return the entry points of a group by name; nothing of them is imported."""
-    found = importlib.metadata.entry_points(group=group.value)
+    # Takes longer to import than most commands take to start.
+    from importlib.metadata import entry_points
+
+    found = entry_points(group=f"gazelle.{group.value}")
     return tuple(sorted(found, key=lambda point: (point.name, point.value)))
 
 
-def find_entry_point(group: ExtensionGroup, name: str) -> importlib.metadata.EntryPoint | None:
+def find_entry_point(group: ExtensionGroup, name: str) -> EntryPoint | None:
     """Return the entry point of a name in a group, None when no package has one."""
     return next((point for point in entry_points_of(group) if point.name == name), None)
 
 
-def folder_of(point: importlib.metadata.EntryPoint) -> Path:
+def folder_of(point: EntryPoint) -> Path:
     """Return the folder that the package of an entry point is installed in."""
     distribution = point.dist
     return Path(str(distribution.locate_file(""))) if distribution is not None else Path()
 
 
-def told(point: importlib.metadata.EntryPoint) -> str:
+def told(point: EntryPoint) -> str:
     """Return an entry point in words: its line, the package with its version, the group."""
     distribution: Any = point.dist
     package = f"{distribution.name} {distribution.version}" if distribution else "no known package"
     return f"entry point '{point.name} = {point.value}' of {package} ({point.group})"
+
+
+def load_extension(point: EntryPoint, kind: type[_T]) -> _T:
+    """Import what an entry point names.
+
+    Args:
+        point: the entry point.
+        kind: what the part has to be an instance of.
+
+    Raises:
+        ExtensionError: it cannot be imported, or is something else.
+    """
+    try:
+        part = point.load()
+    except Exception as error:
+        text = f"{told(point)} cannot be loaded: {type(error).__name__}: {error}"
+        raise ExtensionError(text) from error
+    if not isinstance(part, kind):
+        what = f"a {type(part).__name__}, not a {kind.__module__}.{kind.__qualname__}"
+        raise ExtensionError(f"{told(point)} is {what}")
+    return part
 
 
 @cache
@@ -106,13 +140,7 @@ def load_extensions(group: ExtensionGroup, kind: type[_T]) -> Extensions[_T]:
     problems: list[str] = []
     for point in entry_points_of(group):
         try:
-            part = point.load()
-        except Exception as error:  # noqa: BLE001 - a stranger's code, and others go on
-            problems.append(f"{told(point)} cannot be loaded: {type(error).__name__}: {error}")
-            continue
-        if isinstance(part, kind):
-            parts.append(Extension(point.name, told(point), part))
-        else:
-            what = f"a {type(part).__name__}, not a {kind.__module__}.{kind.__qualname__}"
-            problems.append(f"{told(point)} is {what}")
+            parts.append(Extension(point.name, told(point), load_extension(point, kind)))
+        except ExtensionError as error:
+            problems.append(str(error))
     return Extensions(tuple(parts), tuple(problems))

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
+from gazelle.extensions import ExtensionError
 from gazelle.launch.elsewhere import missing_node, missing_package
 from gazelle.node_specs.all_specs import builtin_executables, node_spec
 from gazelle.node_specs.spec import NodeSpec
@@ -77,7 +78,12 @@ def find_executable(
     if _COMMANDS.get((package, type_name)):
         words = (sys.executable, "-m", "gazelle.cli", *_COMMANDS[package, type_name].split())
         return Executable(words)
-    builtin = node_spec(package, type_name)
+    try:
+        builtin = node_spec(package, type_name)
+    except ExtensionError as error:
+        message = f"Cannot locate node of type [{type_name}] in package [{package}]: {error}"
+        diagnostics.report("launch.executable-missing", message, span)
+        return None
     if builtin is not None:
         words = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
         return Executable(words, builtin)

@@ -6,6 +6,7 @@ from functools import cache
 
 from gazelle.node_specs.control import CONTROL
 from gazelle.node_specs.driving import DRIVING
+from gazelle.node_specs.installed import installed_names, installed_spec
 from gazelle.node_specs.localisation import LOCALISATION
 from gazelle.node_specs.navigation import NAVIGATION
 from gazelle.node_specs.simulation import SIMULATION
@@ -38,19 +39,23 @@ def node_specs() -> tuple[NodeSpec, ...]:
 
 
 def node_spec(package: str, executable: str) -> NodeSpec | None:
-    """Return the node that answers to a name, or None."""
-    return _by_name().get((package, executable))
+    """Return the node that answers to a name, or None; installed packages add theirs.
+
+    Raises:
+        ExtensionError: an installed package names one that cannot be had.
+    """
+    return _by_name().get((package, executable)) or installed_spec(package, executable)
 
 
 def builtin_executables(package: str) -> tuple[str, ...]:
     """Return the executables that exist under a package's name."""
-    return tuple(sorted(name for owner, name in _by_name() if owner == package))
+    names = (*_by_name(), *installed_names())
+    return tuple(sorted({name for owner, name in names if owner == package}))
 
 
-@cache
 def builtin_packages() -> frozenset[str]:
-    """Return the packages that have built-in nodes."""
-    return frozenset(package for package, _executable in _by_name())
+    """Return the packages that have built-in nodes, or installed ones."""
+    return frozenset(package for package, _executable in (*_by_name(), *installed_names()))
 
 
 @cache
