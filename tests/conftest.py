@@ -92,13 +92,8 @@ def own_definitions() -> Iterator[None]:
     yield
     # What was never imported has learned nothing.
     loaded: Callable[[str], Any] = sys.modules.get
-    if (library := loaded("gazelle.interfaces.library")) and library._user_packages:
-        library._user_packages.clear()
-        library._revision += 1
-    if full_text := loaded("gazelle.interfaces.full_text"):
-        full_text._kept.clear()
-    if types := loaded("gazelle.nodes.workspace_types"):
-        types.learn_workspace_types.cache_clear()
+    if interfaces := loaded("gazelle.interfaces"):
+        interfaces.default_types().reset()
     for name in ("gazelle.bag.types", "gazelle.bag.migration"):
         if (module := loaded(name)) and module._folders:
             module._folders.pop().cleanup()

@@ -17,7 +17,6 @@ NOT_OURS = (SOURCE / "compat" / "modules", SOURCE / "workspace" / "builtin")
 WHEN_RUN = {
     # A URDF's <gazebo> holds SDF, and an <include> of SDF may name a URDF.
     "gazelle.description.sdf.models": 5,
-    "gazelle.interfaces.binding": 9,
     # The originals' packages, which users import from, gather modules that need each other.
     "gazelle.launch.ros2.actions": 31,
 }
@@ -27,7 +26,6 @@ WITH_TYPES = {
     "gazelle.engine.core": 4,
     "gazelle.graph.actions.actionlib_wire": 3,
     "gazelle.graph.clock": 10,
-    "gazelle.interfaces.binding": 9,
     "gazelle.launch.ros2.action": 35,
     "gazelle.launch.ros2.context": 4,
     "gazelle.simulator.handles": 10,

@@ -13,11 +13,11 @@ from gazelle.graph.wire import hash_of
 from gazelle.interfaces import (
     Generation,
     add_package,
+    exists,
     keep_text,
     ros1_definition,
     type_hash,
 )
-from gazelle.interfaces.lookup import exists
 
 _OWN = "left_behind_msgs/Own"
 _TURNS = pytest.mark.parametrize("turn", [1, 2])

@@ -11,7 +11,7 @@ from gazelle.bag import BagWriter, Encoding, cdr_connection, create_bag, ros1_co
 from gazelle.bag import storage_of as by_name
 from gazelle.bag.qos import offered_qos
 from gazelle.bag.records import Storage
-from gazelle.interfaces import library, ros1_message_type, to_cdr, to_ros1
+from gazelle.interfaces import ros1_message_type, to_cdr, to_ros1
 
 START_NS = 1_700_000_000_000_000_000
 STEP_NS = 10_000_000
@@ -48,12 +48,6 @@ def fill(writer: BagWriter, count: int = 100) -> None:
         else:
             data = point_bytes(place, writer.encoding)
             writer.write(points, START_NS + place * STEP_NS, data)
-
-
-@pytest.fixture(autouse=True)
-def forgotten_types(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Types that a bag defined are known to the rest of a process: not to the next test."""
-    monkeypatch.setattr(library, "_user_packages", dict(library._user_packages))
 
 
 @pytest.fixture

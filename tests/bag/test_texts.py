@@ -16,13 +16,7 @@ from gazelle.bag import Connection, Encoding, Storage, create_bag, learn_definit
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.texts import TextShare, fetch_text
 from gazelle.graph import Graph
-from gazelle.interfaces import Generation, full_text, md5sum
-
-
-@pytest.fixture(autouse=True)
-def own_texts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Texts that a test's bag brings are gone after it."""
-    monkeypatch.setattr(full_text, "_kept", {})
+from gazelle.interfaces import Generation, md5sum
 
 
 def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port: int) -> None:

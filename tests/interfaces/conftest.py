@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gazelle.interfaces import Duration, Time, known_types, message_type
+from gazelle.interfaces import Duration, Time, default_types, known_types
 from gazelle.interfaces.definition import (
     FORMATS,
     NUMPY_NAMES,
@@ -18,7 +18,6 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.ros1_message import ros1_class
 
 Maker = Callable[[str, Generation, int], Any]
 
@@ -40,7 +39,7 @@ def make_message() -> Maker:
 
 
 def _message(name: str, generation: Generation, rng: random.Random) -> Any:
-    cls = message_type(name) if generation is Generation.ROS2 else ros1_class(name)
+    cls: Any = default_types().class_of(name, generation)
     made = cls()
     if name in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
         made.sec, made.nanosec = rng.randrange(2**31), rng.randrange(10**9)

@@ -2,7 +2,14 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.interfaces import Generation, definition, known_types, ros1_type_of, wire_type
+from gazelle.interfaces import (
+    Generation,
+    default_types,
+    definition,
+    known_types,
+    ros1_type_of,
+    wire_type,
+)
 from gazelle.interfaces.binding import Wire, bind
 
 
@@ -32,7 +39,7 @@ def test_no_field_is_lost_between_the_generations_unless_known():
     lost = {}
     names = [name for name in known_types() if definition(name, Generation.ROS1).native]
     for name in names:
-        layout = bind(name, Generation.ROS1, Wire.CDR)
+        layout = bind(default_types(), name, Generation.ROS1, Wire.CDR)
         if layout.missing:
             lost[name] = layout.missing
     assert lost == {"std_msgs/msg/Header": ("seq",)}

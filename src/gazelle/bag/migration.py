@@ -27,8 +27,7 @@ from gazelle.interfaces import (
     to_ros1,
 )
 from gazelle.interfaces.definition import Array, attribute_name
-from gazelle.interfaces.lookup import split_name
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.names import ros1_name, split_name
 from gazelle.interfaces.parser import parse_message
 from gazelle.interfaces.translate import definition_text
 

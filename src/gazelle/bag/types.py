@@ -15,6 +15,7 @@ from gazelle.interfaces import (
     Generation,
     add_package,
     definition,
+    exists,
     from_cdr,
     from_ros1,
     keep_text,
@@ -24,12 +25,12 @@ from gazelle.interfaces import (
     ros1_message_type,
     ros1_type_of,
     ros2_definition,
+    split_name,
     to_cdr,
     to_ros1,
     type_hash,
     wire_type,
 )
-from gazelle.interfaces.lookup import exists, split_name
 
 __all__ = [
     "cdr_connection",

@@ -12,6 +12,7 @@ from gazelle.cli.tool import Tool, ToolError, add_flag, hint, option_parser, run
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import (
     definition,
+    find_source,
     known_types,
     md5sum,
     service_md5sum,
@@ -19,7 +20,6 @@ from gazelle.interfaces import (
     show_service,
 )
 from gazelle.interfaces.definition import Generation
-from gazelle.interfaces.library import find_source
 
 __all__ = ["main"]
 

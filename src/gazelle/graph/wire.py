@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph.keys import NO_HASH
-from gazelle.interfaces import from_cdr, library, message_type, to_cdr, wire_type
-from gazelle.interfaces.rihs01 import type_hash
+from gazelle.interfaces import default_types, from_cdr, message_type, to_cdr, type_hash, wire_type
 
 __all__ = [
     "convert",
@@ -64,11 +62,10 @@ def resolve_type(type_or_name: Any) -> Any:
 
 def hash_of(type_name: str) -> str:
     """Return the RIHS01 hash of a type, a fixed word where the type is not known here."""
-    return _hash_of(type_name, library.revision())
+    return default_types().remembered(("hash", type_name), lambda: _hash(type_name))
 
 
-@lru_cache(maxsize=512)
-def _hash_of(type_name: str, _revision: int) -> str:
+def _hash(type_name: str) -> str:
     try:
         return type_hash(type_name)
     except GazelleError:

@@ -10,32 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.interfaces.codec import convert, from_cdr, from_ros1, to_cdr, to_ros1
 from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, Generation
-from gazelle.interfaces.library import add_package, add_search_path
-from gazelle.interfaces.lookup import definition, known_types
-from gazelle.interfaces.message import Message, message_type
+from gazelle.interfaces.message import Message
+from gazelle.interfaces.names import ros1_name, split_name
 from gazelle.interfaces.naming import ros1_type_of, wire_type
-from gazelle.interfaces.ros1_digest import (
-    md5sum,
-    service_md5sum,
-    show_message,
-    show_service,
-)
-from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message, ros1_message_type
+from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
-from gazelle.interfaces.services import (
-    ActionType,
-    Ros1Service,
-    ServiceType,
-    action_type,
-    ros1_service_type,
-    service_type,
-)
+from gazelle.interfaces.services import ActionType, Ros1Service, ServiceType
+from gazelle.interfaces.store import TypeStore, default_types
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify
-    from gazelle.interfaces.full_text import keep_text, kept_text, ros1_definition, ros2_definition
-    from gazelle.interfaces.plain import fill, time_keys, to_plain
-    from gazelle.interfaces.rihs01 import type_hash
+    from gazelle.interfaces.plain import fill, to_plain
 
 __all__ = [
     "ActionType",
@@ -52,12 +37,16 @@ __all__ = [
     "ServiceType",
     "TVal",
     "Time",
+    "TypeStore",
     "action_type",
     "add_package",
     "add_search_path",
     "convert",
+    "default_types",
     "definition",
+    "exists",
     "fill",
+    "find_source",
     "from_cdr",
     "from_ros1",
     "keep_text",
@@ -67,6 +56,7 @@ __all__ = [
     "message_type",
     "ros1_definition",
     "ros1_message_type",
+    "ros1_name",
     "ros1_service_type",
     "ros1_type_of",
     "ros2_definition",
@@ -74,25 +64,45 @@ __all__ = [
     "service_type",
     "show_message",
     "show_service",
+    "split_name",
     "strify",
     "time_keys",
     "to_cdr",
     "to_plain",
     "to_ros1",
+    "type_description",
     "type_hash",
     "wire_type",
 ]
 
+_TYPES = default_types()
+action_type = _TYPES.action_type
+add_package = _TYPES.add_package
+add_search_path = _TYPES.add_search_path
+definition = _TYPES.definition
+exists = _TYPES.exists
+find_source = _TYPES.find_source
+keep_text = _TYPES.keep_text
+kept_text = _TYPES.kept_text
+known_types = _TYPES.known_types
+md5sum = _TYPES.md5sum
+message_type = _TYPES.message_type
+ros1_definition = _TYPES.ros1_definition
+ros1_message_type = _TYPES.ros1_message_type
+ros1_service_type = _TYPES.ros1_service_type
+ros2_definition = _TYPES.ros2_definition
+service_md5sum = _TYPES.service_md5sum
+service_type = _TYPES.service_type
+show_message = _TYPES.show_message
+show_service = _TYPES.show_service
+time_keys = _TYPES.time_keys
+type_description = _TYPES.type_description
+type_hash = _TYPES.type_hash
+
 _LATER = {
     "fill": "plain",
-    "keep_text": "full_text",
-    "kept_text": "full_text",
-    "ros1_definition": "full_text",
-    "ros2_definition": "full_text",
     "strify": "echo_text",
-    "time_keys": "plain",
     "to_plain": "plain",
-    "type_hash": "rihs01",
 }
 
 

@@ -7,11 +7,9 @@ A class of either generation can be written in the layout of either, so a ROS 1 
 from __future__ import annotations
 
 import enum
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from gazelle.errors import InterfaceError
-from gazelle.interfaces import library
 from gazelle.interfaces.definition import (
     FORMATS,
     Array,
@@ -20,10 +18,8 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.lookup import definition
-from gazelle.interfaces.message import Message, message_type
+from gazelle.interfaces.forms import Types
 from gazelle.interfaces.naming import wire_definition, wire_field
-from gazelle.interfaces.ros1_message import Ros1Message, ros1_class
 from gazelle.interfaces.ros1_time import Duration, Time
 
 __all__ = ["Layout", "Slot", "Wire", "bind"]
@@ -93,10 +89,11 @@ class Layout(NamedTuple):
     missing: tuple[str, ...]
 
 
-def bind(name: str, generation: Generation, wire: Wire) -> Layout:
+def bind(types: Types, name: str, generation: Generation, wire: Wire) -> Layout:
     """Return the layout of a class in the bytes of a wire.
 
     Args:
+        types: where definitions and classes come from.
         name: full type name.
         generation: form of the class.
         wire: which bytes.
@@ -105,14 +102,14 @@ def bind(name: str, generation: Generation, wire: Wire) -> Layout:
         NotFoundError: nothing defines the type.
         InterfaceError: the two definitions give one field two kinds of values.
     """
-    return _bound(name, generation, wire, library.revision())
+    # Messages hold the same few others, which writer and reader of each need.
+    key = ("layout", name, generation, wire)
+    return types.remembered(key, lambda: _bound(types, name, generation, wire))
 
 
-@lru_cache(maxsize=2048)
-def _bound(name: str, generation: Generation, wire: Wire, _revision: int) -> Layout:
-    """Messages hold the same few others, which writer and reader of each need."""
-    own = definition(name, generation)
-    target = _wire_definition(name, generation, wire)
+def _bound(types: Types, name: str, generation: Generation, wire: Wire) -> Layout:
+    own = types.definition(name, generation)
+    target = _wire_definition(types, name, generation, wire)
     own_fields = {item.name: item for item in own.fields}
     used, slots = set(), []
     for item in target.fields:
@@ -120,40 +117,38 @@ def _bound(name: str, generation: Generation, wire: Wire, _revision: int) -> Lay
         if mine is not None:
             _check_kinds(name, mine, item)
             used.add(mine.name)
-        slots.append(_slot(name, item, mine, generation, wire))
+        slots.append(_slot(types, name, item, mine, generation, wire))
     missing = tuple(attribute_name(key) for key in own_fields if key not in used)
-    return Layout(name, _class(name, generation), generation, tuple(slots), missing)
+    return Layout(name, types.class_of(name, generation), generation, tuple(slots), missing)
 
 
-def _wire_definition(name: str, generation: Generation, wire: Wire) -> Definition:
+def _wire_definition(types: Types, name: str, generation: Generation, wire: Wire) -> Definition:
     if wire is Wire.ROS1:
-        return definition(name, Generation.ROS1)
+        return types.definition(name, Generation.ROS1)
     if generation is Generation.ROS1:
-        return wire_definition(name)
-    return definition(name, Generation.ROS2)
+        return wire_definition(types, name)
+    return types.definition(name, Generation.ROS2)
 
 
-def _class(name: str, generation: Generation) -> type[Message] | type[Ros1Message]:
-    return ros1_class(name) if generation is Generation.ROS1 else message_type(name)
-
-
-def _slot(name: str, item: Field, mine: Field | None, generation: Generation, wire: Wire) -> Slot:
+def _slot(
+    types: Types, name: str, item: Field, mine: Field | None, generation: Generation, wire: Wire
+) -> Slot:
     kind = item.type
     base = _TIME_NAMES.get(kind.base, kind.base)
     wire_generation = Generation.ROS1 if wire is Wire.ROS1 else Generation.ROS2
     child_generation = generation if mine is not None else wire_generation
     child = None
     if base in _TIME_NAMES.values():
-        child = _time_layout(base, child_generation, wire)
+        child = _time_layout(types, base, child_generation, wire)
     elif "/" in base:
-        child = bind(base, child_generation, wire)
+        child = bind(types, base, child_generation, wire)
     byte_like = mine is not None and generation is Generation.ROS1
     letter = FORMATS.get(base if mine is None else mine.type.base, "")
     if byte_like and mine is not None and mine.type.base == "byte":
         letter = "b"  # ROS 1's byte is an int8
     return Slot(
         attribute=attribute_name(mine.name) if mine is not None else None,
-        default=_wire_default(name, item, wire_generation) if mine is None else None,
+        default=None if mine is not None else _wire_default(types, name, item, wire_generation),
         letter=letter,
         base=base,
         array=kind.array,
@@ -164,19 +159,19 @@ def _slot(name: str, item: Field, mine: Field | None, generation: Generation, wi
     )
 
 
-def _wire_default(name: str, item: Field, generation: Generation) -> Any:
+def _wire_default(types: Types, name: str, item: Field, generation: Generation) -> Any:
     """Return the default of a field that the class lacks, from the other form's class."""
-    return getattr(_class(name, generation)(), attribute_name(item.name))
+    return getattr(types.class_of(name, generation)(), attribute_name(item.name))
 
 
-def _time_layout(base: str, generation: Generation, wire: Wire) -> Layout:
+def _time_layout(types: Types, base: str, generation: Generation, wire: Wire) -> Layout:
     is_time = base.endswith("Time")
     letters = _TIME_LETTERS[wire, is_time]
     if generation is Generation.ROS1:
         cls: type[Any] = Time if is_time else Duration
         names = ("secs", "nsecs")
     else:
-        cls, names = message_type(base), ("sec", "nanosec")
+        cls, names = types.class_of(base, generation), ("sec", "nanosec")
     slots = tuple(
         Slot(name, None, letter, "int32", Array.ONE, 0, 0, None, False)
         for name, letter in zip(names, letters, strict=True)

@@ -8,23 +8,16 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError, InterfaceError
 from gazelle.interfaces.definition import Generation
-from gazelle.interfaces.message import Message
-from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
+from gazelle.interfaces.forms import Form
 
 __all__ = ["convert", "from_cdr", "from_ros1", "to_cdr", "to_ros1"]
 
-_T = TypeVar("_T", bound=Message | Ros1Message)
+_T = TypeVar("_T", bound=Form)
 _Writer = Callable[[Any], bytes]
 _Reader = Callable[[Any], Any]
 
-_cdr_writers: dict[type, _Writer] = {}
-_cdr_readers: dict[type, _Reader] = {}
-_big_readers: dict[type, _Reader] = {}
-_ros1_writers: dict[type, _Writer] = {}
-_ros1_readers: dict[type, _Reader] = {}
 
-
-def to_cdr(msg: Message | Ros1Message) -> bytes:
+def to_cdr(msg: Form) -> bytes:
     """Return a message's CDR bytes: encapsulation header, little endian, XCDR1.
 
     A ROS 1 object is written in the layout of the canonical ROS 2 type where there is one
@@ -35,15 +28,18 @@ def to_cdr(msg: Message | Ros1Message) -> bytes:
     """
     cls = msg.__class__
     try:
-        write = _cdr_writers[cls]
-    except KeyError:
-        write = _cdr_writers[cls] = _compiled_writer(cls)
+        write = cls._cdr_writer
+    except AttributeError:
+        raise _no_message_class(cls) from None
+    if write is None:
+        write = cls._cdr_writer = _compiled_writer(cls)
     try:
-        return write(msg)
+        found: bytes = write(msg)
     except GazelleError:
         raise
     except Exception as error:
         raise _write_error(msg, error) from error
+    return found
 
 
 def from_cdr(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
@@ -59,9 +55,11 @@ def from_cdr(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
         InterfaceError: the bytes are not CDR or not of this type.
     """
     try:
-        read = _cdr_readers[cls]
-    except KeyError:
-        read = _cdr_readers[cls] = _compiled_reader(cls)
+        read = cls._cdr_reader
+    except AttributeError:
+        raise _no_message_class(cls) from None
+    if read is None:
+        read = cls._cdr_reader = _compiled_reader(cls)
     try:
         if buffer[1] != 1 or buffer[0] != 0:
             read = _other_reader(cls, buffer)
@@ -71,24 +69,26 @@ def from_cdr(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     return found
 
 
-def to_ros1(msg: Message | Ros1Message) -> bytes:
+def to_ros1(msg: Form) -> bytes:
     """Return a message's bytes in ROS 1's own serialisation.
 
     Raises:
         InterfaceError: a value does not fit its field; names it.
     """
     cls = msg.__class__
-    if isinstance(msg, AnyMsg):
-        return msg._buff or b""
-    write = _ros1_writers.get(cls)
-    if write is None:
-        write = _ros1_writers[cls] = _compiled_writer(cls, is_cdr=False)
     try:
-        return write(msg)
+        write = cls._ros1_writer
+    except AttributeError:
+        raise _no_message_class(cls) from None
+    if write is None:
+        write = cls._ros1_writer = _compiled_writer(cls, is_cdr=False)
+    try:
+        found: bytes = write(msg)
     except GazelleError:
         raise
     except Exception as error:
         raise _write_error(msg, error) from error
+    return found
 
 
 def from_ros1(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
@@ -97,9 +97,12 @@ def from_ros1(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     Raises:
         InterfaceError: the bytes are not of this type.
     """
-    read = _ros1_readers.get(cls)
+    try:
+        read = cls._ros1_reader
+    except AttributeError:
+        raise _no_message_class(cls) from None
     if read is None:
-        read = _ros1_readers[cls] = _compiled_reader(cls, is_cdr=False)
+        read = cls._ros1_reader = _compiled_reader(cls, is_cdr=False)
     try:
         found: _T = read(buffer)
     except (struct.error, ValueError, IndexError, MemoryError, OverflowError) as error:
@@ -107,7 +110,7 @@ def from_ros1(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     return found
 
 
-def convert(msg: Message | Ros1Message, cls: type[_T]) -> _T:
+def convert(msg: Form, cls: type[_T]) -> _T:
     """Return a message in another form of its type: ROS 1 ↔ ROS 2.
 
     Raises:
@@ -118,10 +121,15 @@ def convert(msg: Message | Ros1Message, cls: type[_T]) -> _T:
     return from_cdr(cls, to_cdr(msg))
 
 
+def _no_message_class(cls: type[Any]) -> InterfaceError:
+    return InterfaceError(f"{cls.__name__} is not a message class; it has no layout of its own")
+
+
 def _checked(cls: type[Any]) -> None:
-    if getattr(cls, "TYPE_NAME", "*") == "*":
-        what = "keeps the bytes of any type" if cls is AnyMsg else "is not a message class"
-        raise InterfaceError(f"{cls.__name__} {what}; it has no layout of its own")
+    if cls.TYPE_NAME == "*":
+        raise InterfaceError(
+            f"{cls.__name__} keeps the bytes of any type; it has no layout of its own"
+        )
 
 
 def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
@@ -131,10 +139,11 @@ def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
     from gazelle.interfaces.writer import compile_writer
 
     if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
-        to_wire = CONVERTED[cls.TYPE_NAME].to_wire
-        return lambda msg: to_cdr(to_wire(msg))
+        conversion = CONVERTED[cls.TYPE_NAME]
+        travels = cls._types.class_of(conversion.wire_name, Generation.ROS2)
+        return lambda msg: to_cdr(conversion.to_wire(msg, travels))
     wire = Wire.CDR if is_cdr else Wire.ROS1
-    return compile_writer(bind(cls.TYPE_NAME, cls.GENERATION, wire), wire)
+    return compile_writer(bind(cls._types, cls.TYPE_NAME, cls.GENERATION, wire), wire)
 
 
 def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") -> _Reader:
@@ -145,9 +154,11 @@ def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") 
 
     if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
-        return lambda data: conversion.from_wire(from_cdr(conversion.wire_class(), data))
+        travels = cls._types.class_of(conversion.wire_name, Generation.ROS2)
+        own = cls._types.class_of(cls.TYPE_NAME, Generation.ROS1)
+        return lambda data: conversion.from_wire(from_cdr(travels, data), own)
     wire = Wire.CDR if is_cdr else Wire.ROS1
-    return compile_reader(bind(cls.TYPE_NAME, cls.GENERATION, wire), wire, endian)
+    return compile_reader(bind(cls._types, cls.TYPE_NAME, cls.GENERATION, wire), wire, endian)
 
 
 def _other_reader(cls: type[Any], buffer: bytes | bytearray | memoryview) -> _Reader:
@@ -155,9 +166,10 @@ def _other_reader(cls: type[Any], buffer: bytes | bytearray | memoryview) -> _Re
         raise ValueError(
             f"encapsulation {buffer[0]:02x} {buffer[1]:02x} is not plain CDR (00 00 or 00 01)"
         )
-    if cls not in _big_readers:
-        _big_readers[cls] = _compiled_reader(cls, endian=">")
-    return _big_readers[cls]
+    if cls._big_reader is None:
+        cls._big_reader = _compiled_reader(cls, endian=">")
+    found: _Reader = cls._big_reader
+    return found
 
 
 def _read_error(cls: type[Any], buffer: Any, error: Exception) -> InterfaceError:

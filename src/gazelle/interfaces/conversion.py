@@ -9,9 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from gazelle.interfaces.message import message_type
-from gazelle.interfaces.ros1_message import ros1_class
-
 __all__ = ["CONVERTED", "Conversion"]
 
 _LEVELS = {1: 10, 2: 20, 4: 30, 8: 40, 16: 50}
@@ -20,30 +17,34 @@ _WORDS = ("name", "msg", "file", "function", "line")
 
 
 class Conversion(NamedTuple):
-    """How a ROS 1 object and the object that travels become each other."""
+    """How a ROS 1 object and the object that travels become each other.
 
-    wire_class: Callable[[], Any]
-    to_wire: Callable[[Any], Any]
-    from_wire: Callable[[Any], Any]
+    Attributes:
+        wire_name: full name of what travels.
+        to_wire: from a ROS 1 object and the class that travels.
+        from_wire: from what travels and the class of ROS 1.
+    """
+
+    wire_name: str
+    to_wire: Callable[[Any, Any], Any]
+    from_wire: Callable[[Any, Any], Any]
 
 
-def _log_class() -> Any:
-    return message_type("rcl_interfaces/msg/Log")
-
-
-def _log_to_wire(log: Any) -> Any:
-    wire = _log_class()(**{word: getattr(log, word) for word in _WORDS})
+def _log_to_wire(log: Any, wire_class: Any) -> Any:
+    wire = wire_class(**{word: getattr(log, word) for word in _WORDS})
     wire.stamp.sec, wire.stamp.nanosec = log.header.stamp.secs, log.header.stamp.nsecs
     wire.level = _LEVELS.get(log.level, log.level)
     return wire
 
 
-def _log_from_wire(wire: Any) -> Any:
-    log = ros1_class("rosgraph_msgs/msg/Log")(**{word: getattr(wire, word) for word in _WORDS})
+def _log_from_wire(wire: Any, log_class: Any) -> Any:
+    log = log_class(**{word: getattr(wire, word) for word in _WORDS})
     log.header.stamp.secs, log.header.stamp.nsecs = wire.stamp.sec, wire.stamp.nanosec
     log.level = _LEVELS_BACK.get(wire.level, wire.level)
     return log
 
 
-CONVERTED = {"rosgraph_msgs/msg/Log": Conversion(_log_class, _log_to_wire, _log_from_wire)}
+CONVERTED = {
+    "rosgraph_msgs/msg/Log": Conversion("rcl_interfaces/msg/Log", _log_to_wire, _log_from_wire)
+}
 """By full ROS 1 name."""

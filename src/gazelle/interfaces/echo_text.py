@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from gazelle.interfaces.arrays import is_array, is_array_item
-from gazelle.interfaces.ros1_message import Ros1Message
+from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.forms import Form
 from gazelle.interfaces.ros1_time import Time, TVal
 
 __all__ = ["strify"]
@@ -52,7 +53,7 @@ class _Printer:
             return _quoted(value) if value else "''"
         if isinstance(value, TVal):
             return self._time(value, indent)
-        if isinstance(value, Ros1Message):
+        if isinstance(value, Form) and value.GENERATION is Generation.ROS1:
             return self._message(value, indent)
         if is_array(value):
             return self._sequence(value.tolist(), indent)
@@ -76,7 +77,7 @@ class _Printer:
         seconds = str(value.secs) if self._width is None else f"{value.secs:{self._width}d}"
         return f"\n{indent}secs: {seconds}\n{indent}nsecs: {value.nsecs:{self._width or 9}d}"
 
-    def _message(self, value: Ros1Message, indent: str) -> str:
+    def _message(self, value: Any, indent: str) -> str:
         shown = value._names if self._filter is None else tuple(self._filter(value))
         lines = []
         for name, kind in zip(value._names, value._slot_types, strict=True):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from functools import cache, lru_cache
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,14 +16,11 @@ from gazelle.documents.names import is_file
 from gazelle.errors import NotFoundError, UserFileError
 from gazelle.interfaces.definition import Generation
 
-__all__ = ["Source", "add_package", "add_search_path", "block_names", "find_source", "revision"]
+__all__ = ["Library", "Source"]
 
 _DATA = Path(__file__).parent / "definitions"
 _PARTS = ("msg", "srv", "action")
 _ROS1_WORDS = ("Header", "time", "duration")
-_lock = threading.Lock()
-_user_packages: dict[str, tuple[Path, Generation | None]] = {}
-_revision = 0
 
 
 class Source(NamedTuple):
@@ -33,107 +30,187 @@ class Source(NamedTuple):
         text: the whole text, all parts.
         file: path of the file, or the name in angle brackets for built-in data.
         generation: which ROS it was written for.
+        is_own: whether a user or a bag wrote it, not Gazelle.
     """
 
     text: str
     file: str
     generation: Generation
+    is_own: bool = False
 
 
-def add_package(name: str, path: Path | str, generation: Generation | None = None) -> None:
-    """Let a user's own package define types; its msg/, srv/ and action/ are read when needed.
+class Library:
+    """Texts by name: single ones and packages that were added, before those of Gazelle.
 
-    Args:
-        name: the package's name.
-        path: its folder.
-        generation: which ROS the files are written for; read from ``package.xml`` when None.
-
-    Raises:
-        NotFoundError: there is no such folder.
+    One that lies over another answers with its own texts first.
     """
-    global _revision
-    folder = Path(path)
-    if not folder.is_dir():
-        raise NotFoundError("package folder", str(folder), hint=f"package '{name}' is not added")
-    with _lock:
-        entry = (folder, generation or _package_generation(folder))
-        if _user_packages.get(name) != entry:
-            _user_packages[name] = entry
-            _revision += 1
+
+    def __init__(self, below: Library | None = None) -> None:
+        """Begin without texts.
+
+        Args:
+            below: answers for what is not added here; Gazelle's own data when None.
+        """
+        self._below = below
+        self._lock = threading.Lock()
+        self._packages: dict[str, tuple[Path, Generation | None]] = {}
+        self._texts: dict[tuple[str, str, Generation], str] = {}
+        self._spoken_of: set[str] = set()  # packages that texts are of
+        self._changes = 0
+        self._listed: tuple[int, dict[tuple[Path, str], dict[str, Path]]] = (0, {})
+
+    @property
+    def revision(self) -> int:
+        """A number that is raised whenever something is added, or all of it removed."""
+        return self._changes if self._below is None else self._changes + self._below.revision
+
+    def add_package(
+        self, name: str, path: Path | str, generation: Generation | None = None
+    ) -> None:
+        """Let a user's own package define types; its msg/, srv/ and action/ are read when needed.
+
+        Args:
+            name: the package's name.
+            path: its folder.
+            generation: which ROS the files are written for; read from ``package.xml`` when None.
+
+        Raises:
+            NotFoundError: there is no such folder.
+        """
+        folder = Path(path)
+        if not folder.is_dir():
+            hint = f"package '{name}' is not added"
+            raise NotFoundError("package folder", str(folder), hint=hint)
+        with self._lock:
+            entry = (folder, generation or _package_generation(folder))
+            if self._packages.get(name) != entry:
+                self._packages[name] = entry
+                self._changes += 1
+
+    def add_search_path(self, folder: Path | str) -> tuple[str, ...]:
+        """Add every package with definitions directly under a folder; return their names."""
+        found = []
+        for path in sorted(Path(folder).iterdir()):
+            if path.is_dir() and any((path / part).is_dir() for part in _PARTS):
+                self.add_package(path.name, path)
+                found.append(path.name)
+        return tuple(found)
+
+    def add_text(self, package: str, name: str, generation: Generation, text: str) -> None:
+        """Let a text define one message, before the package that it is of.
+
+        Args:
+            package: such as ``std_msgs``.
+            name: such as ``Header``.
+            generation: which ROS it is written for.
+            text: the definition, without those that it contains.
+        """
+        with self._lock:
+            if self._texts.get((package, name, generation)) != text:
+                self._texts[package, name, generation] = text
+                self._spoken_of.add(package)
+                self._changes += 1
+
+    def clear(self) -> None:
+        """Remove all that was added."""
+        with self._lock:
+            if self._packages or self._texts:
+                self._packages.clear()
+                self._texts.clear()
+                self._spoken_of.clear()
+                self._changes += 1
+
+    def adds_to(self, package: str) -> bool:
+        """Return whether something was added here, not below, under a package's name."""
+        return package in self._packages or package in self._spoken_of
+
+    def texts(self) -> tuple[tuple[str, str, Generation, str], ...]:
+        """Return what `add_text` took."""
+        with self._lock:
+            return tuple((*key, text) for key, text in self._texts.items())
+
+    def packages(self) -> tuple[tuple[str, Path, Generation | None], ...]:
+        """Return what `add_package` took."""
+        with self._lock:
+            return tuple((name, *entry) for name, entry in self._packages.items())
+
+    def find_source(
+        self, package: str, part: str, name: str, generation: Generation
+    ) -> Source | None:
+        """Return the text of a definition of one generation, None when there is none.
+
+        A user's own package comes before the data of Gazelle.
+
+        Args:
+            package: such as ``std_msgs``.
+            part: ``msg``, ``srv`` or ``action``.
+            name: such as ``Header``.
+            generation: which ROS it must be written for.
+
+        Raises:
+            UserFileError: the file is there and cannot be read.
+        """
+        if part == "msg" and (text := self._texts.get((package, name, generation))) is not None:
+            return Source(text, f"{package}/msg/{name}.msg", generation, is_own=True)
+        if (entry := self._packages.get(package)) is not None:
+            folder, written_for = entry
+            file = folder / part / f"{name}.{part}"
+            if not is_file(file):
+                file = self._files(folder, part).get(name, file)
+            if written_for in (None, generation) and is_file(file):
+                text = _read(file)
+                if written_for is generation or _fits(text, generation):
+                    return Source(text, str(file), generation, is_own=True)
+        if self._below is not None:
+            return self._below.find_source(package, part, name, generation)
+        found = _blocks(package, generation).get(f"{part}/{name}")
+        return None if found is None else Source(found, f"<{package}/{part}/{name}>", generation)
+
+    def block_names(
+        self, generation: Generation, package: str = ""
+    ) -> Iterator[tuple[str, str, str]]:
+        """Yield package, part and name of every definition of one generation.
+
+        Args:
+            generation: which ROS they are written for.
+            package: whose, all packages' when empty; reading them all takes a program's start
+                longer than anything else.
+        """
+        if self._below is None:
+            yield from _shipped_names(generation, package)
+        else:
+            yield from self._below.block_names(generation, package)
+        for owner, path, written_for in sorted(self.packages()):
+            if written_for in (None, generation) and package in ("", owner):
+                for part in _PARTS:
+                    for name in self._files(path, part):
+                        yield owner, part, name
+        for owner, name, written_for, _ in self.texts():
+            if written_for is generation and package in ("", owner):
+                yield owner, "msg", name
+
+    def _files(self, folder: Path, part: str) -> dict[str, Path]:
+        """Definitions of a package by name; CMake's DIRECTORY lets them lie in folders of msg/."""
+        changes, listed = self._listed
+        if changes != self._changes:
+            listed = {}
+            self._listed = (self._changes, listed)
+        if (folder, part) not in listed:
+            found: dict[str, Path] = {}
+            files = (folder / part).rglob(f"*.{part}")
+            for file in sorted(files, key=lambda file: (len(file.parts), file)):
+                found.setdefault(file.stem, file)
+            listed[folder, part] = found
+        return listed[folder, part]
 
 
-def add_search_path(folder: Path | str) -> tuple[str, ...]:
-    """Add every package with definitions directly under a folder; return their names."""
-    found = []
-    for path in sorted(Path(folder).iterdir()):
-        if path.is_dir() and any((path / part).is_dir() for part in _PARTS):
-            add_package(path.name, path)
-            found.append(path.name)
-    return tuple(found)
-
-
-def revision() -> int:
-    """Return a number that is raised whenever a package is added."""
-    return _revision
-
-
-def find_source(package: str, part: str, name: str, generation: Generation) -> Source | None:
-    """Return the text of a definition of one generation, None when there is none.
-
-    A user's own package comes before the data of Gazelle.
-
-    Args:
-        package: such as ``std_msgs``.
-        part: ``msg``, ``srv`` or ``action``.
-        name: such as ``Header``.
-        generation: which ROS it must be written for.
-
-    Raises:
-        UserFileError: the file is there and cannot be read.
-    """
-    if package in _user_packages:
-        folder, written_for = _user_packages[package]
-        file = folder / part / f"{name}.{part}"
-        if not is_file(file):
-            file = _files(folder, part, _revision).get(name, file)
-        if written_for in (None, generation) and is_file(file):
-            text = _read(file)
-            if written_for is generation or _fits(text, generation):
-                return Source(text, str(file), generation)
-    text_of = _blocks(package, generation).get(f"{part}/{name}")
-    return None if text_of is None else Source(text_of, f"<{package}/{part}/{name}>", generation)
-
-
-def block_names(generation: Generation, package: str = "") -> Iterator[tuple[str, str, str]]:
-    """Yield package, part and name of every definition of one generation.
-
-    Args:
-        generation: which ROS they are written for.
-        package: whose, all packages' when empty; reading them all takes a program's start longer
-            than anything else.
-    """
+def _shipped_names(generation: Generation, package: str) -> Iterator[tuple[str, str, str]]:
     folder = _DATA / f"ros{generation.value}"
     owners = [package] if package else [file.stem for file in sorted(folder.glob("*.txt"))]
     for owner in owners:
         for key in _blocks(owner, generation):
             part, name = key.split("/")
             yield owner, part, name
-    for owner, (path, written_for) in sorted(_user_packages.items()):
-        if written_for in (None, generation) and package in ("", owner):
-            for part in _PARTS:
-                for name in _files(path, part, _revision):
-                    yield owner, part, name
-
-
-@lru_cache(maxsize=1024)
-def _files(folder: Path, part: str, _revision: int) -> dict[str, Path]:
-    """Definitions of a package by name; CMake's DIRECTORY lets them lie in folders of msg/ too."""
-    found: dict[str, Path] = {}
-    for file in sorted(
-        (folder / part).rglob(f"*.{part}"), key=lambda file: (len(file.parts), file)
-    ):
-        found.setdefault(file.stem, file)
-    return found
 
 
 def _read(file: Path) -> str:

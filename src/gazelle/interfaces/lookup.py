@@ -3,50 +3,32 @@
 from __future__ import annotations
 
 import re
-import threading
 from typing import TYPE_CHECKING
 
-from gazelle.errors import GazelleError, NotFoundError
-from gazelle.interfaces import library
+from gazelle.errors import NotFoundError
 from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
+from gazelle.interfaces.library import Library, Source
+from gazelle.interfaces.names import split_name
 from gazelle.interfaces.translate import as_generation, definition_text
 
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics
 
-__all__ = ["definition", "exists", "is_current", "known_types", "split_name"]
+__all__ = ["exists", "known_types", "read_definition"]
 
 _SERVICE_PARTS = ("_Request", "_Response")
 _ACTION_PARTS = ("_Goal", "_Result", "_Feedback")
 _UUID = FieldType("unique_identifier_msgs/msg/UUID")
 _TIME = FieldType("builtin_interfaces/msg/Time")
-_lock = threading.RLock()
-_cache: dict[tuple[str, Generation], Definition] = {}
-_cache_revision = 0
 
 
-def split_name(name: str, part: str = "msg") -> tuple[str, str, str]:
-    """Return package, part and bare name of ``pkg/Name`` or ``pkg/part/Name``.
-
-    Raises:
-        NotFoundError: the text is not written as a type's name.
-    """
-    words = name.strip("/").split("/")
-    if len(words) == 2 and all(words):
-        return words[0], part, words[1]
-    if len(words) == 3 and all(words) and words[1] in ("msg", "srv", "action"):
-        return words[0], words[1], words[2]
-    raise NotFoundError(
-        "type", name, hint="a type is written package/Name or package/msg/Name (srv, action)"
-    )
-
-
-def definition(name: str, generation: Generation) -> Definition:
+def read_definition(library: Library, name: str, generation: Generation) -> Definition:
     """Return a message's definition by the rules of one generation.
 
     One written for that generation comes first; else the other generation's is translated.
 
     Args:
+        library: has the texts.
         name: full name; parts of services and actions are ``pkg/srv/Name_Request`` and so on.
         generation: whose rules.
 
@@ -54,32 +36,23 @@ def definition(name: str, generation: Generation) -> Definition:
         NotFoundError: nothing defines it.
         UserFileError: its text has errors.
     """
-    global _cache_revision
-    with _lock:
-        if _cache_revision != library.revision():
-            _cache.clear()
-            _cache_revision = library.revision()
-        key = (name, generation)
-        if key not in _cache:
-            _cache[key] = _lookup(name, generation)
-        return _cache[key]
+    package, part, bare = split_name(name)
+    other = Generation.ROS1 if generation is Generation.ROS2 else Generation.ROS2
+    for candidate in (generation, other):
+        where = _where(library, package, part, bare, candidate)
+        if where is not None:
+            found = _read(library, f"{package}/{part}/{bare}", where, candidate)
+            return as_generation(found, generation)
+    raise _not_found(library, name, part, bare)
 
 
-def exists(name: str) -> bool:
+def exists(library: Library, name: str) -> bool:
     """Return whether something defines this message, without reading its text."""
     package, part, bare = split_name(name)
-    return any(_where(package, part, bare, one) is not None for one in Generation)
+    return any(_where(library, package, part, bare, one) is not None for one in Generation)
 
 
-def is_current(known: Definition) -> bool:
-    """Return whether a definition is still what its name means, packages being added since."""
-    try:
-        return definition(known.name, known.generation) == known
-    except GazelleError:
-        return False
-
-
-def known_types(part: str = "msg", package: str = "") -> tuple[str, ...]:
+def known_types(library: Library, part: str = "msg", package: str = "") -> tuple[str, ...]:
     """Return the full names of all types of a part (``msg``, ``srv``, ``action``), sorted.
 
     Messages that ROS 1 makes from actions (``FibonacciActionGoal`` …) are in the list too.
@@ -94,17 +67,9 @@ def known_types(part: str = "msg", package: str = "") -> tuple[str, ...]:
     return tuple(sorted(names))
 
 
-def _lookup(name: str, generation: Generation) -> Definition:
-    package, part, bare = split_name(name)
-    other = Generation.ROS1 if generation is Generation.ROS2 else Generation.ROS2
-    for candidate in (generation, other):
-        where = _where(package, part, bare, candidate)
-        if where is not None:
-            return as_generation(_read(package, part, bare, where, candidate), generation)
-    raise _not_found(name, part, bare)
-
-
-def _where(package: str, part: str, bare: str, generation: Generation) -> tuple[str, str] | None:
+def _where(
+    library: Library, package: str, part: str, bare: str, generation: Generation
+) -> tuple[str, str] | None:
     """Return part and name of the file that defines a message, None when there is none."""
     if part == "msg":
         if library.find_source(package, "msg", bare, generation):
@@ -123,21 +88,21 @@ def _where(package: str, part: str, bare: str, generation: Generation) -> tuple[
 
 
 def _read(
-    package: str, part: str, bare: str, where: tuple[str, str], generation: Generation
+    library: Library, name: str, where: tuple[str, str], generation: Generation
 ) -> Definition:
     from gazelle.interfaces.parser import parse_message, split_parts
 
+    package, part, bare = split_name(name)
     file_part, file_name = where
     source = library.find_source(package, file_part, file_name, generation)
     if source is None:
-        raise NotFoundError("type", f"{package}/{part}/{bare}")
-    diagnostics = _collector(source.file)
-    name = f"{package}/{part}/{bare}"
+        raise NotFoundError("type", name)
+    diagnostics = _collector(source)
     if file_part == "msg":
         found = parse_message(
             source.text, name, generation, diagnostics=diagnostics, file=source.file
         )
-        _check_references(found, source.file, 1, diagnostics)
+        _check_references(library, found, source.file, 1, diagnostics)
         _raise_findings(diagnostics)
         return found
     suffixes = _SERVICE_PARTS if file_part == "srv" else _ACTION_PARTS
@@ -148,7 +113,7 @@ def _read(
         found_parts[suffix] = parse_message(
             text, piece, generation, diagnostics=diagnostics, file=source.file, first_line=line
         )
-        _check_references(found_parts[suffix], source.file, line, diagnostics)
+        _check_references(library, found_parts[suffix], source.file, line, diagnostics)
     _raise_findings(diagnostics)
     suffix = bare[len(file_name) :]
     if part == "msg":
@@ -159,9 +124,9 @@ def _read(
     return Definition(name, generation, (), fields, definition_text((), fields, generation))
 
 
-def _collector(file: str) -> Diagnostics | None:
+def _collector(source: Source) -> Diagnostics | None:
     """Users' files are checked and reported; Gazelle's own data is right (tests see to it)."""
-    if file.startswith("<"):
+    if not source.is_own:
         return None
     from gazelle.diagnostics import Diagnostics
 
@@ -221,18 +186,22 @@ def _implied_fields(package: str, part: str, name: str) -> dict[str, tuple[Field
 
 
 def _check_references(
-    found: Definition, file: str, first_line: int, diagnostics: Diagnostics | None
+    library: Library,
+    found: Definition,
+    file: str,
+    first_line: int,
+    diagnostics: Diagnostics | None,
 ) -> None:
     if diagnostics is None:
         return
     from gazelle.diagnostics import SourceSpan, did_you_mean
 
     for item in found.fields:
-        if not item.type.is_message or exists(item.type.base):
+        if not item.type.is_message or exists(library, item.type.base):
             continue
         short = item.type.base.replace("/msg/", "/")
         line, column = _place(found.text, item.name, first_line)
-        near = did_you_mean(item.type.base, known_types())
+        near = did_you_mean(item.type.base, known_types(library))
         span = SourceSpan(file, line, column)
         message = f"type '{short}' is not known"
         diagnostics.report("interfaces.unknown-type", message, span, fix=near)
@@ -245,12 +214,12 @@ def _place(text: str, field_name: str, first_line: int) -> tuple[int, int]:
     return first_line, 0
 
 
-def _not_found(name: str, part: str, bare: str) -> NotFoundError:
+def _not_found(library: Library, name: str, part: str, bare: str) -> NotFoundError:
     from gazelle.diagnostics import nearest_names
 
     shown = name.replace("/msg/", "/")
     kind = {"msg": "message type", "srv": "service type", "action": "action type"}[part]
-    everything = known_types(part)
+    everything = known_types(library, part)
     base = bare.partition("_")[0] if part != "msg" else bare
     same_name = tuple(item for item in everything if item.rsplit("/", 1)[1] == base)
     near = same_name[:3] or nearest_names(name, everything)

@@ -7,10 +7,11 @@ ROS 2 definitions are canonical on the wire. Fields are matched by name; ``D`` i
 from __future__ import annotations
 
 from gazelle.interfaces.definition import Definition, Field, Generation
-from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.forms import Types
+from gazelle.interfaces.names import canonical_name, ros1_name
 from gazelle.interfaces.translate import as_generation
 
-__all__ = ["ros1_name", "ros1_type_of", "wire_definition", "wire_field", "wire_type"]
+__all__ = ["ros1_type_of", "wire_definition", "wire_field", "wire_type"]
 
 _RENAMED_TYPES = {
     "tf/msg/tfMessage": "tf2_msgs/msg/TFMessage",
@@ -39,7 +40,7 @@ def wire_type(ros1_type: str, part: str = "msg") -> str:
     Raises:
         NotFoundError: the text is not a type's name.
     """
-    full = "/".join(split_name(ros1_type, part))
+    full = canonical_name(ros1_type, part)
     return _RENAMED_TYPES.get(full, full)
 
 
@@ -51,21 +52,11 @@ def ros1_type_of(wire: str) -> str:
     return _ROS1_OF_WIRE.get(wire) or ros1_name(wire)
 
 
-def ros1_name(full: str) -> str:
-    """Return ``pkg/Name`` of a full name; ``pkg/srv/Name_Request`` is ``pkg/NameRequest``."""
-    package, part, name = split_name(full)
-    if part == "srv":
-        for suffix in ("_Request", "_Response"):
-            if name.endswith(suffix):
-                name = name.removesuffix(suffix) + suffix[1:]
-    return f"{package}/{name}"
-
-
-def wire_definition(name: str) -> Definition:
+def wire_definition(types: Types, name: str) -> Definition:
     """Return the definition that lays out a ROS 1 type's CDR, by ROS 2's rules."""
     if name.split("/", 1)[0] in _OWN_LAYOUT:
-        return as_generation(definition(name, Generation.ROS1), Generation.ROS2)
-    return definition(name, Generation.ROS2)
+        return as_generation(types.definition(name, Generation.ROS1), Generation.ROS2)
+    return types.definition(name, Generation.ROS2)
 
 
 def wire_field(wire: Definition, item: Field, own: dict[str, Field]) -> Field | None:

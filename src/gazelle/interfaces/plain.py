@@ -20,8 +20,7 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.message import Message, message_type
-from gazelle.interfaces.ros1_message import Ros1Message, ros1_class
+from gazelle.interfaces.forms import Form, Types
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 
 __all__ = ["fill", "time_keys", "to_plain"]
@@ -33,7 +32,7 @@ _NANO = 1_000_000_000
 
 def to_plain(value: Any) -> Any:
     """Return a message as nested dicts, its arrays as lists, its times as dicts too."""
-    if isinstance(value, Message | Ros1Message):
+    if isinstance(value, Form):
         return {
             item.name: to_plain(getattr(value, attribute_name(item.name))) for item in value.FIELDS
         }
@@ -46,20 +45,20 @@ def to_plain(value: Any) -> Any:
     return value
 
 
-def time_keys(now_ns: int, generation: Generation) -> dict[str, Any]:
+def time_keys(types: Types, now_ns: int, generation: Generation) -> dict[str, Any]:
     """Return what ``now`` and ``auto`` stand for in `fill`: a time and a header of now."""
+    header: Any = types.class_of("std_msgs/msg/Header", generation)
     secs, nsecs = divmod(now_ns, _NANO)
     if generation is Generation.ROS1:
         return {
             "now": Time(secs, nsecs),
-            "auto": ros1_class("std_msgs/msg/Header")(stamp=Time(secs, nsecs)),
+            "auto": header(stamp=Time(secs, nsecs)),
         }
-    make = message_type("builtin_interfaces/msg/Time")
-    header = message_type("std_msgs/msg/Header")
+    make: Any = types.class_of("builtin_interfaces/msg/Time", generation)
     return {"now": make(secs, nsecs), "auto": header(stamp=make(secs, nsecs))}
 
 
-def fill(msg: Message | Ros1Message, values: Any, *, keys: Mapping[str, Any] | None = None) -> None:
+def fill(msg: Form, values: Any, *, keys: Mapping[str, Any] | None = None) -> None:
     """Set a message's fields from plain values.
 
     A dict sets the fields it names, a list all fields in order; a list of one dict counts as the
@@ -172,7 +171,7 @@ def _sequence(msg: Any, item: Field, value: Any, keys: Mapping[str, Any], path: 
     if kind.is_message or kind.base in _TIMES:
         made = []
         for index, one in enumerate(value):
-            fresh = None if kind.base in _TIMES else _fresh(kind.base, is_ros1)
+            fresh = None if kind.base in _TIMES else _fresh(msg, kind.base)
             made.append(_one(kind.base, fresh, one, keys, f"{path}[{index}]"))
         return made
     if kind.base in FORMATS and not is_ros1:
@@ -195,8 +194,8 @@ def _array(msg: Any, item: Field, values: list[Any]) -> Any:
         return values  # the check of the whole message names the item at fault
 
 
-def _fresh(base: str, is_ros1: bool) -> Any:
-    return ros1_class(base)() if is_ros1 else message_type(base)()
+def _fresh(msg: Form, base: str) -> Form:
+    return msg._types.class_of(base, msg.GENERATION)()
 
 
 def _check_count(msg: Any, values: Sequence[Any], names: tuple[str, ...], prefix: str) -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-from functools import cache
 from typing import Any
 
-from gazelle.interfaces import library
 from gazelle.interfaces.definition import Array, Field, FieldType, Generation
-from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.forms import Types
+from gazelle.interfaces.names import canonical_name, split_name
 
 __all__ = ["type_description", "type_hash"]
 
@@ -38,30 +37,33 @@ _EMPTY = Field("structure_needs_at_least_one_member", FieldType("uint8"))
 _EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
 
 
-def type_hash(name: str, part: str = "msg") -> str:
+def type_hash(types: Types, name: str, part: str = "msg") -> str:
     """Return the hash of a message, service or action in the form of ROS 2.
 
     Args:
+        types: where definitions come from.
         name: ``std_msgs/String``, ``std_srvs/srv/SetBool`` …
         part: what a name of two words means: ``msg``, ``srv`` or ``action``.
 
     Raises:
         NotFoundError: nothing defines it.
     """
-    return _type_hash("/".join(split_name(name, part)), library.revision())
+    full = canonical_name(name, part)
+    return types.remembered(("RIHS01", full), lambda: _hash(type_description(types, full)))
 
 
-def type_description(name: str) -> dict[str, Any]:
+def type_description(types: Types, name: str) -> dict[str, Any]:
     """Return what is hashed: ``type_description_interfaces/msg/TypeDescription`` as dictionaries.
 
     Args:
+        types: where definitions come from.
         name: full name of a message, service or action, or of a part of these two.
 
     Raises:
         NotFoundError: nothing defines it.
     """
     referenced: dict[str, Any] = {}
-    main = _description(name, referenced)
+    main = _description(types, name, referenced)
     referenced.pop(name, None)
     return {
         "type_description": main,
@@ -69,15 +71,13 @@ def type_description(name: str) -> dict[str, Any]:
     }
 
 
-@cache
-def _type_hash(name: str, revision: int) -> str:
-    described = type_description(name)
+def _hash(described: dict[str, Any]) -> str:
     text = json.dumps(described, ensure_ascii=True, separators=(", ", ": "))
     return "RIHS01_" + hashlib.sha256(text.encode()).hexdigest()
 
 
-def _description(name: str, referenced: dict[str, Any]) -> dict[str, Any]:
-    fields = _fields(name) or (_EMPTY,)
+def _description(types: Types, name: str, referenced: dict[str, Any]) -> dict[str, Any]:
+    fields = _fields(types, name) or (_EMPTY,)
     found = {
         "type_name": name,
         "fields": [{"name": item.name, "type": _type(item.type)} for item in fields],
@@ -85,7 +85,7 @@ def _description(name: str, referenced: dict[str, Any]) -> dict[str, Any]:
     referenced[name] = found
     for item in fields:
         if item.type.is_message and item.type.base not in referenced:
-            _description(item.type.base, referenced)
+            _description(types, item.type.base, referenced)
     return found
 
 
@@ -103,7 +103,7 @@ def _type(kind: FieldType) -> dict[str, Any]:
     }
 
 
-def _fields(name: str) -> tuple[Field, ...]:
+def _fields(types: Types, name: str) -> tuple[Field, ...]:
     _, part, bare = split_name(name)
     if part == "srv" or bare.endswith(("_SendGoal", "_GetResult", "_Event")):
         if bare.endswith("_Event"):
@@ -123,7 +123,7 @@ def _fields(name: str) -> tuple[Field, ...]:
             Field("get_result_service", FieldType(f"{name}_GetResult")),
             Field("feedback_message", FieldType(f"{name}_FeedbackMessage")),
         )
-    return definition(name, Generation.ROS2).fields
+    return types.definition(name, Generation.ROS2).fields
 
 
 def _event_fields(service: str) -> tuple[Field, ...]:

@@ -9,55 +9,58 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gazelle.interfaces.definition import Definition, Generation
-from gazelle.interfaces.lookup import definition, split_name
+from gazelle.interfaces.forms import Types
+from gazelle.interfaces.names import canonical_name
 
 __all__ = ["md5sum", "service_md5sum", "show_message", "show_service"]
 
 
-def md5sum(name: str) -> str:
+def md5sum(types: Types, name: str) -> str:
     """Return the MD5 sum of a message in ROS 1.
 
     Args:
+        types: where definitions come from.
         name: ``sensor_msgs/LaserScan`` or the full name.
 
     Raises:
         NotFoundError: nothing defines it.
     """
-    return _md5(_md5_text(_definition(name)))
+    return _md5(_md5_text(types, _definition(types, name)))
 
 
-def service_md5sum(name: str) -> str:
+def service_md5sum(types: Types, name: str) -> str:
     """Return the MD5 sum of a service in ROS 1: of request and response, one after the other.
 
     Raises:
         NotFoundError: nothing defines it.
     """
-    full = "/".join(split_name(name, "srv"))
-    parts = (_definition(f"{full}{suffix}") for suffix in ("_Request", "_Response"))
-    return _md5("".join(_md5_text(part) for part in parts))
+    full = canonical_name(name, "srv")
+    parts = (_definition(types, f"{full}{suffix}") for suffix in ("_Request", "_Response"))
+    return _md5("".join(_md5_text(types, part) for part in parts))
 
 
-def show_message(name: str, indent: str = "") -> str:
+def show_message(types: Types, name: str, indent: str = "") -> str:
     """Return the fields of a message, nested ones indented, as ``rosmsg show`` prints them.
 
     Raises:
         NotFoundError: nothing defines it.
     """
-    return "".join(f"{line}\n" for line in _shown(_definition(name), indent))
+    return "".join(f"{line}\n" for line in _shown(types, _definition(types, name), indent))
 
 
-def show_service(name: str) -> str:
+def show_service(types: Types, name: str) -> str:
     """Return request and response of a service, as ``rossrv show`` prints them.
 
     Raises:
         NotFoundError: nothing defines it.
     """
-    full = "/".join(split_name(name, "srv"))
-    return f"{show_message(f'{full}_Request')}---\n{show_message(f'{full}_Response')}"
+    full = canonical_name(name, "srv")
+    request, response = (show_message(types, full + part) for part in ("_Request", "_Response"))
+    return f"{request}---\n{response}"
 
 
-def _definition(name: str) -> Definition:
-    return definition("/".join(split_name(name)), Generation.ROS1)
+def _definition(types: Types, name: str) -> Definition:
+    return types.definition(canonical_name(name), Generation.ROS1)
 
 
 def _md5(text: str) -> str:
@@ -66,22 +69,22 @@ def _md5(text: str) -> str:
     return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
 
 
-def _md5_text(source: Definition) -> str:
+def _md5_text(types: Types, source: Definition) -> str:
     lines = [f"{item.type} {item.name}={item.text}" for item in source.constants]
     for item in source.fields:
         kind = item.type
-        word = md5sum(kind.base) if kind.is_message else kind.text(Generation.ROS1)
+        word = md5sum(types, kind.base) if kind.is_message else kind.text(Generation.ROS1)
         lines.append(f"{word} {item.name}")
     return "\n".join(lines)
 
 
-def _shown(source: Definition, indent: str) -> Iterator[str]:
+def _shown(types: Types, source: Definition, indent: str) -> Iterator[str]:
     for constant in source.constants:
         yield f"{indent}{constant.type} {constant.name}={_constant(constant.value, constant.text)}"
     for item in source.fields:
         yield f"{indent}{item.type.text(Generation.ROS1)} {item.name}"
         if item.type.is_message:
-            yield from _shown(_definition(item.type.base), indent + "  ")
+            yield from _shown(types, _definition(types, item.type.base), indent + "  ")
 
 
 def _constant(value: object, text: str) -> str:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
-from gazelle.interfaces import library
 from gazelle.interfaces.definition import (
     FORMATS,
     Array,
@@ -14,19 +13,15 @@ from gazelle.interfaces.definition import (
     Generation,
     attribute_name,
 )
-from gazelle.interfaces.lookup import definition, is_current, split_name
+from gazelle.interfaces.forms import Form, Types
 from gazelle.interfaces.message import values_equal
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.names import ros1_name
 from gazelle.interfaces.ros1_time import Duration, Time
 
-__all__ = ["AnyMsg", "Ros1Message", "ros1_class", "ros1_message_type"]
+__all__ = ["AnyMsg", "Ros1Message", "make_ros1_class"]
 
 _M = TypeVar("_M", bound="Ros1Message")
-_lock = threading.RLock()
-_classes: dict[str, type[Ros1Message]] = {}
-_revision = 0
 _TIMES: dict[str, type[Time] | type[Duration]] = {"time": Time, "duration": Duration}
-_RENAMED = {"roslib/msg/Header": "std_msgs/msg/Header", "roslib/msg/Log": "rosgraph_msgs/msg/Log"}
 
 
 class _Writable(Protocol):
@@ -43,24 +38,16 @@ class _Lazy:
         from gazelle.interfaces import full_text, ros1_digest
 
         compute = {"_md5sum": ros1_digest.md5sum, "_full_text": full_text.ros1_definition}
-        text = compute[self._name](owner.TYPE_NAME)
+        text = compute[self._name](owner._types, owner.TYPE_NAME)
         setattr(owner, self._name, text)
         return text
 
 
-class Ros1Message:
-    """Base of all message classes in the form of ROS 1.
+class Ros1Message(Form):
+    """Base of all message classes in the form of ROS 1."""
 
-    Attributes:
-        TYPE_NAME: full name, such as ``sensor_msgs/msg/LaserScan``.
-    """
-
-    __slots__ = ("__weakref__", "_connection_header")
-    TYPE_NAME: ClassVar[str] = ""
-    FIELDS: ClassVar[tuple[Field, ...]] = ()
-    DEFINITION: ClassVar[Definition]
+    __slots__ = ("_connection_header",)
     GENERATION: ClassVar[Generation] = Generation.ROS1
-    _names: ClassVar[tuple[str, ...]] = ()
     _slot_types: ClassVar[list[str]] = []
     _type: ClassVar[str] = ""
     _md5sum: ClassVar[str] = _Lazy("_md5sum")  # type: ignore[assignment]
@@ -145,9 +132,6 @@ class Ros1Message:
         for name, value in zip(self._names, state, strict=True):
             setattr(self, name, value)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.TYPE_NAME, self.__getstate__())
-
 
 class AnyMsg(Ros1Message):
     """A message of any type, kept as its ROS 1 bytes in `_buff` (rospy.AnyMsg)."""
@@ -163,6 +147,9 @@ class AnyMsg(Ros1Message):
         if args:
             raise TypeError("AnyMsg does not accept arguments")
         self._buff = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _any_msg, (self._buff,)
 
     def serialize(self, buff: _Writable) -> None:
         """Write the bytes kept.
@@ -180,49 +167,32 @@ class AnyMsg(Ros1Message):
         return self
 
 
-def ros1_message_type(name: str) -> type[Ros1Message]:
-    """Return the class of a message in the form of ROS 1; made on the first call.
-
-    Args:
-        name: ``sensor_msgs/LaserScan`` or ``sensor_msgs/msg/LaserScan``; ``*`` is `AnyMsg`.
-
-    Raises:
-        NotFoundError: nothing defines it.
-        UserFileError: its definition has errors.
-    """
-    if name == "*":
-        return AnyMsg
-    full = "/".join(split_name("std_msgs/Header" if name == "Header" else name))
-    return ros1_class(_RENAMED.get(full, full))
+def _kept_bytes(msg: AnyMsg) -> bytes:
+    return msg._buff or b""
 
 
-def ros1_class(full: str) -> type[Ros1Message]:
-    """Return the class of a full name; parts of services are ``pkg/srv/Name_Request``."""
-    global _revision
-    with _lock:
-        if _revision != library.revision():
-            _revision = library.revision()
-            for name, cls in list(_classes.items()):
-                if not is_current(cls.DEFINITION):
-                    del _classes[name]
-        if full not in _classes:
-            _classes[full] = _make_class(definition(full, Generation.ROS1))
-        return _classes[full]
-
-
-def _rebuild(full: str, values: list[Any]) -> Ros1Message:
-    made: Ros1Message = ros1_class(full)()
-    made.__setstate__(values)
+def _any_msg(data: bytes | None) -> AnyMsg:
+    made = AnyMsg()
+    made._buff = data
     return made
 
 
-def _make_class(source: Definition) -> type[Ros1Message]:
-    from gazelle.interfaces.message import message_type
+AnyMsg._ros1_writer = staticmethod(_kept_bytes)
 
-    message_type(source.name)  # finds circles before they are followed here
+
+def make_ros1_class(
+    source: Definition, types: Types, nested: Callable[[str], type[Ros1Message]]
+) -> type[Ros1Message]:
+    """Return a new class.
+
+    Args:
+        source: the definition, which does not contain itself.
+        types: where the class asks for others.
+        nested: gives the classes of the messages that it contains.
+    """
     names = tuple(attribute_name(item.name) for item in source.fields)
     space: dict[str, Any] = {"_assign": _assign}
-    defaults = [_default(item, index, space) for index, item in enumerate(source.fields)]
+    defaults = [_default(item, index, space, nested) for index, item in enumerate(source.fields)]
     pairs = list(zip(names, defaults, strict=True))
     lines = ["def __init__(_s, *args, **kwds):", " if args or kwds:", "  _assign(_s, args, kwds)"]
     lines += [f"  if _s.{name} is None: _s.{name} = {default}" for name, default in pairs]
@@ -239,6 +209,7 @@ def _make_class(source: Definition) -> type[Ros1Message]:
         "FIELDS": source.fields,
         "DEFINITION": source,
         "_names": names,
+        "_types": types,
         "_slot_types": [item.type.text(Generation.ROS1) for item in source.fields],
         "_type": short,
         "_has_header": first is not None
@@ -248,7 +219,9 @@ def _make_class(source: Definition) -> type[Ros1Message]:
     return type(short.split("/")[1], (Ros1Message,), attributes)
 
 
-def _default(item: Field, index: int, space: dict[str, Any]) -> str:
+def _default(
+    item: Field, index: int, space: dict[str, Any], nested: Callable[[str], type[Ros1Message]]
+) -> str:
     """Return the source of a fresh default value, by the rules of genpy's classes."""
     kind, name = item.type, f"_d{index}"
     letter = FORMATS.get(kind.base)
@@ -261,7 +234,7 @@ def _default(item: Field, index: int, space: dict[str, Any]) -> str:
         if kind.base in ("uint8", "char"):
             return f"bytes({kind.size})"
         return f"[{zero}] * {kind.size}"
-    space[name] = _TIMES.get(kind.base) or ros1_class(kind.base)
+    space[name] = _TIMES.get(kind.base) or nested(kind.base)
     one = f"{name}()"
     return one if kind.array is Array.ONE else f"[{one} for _ in range({kind.size})]"
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from gazelle.interfaces import library
-from gazelle.interfaces.lookup import split_name
-from gazelle.interfaces.message import Message, message_type
-from gazelle.interfaces.naming import ros1_name
-from gazelle.interfaces.ros1_message import Ros1Message, ros1_class
+from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.forms import Types
+from gazelle.interfaces.message import Message
+from gazelle.interfaces.names import ros1_name
+from gazelle.interfaces.ros1_message import Ros1Message
 
 __all__ = [
     "ActionType",
     "Ros1Service",
     "ServiceType",
-    "action_type",
-    "ros1_service_type",
-    "service_type",
+    "make_ros1_service",
+    "ros2_action",
+    "ros2_service",
 ]
 
 
@@ -70,79 +70,67 @@ class Ros1Service:
     _response_class: type[Ros1Message]
 
 
-_services: dict[str, tuple[int, type[Ros1Service]]] = {}
-
-
-def service_type(name: str) -> ServiceType:
+def ros2_service(types: Types, full: str) -> ServiceType:
     """Return a service in the form of ROS 2.
 
     Args:
-        name: ``std_srvs/srv/SetBool`` or ``std_srvs/SetBool``.
+        types: where classes come from.
+        full: full name; services of actions are ``pkg/action/Name_SendGoal`` and so on.
 
     Raises:
         NotFoundError: nothing defines it.
         UserFileError: its definition has errors.
     """
-    full = "/".join(split_name(name, "srv"))
-    return _service(full)
-
-
-def action_type(name: str) -> ActionType:
-    """Return an action in the form of ROS 2.
-
-    Args:
-        name: ``example_interfaces/action/Fibonacci`` or ``example_interfaces/Fibonacci``.
-
-    Raises:
-        NotFoundError: nothing defines it.
-        UserFileError: its definition has errors.
-    """
-    full = "/".join(split_name(name, "action"))
-    return ActionType(
-        full,
-        message_type(f"{full}_Goal"),
-        message_type(f"{full}_Result"),
-        message_type(f"{full}_Feedback"),
-        _service(f"{full}_SendGoal"),
-        _service(f"{full}_GetResult"),
-        message_type(f"{full}_FeedbackMessage"),
+    return ServiceType(
+        full, _message(types, f"{full}_Request"), _message(types, f"{full}_Response")
     )
 
 
-def ros1_service_type(name: str) -> type[Ros1Service]:
-    """Return a service class in the form of ROS 1.
-
-    It has `_type`, `_md5sum`, `_request_class` and `_response_class`, as genpy's classes do.
+def ros2_action(types: Types, full: str) -> ActionType:
+    """Return an action in the form of ROS 2.
 
     Args:
-        name: ``std_srvs/SetBool`` or ``std_srvs/srv/SetBool``.
+        types: where classes come from.
+        full: full name.
 
     Raises:
         NotFoundError: nothing defines it.
         UserFileError: its definition has errors.
     """
+    return ActionType(
+        full,
+        _message(types, f"{full}_Goal"),
+        _message(types, f"{full}_Result"),
+        _message(types, f"{full}_Feedback"),
+        ros2_service(types, f"{full}_SendGoal"),
+        ros2_service(types, f"{full}_GetResult"),
+        _message(types, f"{full}_FeedbackMessage"),
+    )
+
+
+def make_ros1_service(
+    types: Types, full: str, request: type[Ros1Message], response: type[Ros1Message]
+) -> type[Ros1Service]:
+    """Return a new service class in the form of ROS 1.
+
+    Args:
+        types: where definitions come from.
+        full: full name.
+        request: class of requests.
+        response: class of responses.
+    """
     from gazelle.interfaces.ros1_digest import service_md5sum
 
-    full = "/".join(split_name(name, "srv"))
-    known = _services.get(full)
-    if known is not None and known[0] == library.revision():
-        return known[1]
-    request, response = ros1_class(f"{full}_Request"), ros1_class(f"{full}_Response")
-    if known is not None and known[1]._request_class is request:
-        found = known[1]
-    else:
-        attributes: dict[str, Any] = {
-            "__module__": f"{full.split('/')[0]}.srv._{full.split('/')[2]}",
-            "TYPE_NAME": full,
-            "_type": ros1_name(full),
-            "_md5sum": service_md5sum(full),
-            "_request_class": request,
-            "_response_class": response,
-        }
-        found = type(full.split("/")[2], (Ros1Service,), attributes)
-    _services[full] = (library.revision(), found)
-    return found
+    attributes: dict[str, Any] = {
+        "__module__": f"{full.split('/', maxsplit=1)[0]}.srv._{full.split('/')[2]}",
+        "TYPE_NAME": full,
+        "_type": ros1_name(full),
+        "_md5sum": service_md5sum(types, full),
+        "_request_class": request,
+        "_response_class": response,
+    }
+    return type(full.split("/")[2], (Ros1Service,), attributes)
 
 
-def _service(full: str) -> ServiceType:
-    return ServiceType(full, message_type(f"{full}_Request"), message_type(f"{full}_Response"))
+def _message(types: Types, full: str) -> type[Message]:
+    return types.class_of(full, Generation.ROS2)  # type: ignore[return-value]

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 __all__ = ["learn_workspace_types"]
 
 _PARTS = ("msg", "srv", "action")
 
 
-@cache
 def learn_workspace_types() -> None:
     """Let the packages of the workspace define types, except those that Gazelle brings."""
-    from gazelle.interfaces import add_package, known_types
+    from gazelle.interfaces import add_package, default_types, known_types
     from gazelle.workspace import Workspace
 
+    if __name__ in default_types().taught_by:
+        return
+    default_types().taught_by.add(__name__)
     for package in Workspace.discover().user_packages:
         if not any((package.path / part).is_dir() for part in _PARTS):
             continue

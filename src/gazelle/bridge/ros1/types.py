@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (
     Generation,
+    default_types,
     definition,
     from_cdr,
     from_ros1,
-    library,
     md5sum,
     message_type,
     ros1_message_type,
@@ -24,7 +23,7 @@ from gazelle.interfaces import (
 )
 from gazelle.interfaces.conversion import CONVERTED
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.names import ros1_name
 
 __all__ = ["Frame", "MessageKind", "ServiceKind", "is_ros2_only", "message_kind", "service_kind"]
 
@@ -108,11 +107,10 @@ def message_kind(name: str) -> MessageKind:
     Raises:
         GazelleError: nothing defines it.
     """
-    return _message_kind(name, library.revision())
+    return default_types().remembered(("kind", name), lambda: _message_kind(name))
 
 
-@lru_cache(maxsize=1024)
-def _message_kind(name: str, _revision: int) -> MessageKind:
+def _message_kind(name: str) -> MessageKind:
     wire = wire_type(name)
     ros1 = name if name.count("/") == 1 else ros1_type_of(name)
     full = "/".join((ros1.split("/")[0], "msg", ros1.split("/")[1]))
@@ -132,11 +130,10 @@ def service_kind(name: str) -> ServiceKind:
     Raises:
         GazelleError: nothing defines it.
     """
-    return _service_kind(name, library.revision())
+    return default_types().remembered(("service kind", name), lambda: _service_kind(name))
 
 
-@lru_cache(maxsize=1024)
-def _service_kind(name: str, _revision: int) -> ServiceKind:
+def _service_kind(name: str) -> ServiceKind:
     from gazelle.interfaces import ros1_service_type
 
     wire = wire_type(name, "srv")

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.graph import Node
-from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces import (
+    definition,
+    find_source,
+    message_type,
+    service_type,
+    type_description,
+    type_hash,
+)
 from gazelle.interfaces.definition import FORMATS, Field, Generation
-from gazelle.interfaces.library import find_source
-from gazelle.interfaces.lookup import definition
-from gazelle.interfaces.rihs01 import type_description, type_hash
 
 __all__ = ["START_TYPE_DESCRIPTION_SERVICE_PARAM", "describe_type", "offer_type_descriptions"]
 

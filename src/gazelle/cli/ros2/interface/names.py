@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.cli.tool import ToolError, hint
-from gazelle.interfaces import definition, known_types
+from gazelle.interfaces import definition, find_source, known_types
 from gazelle.interfaces.definition import Generation
-from gazelle.interfaces.library import find_source
 
 __all__ = ["PARTS", "checked_name", "interface_text", "interfaces"]
 
