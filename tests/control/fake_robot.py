@@ -7,8 +7,9 @@ from typing import Any, ClassVar
 from gazelle.control.bank import InterfaceBank
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.robot import JointResource, Robot
-from gazelle.control.table import ControllerTable, Parameter
+from gazelle.control.table import ControllerTable
 from gazelle.description.model import Model
+from gazelle.parameters import Parameter, ParameterTable
 
 RECORDER = "test_controllers/Recorder"
 
@@ -44,16 +45,18 @@ class Recorder(Controller):
     """Claims one interface of its joint and writes down what happens to it."""
 
     TABLE: ClassVar[ControllerTable] = ControllerTable(
-        "recorder",
-        "test",
-        ("test_controllers/Recorder",),
-        "any",
-        (
-            Parameter("joint", "text", None, "joint"),
-            Parameter("interface", "text", "effort", "interface"),
-            Parameter("gain", "number", 1.0, "gain", live=True),
-            Parameter("fails_in", "text", "", "where to raise"),
+        ParameterTable(
+            "recorder",
+            "test",
+            ("test_controllers/Recorder",),
+            (
+                Parameter("joint", "text", None, "joint"),
+                Parameter("interface", "text", "effort", "interface"),
+                Parameter("gain", "number", 1.0, "gain", live=True),
+                Parameter("fails_in", "text", "", "where to raise"),
+            ),
         ),
+        interfaces="any",
     )
 
     def __init__(self, context: ControllerContext) -> None:

@@ -12,7 +12,7 @@ from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.bank import InterfaceBank
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.parameters import ControllerParameters
+from gazelle.control.parameters import controller_parameters
 from gazelle.control.robot import JointLimits, JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
@@ -181,10 +181,12 @@ def make_controller(
     """Make a controller as the controller manager does, without one; it is not started."""
     ports = RecordingPorts() if ports is None else ports
     found = Diagnostics() if diagnostics is None else diagnostics
-    read = ControllerParameters(
-        name, parameters, cls.TABLE, found, full_name=lambda key: f"/{name}/{key}"
+    read = controller_parameters(
+        name, parameters, cls.TABLE.parameters, found, full_name=lambda key: f"/{name}/{key}"
     )
-    context = ControllerContext(name, type_name or cls.TABLE.types[0], robot, read, ports, rate_hz)
+    context = ControllerContext(
+        name, type_name or cls.TABLE.parameters.types[0], robot, read, ports, rate_hz
+    )
     controller = cls(context)
     read.report_unknown()
     return controller, ports

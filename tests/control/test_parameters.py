@@ -7,15 +7,15 @@ from typing import Any
 import pytest
 
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters, flattened, nested
-from gazelle.control.table import ControllerTable, Parameter
+from gazelle.control.parameters import controller_parameters
 from gazelle.diagnostics import Diagnostics
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-TABLE = ControllerTable(
+TABLE = ParameterTable(
     "test",
     "A table.",
     ("test/Test",),
-    "none",
     (
         Parameter("joint", "text", None, "the joint"),
         Parameter("joints", "texts", (), "joints"),
@@ -24,20 +24,15 @@ TABLE = ControllerTable(
         Parameter("limits.has_limits", "flag", False, "limits", aliases=("limited",)),
         Parameter("gains.<joint>.p", "number", 0.0, "gain"),
         Parameter("covariance", "numbers", (0.0, 0.0), "covariance"),
-        Parameter("old", "none", None, "removed long ago"),
+        Parameter("old", "refused", None, "removed long ago"),
     ),
 )
 
 
-def _parameters(tree: dict[str, Any]) -> tuple[ControllerParameters, Diagnostics]:
+def _parameters(tree: dict[str, Any]) -> tuple[ParameterReader, Diagnostics]:
     found = Diagnostics()
-    named = ControllerParameters("c", tree, TABLE, found, full_name=lambda key: f"/c/{key}")
+    named = controller_parameters("c", tree, TABLE, found, full_name=lambda key: f"/c/{key}")
     return named, found
-
-
-def test_dots_and_branches_are_the_same() -> None:
-    assert nested({"a.b": 1, "a": {"c": 2}, "d/e": 3}) == {"a": {"b": 1, "c": 2}, "d": {"e": 3}}
-    assert dict(flattened({"a": {"b": 1}, "c": {}})) == {"a.b": 1, "c": {}}
 
 
 def test_values_and_defaults() -> None:
@@ -61,7 +56,8 @@ def test_values_and_defaults() -> None:
     [
         ("publish_rate", "fast", "number", 50.0),
         ("publish_rate", True, "number", 50.0),
-        ("depth", 2.5, "integer", 2),
+        ("depth", 2.5, "integer", 3),
+        ("depth", float("inf"), "integer", 3),
         ("limits", {"has_limits": "maybe"}, "flag", False),
         ("covariance", ["x"], "numbers", (0.0, 0.0)),
         ("joint", ["a"], "text", ""),
@@ -74,7 +70,7 @@ def test_wrong_types_are_reported_and_the_default_is_used(
     name = "limits.has_limits" if key == "limits" else key
     assert getattr(parameters, read)(name) == used
     (only,) = found
-    assert only.code == "control.bad-value"
+    assert only.code == "parameter.bad-value"
     assert f"parameter '/c/{name}' is " in only.message
 
 
@@ -82,7 +78,7 @@ def test_number_written_as_text_is_taken_and_told() -> None:
     parameters, found = _parameters({"publish_rate": "1e-3"})
     assert parameters.number("publish_rate") == 1e-3
     (only,) = found
-    assert only.code == "control.number-as-text"
+    assert only.code == "parameter.number-as-text"
     assert only.fix == "write 0.001"
 
 
@@ -92,8 +88,8 @@ def test_unknown_and_idle_keys_are_reported() -> None:
     )
     parameters.report_unknown()
     by_code = {(item.code, item.message) for item in found}
-    assert {code for code, _ in by_code} == {"control.unknown-parameter", "control.idle-parameter"}
-    unknown = [item for item in found if item.code == "control.unknown-parameter"]
+    assert {code for code, _ in by_code} == {"parameter.unknown", "parameter.idle"}
+    unknown = [item for item in found if item.code == "parameter.unknown"]
     assert unknown[0].fix == "did you mean 'publish_rate'?"
     assert len(unknown) == 2
 
@@ -108,7 +104,7 @@ def test_missing_key_is_an_error_with_the_nearest_one() -> None:
 
 def test_missing_section_is_asked_for() -> None:
     """ROS 2 files that spell a controller's name differently leave it without any parameter."""
-    named = ControllerParameters("arm", {}, TABLE, Diagnostics(), full_name=lambda key: key)
+    named = controller_parameters("arm", {}, TABLE, Diagnostics(), full_name=lambda key: key)
     with pytest.raises(ControllerError) as caught:
         named.require("joint")
     assert str(caught.value) == (
@@ -121,5 +117,5 @@ def test_fallback_controllers_are_told_to_have_no_effect() -> None:
     parameters, found = _parameters({"fallback_controllers": ["hold"]})
     parameters.report_unknown()
     (only,) = found
-    assert only.code == "control.idle-parameter"
+    assert only.code == "parameter.idle"
     assert "a controller that fails is stopped, no other takes its place" in only.message

@@ -10,7 +10,7 @@ def _found(*names: str) -> Diagnostics:
     found = Diagnostics()
     for line, name in enumerate(names, 1):
         text = f"parameter '{name}' has no effect here: why"
-        found.report("navigation.idle-parameter", text, SourceSpan("nav.yaml", line))
+        found.report("parameter.idle", text, SourceSpan("nav.yaml", line))
     return found
 
 
@@ -24,7 +24,7 @@ def test_several_settings_without_effect_become_one_line() -> None:
     assert _texts(shown) == [
         "nav.yaml:1: info: 3 settings are known and have no effect here; all of them: "
         "/tmp/node.log; the first: parameter 'a' has no effect here: why "
-        "[navigation.idle-parameter]"
+        "[parameter.idle]"
     ]
     assert idle == tuple(found)
 
@@ -32,19 +32,19 @@ def test_several_settings_without_effect_become_one_line() -> None:
 def test_a_single_one_is_said_without_its_general_remedy() -> None:
     shown, idle = brief(_found("a"), "/tmp/node.log")
     assert _texts(shown) == [
-        "nav.yaml:1: info: parameter 'a' has no effect here: why [navigation.idle-parameter]"
+        "nav.yaml:1: info: parameter 'a' has no effect here: why [parameter.idle]"
     ]
     assert idle == ()
 
 
 def test_unknown_keys_and_errors_stay_whole_and_in_order() -> None:
     found = Diagnostics()
-    found.report("navigation.bad-value", "x is 'a'", fix="write a number")
+    found.report("parameter.bad-value", "x is 'a'", fix="write a number")
     found.extend(_found("a", "b"))
-    found.report("navigation.unknown-parameter", "y is not known", fix="did you mean 'z'?")
+    found.report("parameter.unknown", "y is not known", fix="did you mean 'z'?")
     shown, _idle = brief(found)
     assert [item.code for item in shown] == [
-        "navigation.bad-value", "navigation.idle-parameter", "navigation.unknown-parameter",
+        "parameter.bad-value", "parameter.idle", "parameter.unknown",
     ]  # fmt: skip
     assert shown[0].fix == "write a number"
     assert shown[2].fix == "did you mean 'z'?"
@@ -69,7 +69,7 @@ def test_what_works_and_asks_for_nothing_is_kept_and_not_said() -> None:
     assert [item.code for item in shown] == ["plugin.unknown"]
     assert [item.code for item in kept] == ["plugin.built-in", "simulator.server-plugin"]
     shown, kept = brief([*found, *_found("x", "y")])
-    assert [item.code for item in shown] == ["plugin.unknown", "navigation.idle-parameter"]
+    assert [item.code for item in shown] == ["plugin.unknown", "parameter.idle"]
     assert len(kept) == 4
 
 

@@ -46,7 +46,7 @@ BROKEN = [
      "static_transform_publisher got 7 arguments", ""),
     ("17_plugins", "robot", "plugin.unknown", "warning", "robot.urdf:117",
      "'libarm_cannon.so' (name 'arm_cannon') of model 'robot' is compiled code", ""),
-    ("17_plugins", "robot", "plugin.unknown-parameter", "warning", "robot.urdf:113",
+    ("17_plugins", "robot", "parameter.unknown", "warning", "robot.urdf:113",
      "has no key <wheelSeperation>", "did you mean 'wheelSeparation'"),
     ("23_namespaces", "robot", "doctor.no-controller-manager", "error", "robot.launch:8",
      "waits for /robot/controller_manager, which nobody runs; there is /rover/controller_manager",

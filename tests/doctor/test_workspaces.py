@@ -31,7 +31,7 @@ LAUNCHES: list[tuple[str, str, dict[str, str], dict[str, str], list[str]]] = [
     ("catkin_ws", "slam_robot slam_robot_gazebo.launch", {},
      {"GAZEBO_MODEL_PATH": "gazebo_models"},
      ["doctor.frame-published-twice", *["inertia.mass-ratio"] * 2,
-      *["plugin.unknown-parameter"] * 5, "plugin.wheel-geometry"]),
+      *["parameter.unknown"] * 5, "plugin.wheel-geometry"]),
     ("turtlebot3_ws", "turtlebot3_gazebo turtlebot3_world.launch", {},
      {"TURTLEBOT3_MODEL": "waffle"}, []),
     ("turtlebot3_ws", "turtlebot3_gazebo turtlebot3_empty_world.launch", {},

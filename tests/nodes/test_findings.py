@@ -15,7 +15,7 @@ from gazelle.nodes.findings import log_findings
 def _idle(count: int) -> Diagnostics:
     found = Diagnostics()
     for number in range(count):
-        found.report("navigation.idle-parameter", f"parameter 'p{number}' has no effect here")
+        found.report("parameter.idle", f"parameter 'p{number}' has no effect here")
     return found
 
 

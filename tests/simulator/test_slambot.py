@@ -227,7 +227,7 @@ def test_its_wheel_parameters_are_reported(slambot: Bring) -> None:
     assert "wheel diameter is 0.1 m, the wheels' shapes measure 0.11 m" in found.message
     assert sim.diagnostics.by_code("plugin.legacy-mode")
     assert not sim.diagnostics.by_code("plugin.wheels-swapped")
-    unknown = sim.diagnostics.by_code("plugin.unknown-parameter")
+    unknown = sim.diagnostics.by_code("parameter.unknown")
     assert {re.search(r"<(\w+)>", item.message).group(1) for item in unknown} == {  # type: ignore[union-attr]
         "distortion_k1", "distortion_k2", "distortion_k3", "distortion_t1", "distortion_t2",
     }  # fmt: skip

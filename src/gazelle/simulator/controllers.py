@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from gazelle.control.controller_manager import ControllerManager, ControllerRecord
-from gazelle.control.parameters import flattened
+from gazelle.parameters.trees import flattened
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

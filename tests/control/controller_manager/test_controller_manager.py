@@ -153,7 +153,7 @@ def test_wishes_about_rate_and_thread_that_cannot_be_met_are_reported(make_bench
 def test_unknown_parameters_are_reported_when_a_controller_is_made(make_bench):
     bench = make_bench(1, {"a": {**LEFT, "gian": 2.0}})
     bench.manager.load("a")
-    (found,) = bench.diagnostics.by_code("control.unknown-parameter")
+    (found,) = bench.diagnostics.by_code("parameter.unknown")
     assert "'/mira/a/gian'" in found.message
     assert "gain" in found.fix
 

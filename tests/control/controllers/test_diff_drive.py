@@ -12,7 +12,7 @@ from tests.control.plant import MS, make_controller, make_robot
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.diff_drive import DiffDriveController
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters
+from gazelle.control.parameters import controller_parameters
 from gazelle.description.model import (
     Box,
     Collision,
@@ -511,9 +511,9 @@ def test_missing_wheels_say_which_key_is_near():
 def test_frames_are_prefixed_as_ros2_does(parameters, expected):
     robot, _ = make_robot(rolling("left", "right"), generation=2)
     tree = {**ROS2, **parameters}
-    table = DiffDriveController.TABLE
+    table = DiffDriveController.TABLE.parameters
     _, ports = make_controller(DiffDriveController, robot, tree)
-    reader = ControllerParameters("c", tree, table, Diagnostics())
+    reader = controller_parameters("c", tree, table, Diagnostics())
     context = ControllerContext("c", table.types[0], robot, reader, ports, 100.0, "alice")
     controller = DiffDriveController(context)
     controller.start(0)

@@ -119,4 +119,4 @@ def test_stopping_ends_the_goal() -> None:
 
 def test_state_interfaces_change_nothing_and_that_is_said() -> None:
     bench = Bench({"state_interfaces": ["position", "velocity"]})
-    assert [found.code for found in bench.diagnostics] == ["control.idle-parameter"]
+    assert [found.code for found in bench.diagnostics] == ["parameter.idle"]

@@ -133,7 +133,7 @@ def test_idle_interface_name_is_reported() -> None:
         type_name="effort_controllers/JointGroupEffortController",
         diagnostics=found,
     )
-    (one,) = found.by_code("control.idle-parameter")
+    (one,) = found.by_code("parameter.idle")
     assert "JointGroupEffortController commands effort" in one.message
 
 

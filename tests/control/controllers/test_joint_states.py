@@ -92,7 +92,7 @@ def test_bad_extra_joints_are_said_in_the_original_s_words() -> None:
     make_controller(
         JointStateController, robot, {"publish_rate": 10, "extra_joints": rows}, diagnostics=found
     )
-    texts = [one.message for one in found.by_code("control.bad-value")]
+    texts = [one.message for one in found.by_code("parameter.bad-value")]
     assert len(texts) == 4
     assert "is not a struct" in texts[0] and "does not specify name" in texts[1]
     assert "already contains specified extra joint 'a'" in texts[2]
@@ -176,7 +176,7 @@ def test_broadcaster_publishes_chosen_interfaces_of_chosen_joints() -> None:
     assert list(message.position) == [0.2, 0.1]
     assert np.isnan(message.velocity).all()
     assert set(ports.publishers) == {"joint_states"}
-    (one,) = found.by_code("control.idle-parameter")
+    (one,) = found.by_code("parameter.idle")
     assert "Mapping from 'velocity' to interface 'position' will not be done" in one.message
     with pytest.raises(ControllerError, match="'b' has position"):
         parameters["interfaces"] = ["velocity"]

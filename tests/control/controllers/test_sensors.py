@@ -103,7 +103,7 @@ def test_imu_broadcaster_publishes_one_sensor_at_every_update() -> None:
     assert _xyz(last.angular_velocity) == (1.0, 2.0, 3.0)
     assert list(last.angular_velocity_covariance) == covariance
     assert list(last.orientation_covariance) == [0.0] * 9
-    assert "has 1 values, not 9" in found.by_code("control.bad-value")[0].message
+    assert "has 1 values, not 9" in found.by_code("parameter.bad-value")[0].message
 
 
 def test_imu_offset_turns_the_frame() -> None:
@@ -177,7 +177,7 @@ def test_filter_chain_is_reported() -> None:
         "sensor_filter_chain": {"filter1": {"type": "control_filters/LowPassFilterWrench"}},
     }
     make_controller(ForceTorqueSensorBroadcaster, _robot(2), parameters, diagnostics=found)
-    (one,) = found.by_code("control.idle-parameter")
+    (one,) = found.by_code("parameter.idle")
     assert "~/wrench_filtered is not offered" in one.message
 
 

@@ -7,18 +7,23 @@ from typing import Any
 
 import pytest
 
-from gazelle.control.parameters import ControllerParameters
+from gazelle.control.parameters import controller_parameters
 from gazelle.control.pid import AntiWindup, PidGains, read_gains
 from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable
 from gazelle.diagnostics import Diagnostics
+from gazelle.parameters import ParameterTable
 
-TABLE = ControllerTable("t", "t", ("t/T",), "none", (*gain_rows("pid"), *gain_rows("gains.<j>")))
+TABLE = ParameterTable(
+    "t",
+    "t",
+    ("t/T",),
+    (*gain_rows("pid"), *gain_rows("gains.<j>")),
+)
 
 
 def _read(gains: Any, **options: Any) -> tuple[PidGains | None, Diagnostics]:
     found = Diagnostics()
-    parameters = ControllerParameters("c", {"pid": gains, "gains": {"j": gains}}, TABLE, found)
+    parameters = controller_parameters("c", {"pid": gains, "gains": {"j": gains}}, TABLE, found)
     return read_gains(parameters, **options), found
 
 
@@ -56,7 +61,7 @@ def test_newer_keys_choose_the_strategy_and_bound_the_command() -> None:
     assert legacy is not None and legacy.antiwindup
     wrong, found = _read({"p": 1.0, "antiwindup_strategy": "magic"})
     assert wrong is not None and wrong.strategy is AntiWindup.NONE
-    assert "not one of back_calculation" in found.by_code("control.bad-value")[0].message
+    assert "not one of back_calculation" in found.by_code("parameter.bad-value")[0].message
 
 
 def test_contradicting_bounds_are_reported_and_left_out() -> None:
@@ -69,7 +74,7 @@ def test_contradicting_bounds_are_reported_and_left_out() -> None:
 def test_texts_are_no_gains() -> None:
     gains, found = _read({"p": "much"})
     assert gains == PidGains(0.0)
-    assert "not a number" in found.by_code("control.bad-value")[0].message
+    assert "not a number" in found.by_code("parameter.bad-value")[0].message
 
 
 def test_rows_are_live_where_ros2_s_are() -> None:

@@ -72,7 +72,7 @@ def test_parameters_of_nodes_that_change_nothing_are_told_where_they_stand(
         '<node name="m" pkg="gmapping" type="slam_gmapping">\n<param name="particles" value="30"/>'
     )
     report = launched(f'{node}<param name="delta" value="0.1"/></node>')
-    (found,) = [item for item in report.findings if item.code == "navigation.idle-parameter"]
+    (found,) = [item for item in report.findings if item.code == "parameter.idle"]
     assert found.message.startswith("'/m': parameter 'particles' has no effect here: the map is")
     assert found.span is not None and found.span.line == 2
 

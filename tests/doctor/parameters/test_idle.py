@@ -31,7 +31,7 @@ def test_parameters_without_effect_are_told_at_their_lines(tmp_path: Path) -> No
     path.write_text(_TEXT)
     diagnostics = Diagnostics()
     check_parameter_file(path, diagnostics=diagnostics)
-    found = diagnostics.by_code("navigation.idle-parameter")
+    found = diagnostics.by_code("parameter.idle")
     last = found[-1]
     assert last.span is not None
     assert (last.span.line, last.span.column) == (12, 9)

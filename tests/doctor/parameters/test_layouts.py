@@ -54,7 +54,7 @@ def check(tmp_path: Path) -> Check:
         ("parameters.number-form", 24, "010 of 'p' is read as 8", "write 10"),
         ("parameters.mixed-list", 25, "Value type 'double' do not belong at line_num 25", "1.0"),
         (
-            "control.unknown-parameter",
+            "parameter.unknown",
             21,
             "'state_publish_rat' is not one of",
             "'state_publish_rate'",
@@ -88,7 +88,7 @@ def test_ros2_layout_in_a_ros1_package_and_names_as_flags() -> None:
     (flag,) = found.by_code("parameters.word-as-flag")
     assert flag.message == "roslaunch reads on of 'joint' as true, not as a name"
     assert (flag.fix, flag.span and flag.span.line) == ("write 'on' with quotes", 5)
-    (number,) = found.by_code("control.number-as-text")
+    (number,) = found.by_code("parameter.number-as-text")
     assert number.fix == "write 0.001"
 
 
@@ -129,7 +129,7 @@ def test_words_and_numbers_of_each_generation(check: Check) -> None:
     assert not check(text.format("flag: yes"), 1).by_code("parameters.word-as-flag")
     assert not check(text.format("id: '010'"), 1).by_code("parameters.number-form")
     node = "n:\n  ros__parameters:\n    {}\n"
-    assert not check(node.format("rate: 1e-3"), 2).by_code("control.number-as-text")
+    assert not check(node.format("rate: 1e-3"), 2).by_code("parameter.number-as-text")
     assert check(node.format("frame: n"), 2).by_code("parameters.word-as-flag")
     assert not check(node.format("enabled: on"), 2).by_code("parameters.word-as-flag")
     assert check(node.format("axes: on"), 2, ("on",)).by_code("parameters.word-as-flag")

@@ -26,7 +26,7 @@ def test_settings_of_the_filters_inside_are_idle_and_slips_are_unknown() -> None
         "imu3": "/imu", "imu3_linear_acceleration_rejection_threshold": 1.0, "two_d_mod": True,
     }  # fmt: skip
     report_ekf(tree, "/ekf", found)
-    idle, unknown = "navigation.idle-parameter", "navigation.unknown-parameter"
+    idle, unknown = "parameter.idle", "parameter.unknown"
     assert _codes(found) == [
         (idle, "sensor_timeout"), (idle, "debug"), (idle, "odom0_queue_size"),
         (unknown, "odom0_relativ"), (idle, "imu3_linear_acceleration_rejection_threshold"),

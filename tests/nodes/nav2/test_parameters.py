@@ -70,7 +70,7 @@ def test_the_default_file_has_only_what_a_costmap_knows(name: str) -> None:
     tree: Mapping[str, Any] = yaml.safe_load(_FILE.read_text())[name][name]["ros__parameters"]
     made = assemble(tree, name, diagnostics, generation=2)
     assert len(made.costmap.layers) == len(tree["plugins"])
-    idle = [str(item) for item in diagnostics if item.code != "navigation.idle-parameter"]
+    idle = [str(item) for item in diagnostics if item.code != "parameter.idle"]
     assert idle == []
 
 

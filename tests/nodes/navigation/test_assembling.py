@@ -146,7 +146,7 @@ def test_layers_that_plugins_do_not_name_are_told_once() -> None:
         "layer 'static_layer' has parameters and is not one of plugins",
         "layer 'voxel_layer' has parameters and is not one of plugins",
     ]
-    assert all("navigation.idle-parameter" in text for text in said)
+    assert all("parameter.idle" in text for text in said)
 
 
 @pytest.mark.parametrize(

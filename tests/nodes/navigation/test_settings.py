@@ -63,7 +63,7 @@ def test_values_that_do_not_fit_are_told(key, value, used, words) -> None:
     assert settings.value(_TABLE.row(key)) == used
     (found,) = diagnostics
     assert words in found.message
-    assert found.code == "navigation.bad-value"
+    assert found.code == "parameter.bad-value"
 
 
 def test_unknown_and_idle_parameters_are_told_with_what_is_near() -> None:
@@ -72,10 +72,10 @@ def test_unknown_and_idle_parameters_are_told_with_what_is_near() -> None:
     )
     settings.report_unknown()
     unknown, idle = diagnostics
-    assert unknown.code == "navigation.unknown-parameter"
+    assert unknown.code == "parameter.unknown"
     assert "'rat' is not one of thing; it has no effect" in unknown.message
     assert "rate" in unknown.fix
-    assert idle.code == "navigation.idle-parameter"
+    assert idle.code == "parameter.idle"
     assert "'ghost' (2) has no effect here: there is no such thing here" in idle.message
 
 
@@ -101,7 +101,7 @@ def test_option_classes_are_tables_and_are_filled() -> None:
     assert (options.obstacle_range, options.raytrace_range) == (1.5, 4.0)
     assert (options.data_type, options.marking) == ("PointCloud2", False)
     settings.report_unknown()
-    assert [item.code for item in diagnostics] == ["navigation.idle-parameter"]
+    assert [item.code for item in diagnostics] == ["parameter.idle"]
     assert Settings(
         table_of(CostmapOptions, "costmap", ""), {}, "", Diagnostics()
     ).fill(CostmapOptions) == CostmapOptions()  # fmt: skip

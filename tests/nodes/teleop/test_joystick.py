@@ -58,7 +58,7 @@ def test_unknown_parameters_are_told() -> None:
     found = Diagnostics()
     read_driving({"enable_buton": 3}, "/teleop", found, is_ros2=True)
     (told,) = found
-    assert told.code == "navigation.unknown-parameter"
+    assert told.code == "parameter.unknown"
     assert told.fix.startswith("did you mean 'enable_button'")
 
 

@@ -155,7 +155,7 @@ def test_without_a_start_the_ros_tag_decides() -> None:
 )
 def test_keys_of_the_other_version_are_told(ros_version: int, text: str) -> None:
     _, found = names(ROWS[1], ros_version)
-    (idle,) = found.by_code("plugin.idle-parameter")
+    (idle,) = found.by_code("parameter.idle")
     assert text in idle.message
 
 

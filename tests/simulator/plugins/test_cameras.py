@@ -88,7 +88,7 @@ def test_a_focal_length_that_does_not_fit_is_reported(load: Load) -> None:
     sim = load(
         camera("libgazebo_ros_camera.so", KEYS + "<focalLength>99</focalLength>"), world=None
     )
-    (found,) = sim.diagnostics.by_code("plugin.bad-value")
+    (found,) = sim.diagnostics.by_code("parameter.bad-value")
     assert "<focalLength> 99 does not fit the image's width and field of view" in found.message
 
 

@@ -163,7 +163,7 @@ def test_an_unknown_odometry_source_means_world_and_is_reported(
     load: Load, cart_urdf: Cart, drive_keys: str
 ) -> None:
     sim = load(cart_urdf(drive_keys + "<odometrySource>encodr</odometrySource>"))
-    (found,) = sim.diagnostics.by_code("plugin.bad-value")
+    (found,) = sim.diagnostics.by_code("parameter.bad-value")
     assert "<odometrySource> is 'encodr'" in found.message
     assert found.fix == "did you mean 'encoder'?"
 
@@ -253,7 +253,7 @@ def test_ros_2_names_and_remappings_mean_the_same(
     assert len(odometry) == 50
     assert odometry[-1].child_frame_id == "base_link"
     assert planar(odometry[-1])[0] == pytest.approx(0.4, rel=0.05)
-    assert not sim.diagnostics.by_code("plugin.unknown-parameter")
+    assert not sim.diagnostics.by_code("parameter.unknown")
 
 
 def test_the_gz_system_drives_and_measures(load: Load, cart_urdf: Cart, listen: Listen) -> None:

@@ -95,7 +95,9 @@ def test_noise_is_on_the_velocities_and_in_the_covariance(load: Load, listen: Li
 
 
 def test_one_dimension_is_refused(load: Load) -> None:
-    (found,) = load(odometry("<dimensions>1</dimensions>")).diagnostics.by_code("plugin.bad-value")
+    (found,) = load(odometry("<dimensions>1</dimensions>")).diagnostics.by_code(
+        "parameter.bad-value"
+    )
     assert "<dimensions> is 1, not 2 or 3" in found.message
 
 

@@ -86,7 +86,7 @@ def test_an_unknown_output_type_is_reported(load: Load, cart_urdf: Cart) -> None
     plugin = """<plugin name="scanner" filename="libgazebo_ros_ray_sensor.so">
       <output_type>sensor_msgs/LaserScn</output_type></plugin>"""
     sim = load(with_plugin(cart_urdf(), plugin))
-    (found,) = sim.diagnostics.by_code("plugin.bad-value")
+    (found,) = sim.diagnostics.by_code("parameter.bad-value")
     assert "<output_type> is 'LaserScn'; PointCloud2 is used" in found.message
     assert "'LaserScan'" in found.fix
     assert sim.server.node.topics["/scanner/out"] == "sensor_msgs/msg/PointCloud2"  # type: ignore[attr-defined]

@@ -77,7 +77,7 @@ def test_the_right_cameras_projection_has_the_baseline(load: Load, listen: Liste
 
 def test_a_camera_that_is_neither_left_nor_right_is_reported(load: Load) -> None:
     sim = load(world(ROS1, ("left", "middle")))
-    (found,) = sim.diagnostics.by_code("plugin.bad-value")
+    (found,) = sim.diagnostics.by_code("parameter.bad-value")
     assert (
         "camera 'middle' of sensor 'head::eyes::stereo::middle' is neither left nor right"
         in found.message

@@ -60,10 +60,10 @@ def test_a_bad_number_is_reported_with_its_place() -> None:
 def test_unknown_keys_are_reported_with_the_nearest() -> None:
     keys, diagnostics = reader("<topicNme>a</topicNme><alwaysOn>true</alwaysOn>")
     keys.report_unread()
-    (unknown,) = diagnostics.by_code("plugin.unknown-parameter")
+    (unknown,) = diagnostics.by_code("parameter.unknown")
     assert unknown.message == "plug-in 'p' (libtest.so) has no key <topicNme>; it has no effect"
     assert unknown.fix.startswith("did you mean 'topicName'")
-    (idle,) = diagnostics.by_code("plugin.idle-parameter")
+    (idle,) = diagnostics.by_code("parameter.idle")
     assert "<alwaysOn> (a model plug-in always runs)" in idle.message
 
 
@@ -76,7 +76,7 @@ def test_a_ros_block_gives_namespace_and_remappings() -> None:
     assert keys.ros.remapped("~/out") == "scan"
     assert keys.ros.remapped("odom") == "wheel_odom"
     assert keys.ros.remapped("cmd_vel") == "cmd_vel"
-    (found,) = diagnostics.by_code("plugin.unknown-parameter")
+    (found,) = diagnostics.by_code("parameter.unknown")
     assert "<ros> has no element <remaping>" in found.message
 
 
@@ -88,8 +88,8 @@ def test_arguments_of_a_ros_block_are_the_words_of_a_command_line() -> None:
     )
     assert keys.ros.parameter_files == ("/etc/gains.yaml",)
     assert keys.ros.remappings == (("a", "b"), ("c", "d"))
-    (found,) = diagnostics.by_code("plugin.unknown-parameter")
+    (found,) = diagnostics.by_code("parameter.unknown")
     assert found.message == "argument '-p use_sim_time' of <ros> has no effect"
     keys.report_unread()
-    (idle,) = diagnostics.by_code("plugin.idle-parameter")
+    (idle,) = diagnostics.by_code("parameter.idle")
     assert "--params-file /etc/gains.yaml" in idle.message

@@ -82,7 +82,7 @@ def test_force_in_the_links_frame_turns_with_it(load: Load) -> None:
 def test_force_with_a_wrong_frame_is_reported(load: Load) -> None:
     keys = "<link_name>body</link_name><force_frame>wrold</force_frame>"
     sim = load(floating("libgazebo_ros_force.so", keys))
-    found = [item for item in sim.diagnostics if item.code == "plugin.bad-value"]
+    found = [item for item in sim.diagnostics if item.code == "parameter.bad-value"]
     assert "not 'world' or 'link'" in found[0].message
     assert "world" in found[0].fix
 

@@ -112,7 +112,7 @@ def test_parameter_files_among_the_arguments_of_the_node_count(load: Load, yaml_
     )
     sim = load(robot(keys=f"<robot_sim_type>x</robot_sim_type><ros>{arguments}</ros>"))
     assert not sim.diagnostics.by_code("control.no-parameter-file")
-    assert not sim.diagnostics.by_code("plugin.unknown-parameter")
+    assert not sim.diagnostics.by_code("parameter.unknown")
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(200.0)
 
 
@@ -191,7 +191,7 @@ def test_a_bad_update_rate_is_reported(load: Load, tmp_path: Path) -> None:
     path = tmp_path / "controllers.yaml"
     path.write_text("controller_manager: {ros__parameters: {update_rate: fast}}")
     sim = load(robot(keys=f"<parameters>{path}</parameters>"))
-    assert "update_rate of the controller manager is 'fast'" in found(sim, "control.bad-value")
+    assert "update_rate of the controller manager is 'fast'" in found(sim, "parameter.bad-value")
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(100.0)
 
 

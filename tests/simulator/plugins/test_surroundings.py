@@ -195,5 +195,5 @@ def test_hectors_barometer_is_the_height(load: Load, listen: Listen) -> None:
     sim.run(seconds=0.5)
     assert len(messages) == 5
     assert messages[-1].point.z == pytest.approx(21.5)
-    (idle,) = sim.diagnostics.by_code("plugin.idle-parameter")
+    (idle,) = sim.diagnostics.by_code("parameter.idle")
     assert "<qnh> (only hector_uav_msgs/Altimeter has it)" in idle.message

@@ -127,7 +127,7 @@ def test_wheels_without_normal_force_or_axle_are_reported(load: Load) -> None:
     keys = """<wheel link_name="front_left"/><wheel link_name="base"/>
       <wheel link_name="front_lefd"/>"""
     sim = load(cart("libWheelSlipPlugin.so", "", keys))
-    found = [item.message for item in sim.diagnostics if item.code == "plugin.bad-value"]
+    found = [item.message for item in sim.diagnostics if item.code == "parameter.bad-value"]
     assert any("needs a positive <wheel_normal_force>" in text for text in found)
     assert any("has no parent joint that turns" in text for text in found)
     missing = [item for item in sim.diagnostics if item.code == "plugin.missing-link"]

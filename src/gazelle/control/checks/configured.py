@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.control.controllers.registry import controller_class
-from gazelle.control.parameters import nested
 from gazelle.control.sources.source import ParameterSource
 from gazelle.diagnostics import SourceSpan
+from gazelle.parameters.trees import nested
 
 __all__ = ["ConfiguredController", "Gains", "configured_controllers"]
 

@@ -9,10 +9,12 @@ from gazelle.control.controller_manager.records import ControllerRecord, OwnedPo
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.registry import controller_class, known_types
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters, flattened
+from gazelle.control.parameters import controller_parameters
 from gazelle.control.robot import Robot
 from gazelle.control.sources.source import ParameterSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import flattened
 
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace
@@ -136,13 +138,13 @@ class ControllerMaker:
         ports.offer_parameters(values, _setter(controller, parameters))
         return controller
 
-    def parameters(self, name: str, found: type[Controller]) -> ControllerParameters:
+    def parameters(self, name: str, found: type[Controller]) -> ParameterReader:
         """Return the parameters of a controller, to be read by its class's table."""
         source = self.source
-        return ControllerParameters(
+        return controller_parameters(
             name,
             source.tree(name),
-            found.TABLE,
+            found.TABLE.parameters,
             self._diagnostics,
             full_name=lambda key: source.full_name(name, key),
             place=lambda key: source.place(name, key),
@@ -156,9 +158,7 @@ class ControllerMaker:
         )
 
 
-def _setter(
-    controller: Controller, parameters: ControllerParameters
-) -> Callable[[dict[str, Any]], str]:
+def _setter(controller: Controller, parameters: ParameterReader) -> Callable[[dict[str, Any]], str]:
     """Return what takes new values of parameters: live rows only."""
 
     def take(values: dict[str, Any]) -> str:

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.table import Parameter
 from gazelle.control.wheels.limit_reader import read_limits
 from gazelle.control.wheels.limiter import SpeedLimiter
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
@@ -15,11 +14,12 @@ from gazelle.control.wheels.steering import SteeringGeometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.urdf_geometry import joint_offset_m, wheel_radius_m
 from gazelle.control.wheels.wheel_measures import measure
+from gazelle.parameters import Parameter, ParameterKind
 
 __all__ = ["ROS1_ROWS", "Ros1AckermannDrive"]
 
 
-def _row(key: str, kind: str, default: object, meaning: str, unit: str = "") -> Parameter:
+def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
     return Parameter(key, kind, default, meaning, unit=unit, generations=(1,))
 
 
@@ -35,7 +35,7 @@ ROS1_ROWS = (
     _row("publish_rate", "number", 50.0, "rate of odometry and tf", "Hz"),
     Parameter(
         "allow_multiple_cmd_vel_publishers",
-        "none",
+        "refused",
         True,
         "senders are not counted; all of them are heard",
         generations=(1,),

@@ -15,8 +15,9 @@ from gazelle.control.controllers.steering_table import (
     library_rows,
     library_topics,
 )
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import limit_rows
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["AckermannSteeringController"]
 
@@ -46,18 +47,20 @@ class AckermannSteeringController(DriveController):
     """ROS 2: two driven and two steered wheels; ROS 1: one of each."""
 
     TABLE = ControllerTable(
-        family="ackermann_steering",
-        summary="Drives a base with car-like steering and publishes odometry. ROS 2's takes two"
-        " driven and two steered joints, ROS 1's one of each.",
-        types=("ackermann_steering_controller/AckermannSteeringController",),
+        ParameterTable(
+            "ackermann_steering",
+            "Drives a base with car-like steering and publishes odometry. ROS 2's takes two"
+            " driven and two steered joints, ROS 1's one of each.",
+            ("ackermann_steering_controller/AckermannSteeringController",),
+            (
+                *ROS1_ROWS,
+                *library_rows("traction_wheels_radius"),
+                *_TRACKS,
+                *limit_rows("linear.x", "angular.z"),
+            ),
+        ),
         interfaces="claims velocity of the driven and position of the steered joints; reads"
         " velocity (ROS 1: position) and position",
-        parameters=(
-            *ROS1_ROWS,
-            *library_rows("traction_wheels_radius"),
-            *_TRACKS,
-            *limit_rows("linear.x", "angular.z"),
-        ),
         topics=(*_ROS1_TOPICS, *library_topics()),
         behaviour=(
             "ROS 1: angular.z of the command is the steering angle in rad, not a yaw rate, and"

@@ -11,6 +11,7 @@ from gazelle.control.controllers.steering_table import (
     library_topics,
 )
 from gazelle.control.table import ControllerTable
+from gazelle.parameters import ParameterTable
 
 __all__ = ["BicycleSteeringController"]
 
@@ -19,12 +20,14 @@ class BicycleSteeringController(DriveController):
     """One driven and one steered wheel."""
 
     TABLE = ControllerTable(
-        family="bicycle_steering",
-        summary="Drives a base with one driven and one steered wheel and publishes odometry.",
-        types=("bicycle_steering_controller/BicycleSteeringController",),
+        ParameterTable(
+            "bicycle_steering",
+            "Drives a base with one driven and one steered wheel and publishes odometry.",
+            ("bicycle_steering_controller/BicycleSteeringController",),
+            library_rows("traction_wheel_radius"),
+        ),
         interfaces="claims velocity of the driven and position of the steered joint; reads"
         " velocity and position",
-        parameters=library_rows("traction_wheel_radius"),
         topics=library_topics(),
         behaviour=LIBRARY_BEHAVIOUR,
     )

@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 
 from gazelle.control.bank import Indices
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import Ports
 from gazelle.control.robot import JointResource, Robot
 from gazelle.control.table import ControllerTable
 from gazelle.diagnostics import did_you_mean
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Controller", "ControllerContext"]
 
@@ -34,7 +34,7 @@ class ControllerContext:
     name: str
     type: str
     robot: Robot
-    parameters: ControllerParameters
+    parameters: ParameterReader
     ports: Ports
     update_rate_hz: float
     namespace: str = ""

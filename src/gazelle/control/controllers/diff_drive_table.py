@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import command_rows, frame_rows, limit_rows
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["TABLE"]
 
@@ -41,7 +42,7 @@ _WHEELS = (
     ),
     Parameter(
         "wheels_per_side",
-        "none",
+        "refused",
         0,
         "the number of wheels is that of the names, as in the original",
         generations=(2,),
@@ -52,7 +53,7 @@ _COMMANDS = (
     Parameter("cmd_vel_timeout", "number", 0.5, "how long a command holds", unit="s", live=True),
     Parameter(
         "allow_multiple_cmd_vel_publishers",
-        "none",
+        "refused",
         True,
         "senders are not counted; all of them are heard",
         generations=(1,),
@@ -98,18 +99,20 @@ _COMMANDS = (
 )
 
 TABLE = ControllerTable(
-    family="diff_drive",
-    summary=_SUMMARY,
-    types=("diff_drive_controller/DiffDriveController",),
+    ParameterTable(
+        "diff_drive",
+        _SUMMARY,
+        ("diff_drive_controller/DiffDriveController",),
+        (
+            *_WHEELS,
+            *_COMMANDS,
+            *command_rows(),
+            *frame_rows(diagonals=None),
+            *limit_rows("linear.x", "angular.z"),
+        ),
+    ),
     interfaces="claims velocity of every wheel; reads position (velocity with"
     " position_feedback: false)",
-    parameters=(
-        *_WHEELS,
-        *_COMMANDS,
-        *command_rows(),
-        *frame_rows(diagonals=None),
-        *limit_rows("linear.x", "angular.z"),
-    ),
     topics=(
         Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", generations=(1,)),
         Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", generations=(2,)),

@@ -11,13 +11,14 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import WRENCH_INTERFACES, fill_wrench
 from gazelle.control.errors import ControllerError
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["ForceTorqueSensorBroadcaster"]
 
 
 def _rows(
-    prefix: str, kind: str, default: object, meaning: str, live: bool
+    prefix: str, kind: ParameterKind, default: object, meaning: str, live: bool
 ) -> tuple[Parameter, ...]:
     return tuple(
         Parameter(f"{prefix}.{word}", kind, default, meaning, live=live)
@@ -29,22 +30,31 @@ class ForceTorqueSensorBroadcaster(Controller):
     """Publishes one force-torque sensor at every update."""
 
     TABLE = ControllerTable(
-        "force_torque_sensor_broadcaster",
-        "Publishes one force-torque sensor.",
-        ("force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",),
-        "claims none; reads forces and torques of the sensor, or the interfaces it is told",
-        (
-            Parameter("frame_id", "text", None, "frame of the message; required"),
-            Parameter("sensor_name", "text", "", "the sensor; or interface_names"),
-            *_rows(
-                "interface_names", "text", "", "a state interface, in place of the sensor", False
+        ParameterTable(
+            "force_torque_sensor_broadcaster",
+            "Publishes one force-torque sensor.",
+            ("force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",),
+            (
+                Parameter("frame_id", "text", None, "frame of the message; required"),
+                Parameter("sensor_name", "text", "", "the sensor; or interface_names"),
+                *_rows(
+                    "interface_names",
+                    "text",
+                    "",
+                    "a state interface, in place of the sensor",
+                    False,
+                ),
+                *_rows("offset", "number", 0.0, "added to what is measured", True),
+                *_rows("multiplier", "number", 1.0, "times what is measured and the offset", True),
+                Parameter("sensor_filter_chain", "group", None, "filters of ~/wrench_filtered"),
             ),
-            *_rows("offset", "number", 0.0, "added to what is measured", True),
-            *_rows("multiplier", "number", 1.0, "times what is measured and the offset", True),
-            Parameter("sensor_filter_chain", "group", None, "filters of ~/wrench_filtered"),
         ),
-        (Topic("~/wrench", "geometry_msgs/WrenchStamped", rate="every update", frame="frame_id"),),
-        (
+        interfaces="claims none; reads forces and torques of the sensor, or the interfaces"
+        " it is told",
+        topics=(
+            Topic("~/wrench", "geometry_msgs/WrenchStamped", rate="every update", frame="frame_id"),
+        ),
+        behaviour=(
             "Interfaces that are not given are published as NaN "
             "(force_torque_sensor_broadcaster.cpp).",
             "Filters are C++ plug-ins: sensor_filter_chain is reported, and ~/wrench_filtered is "
@@ -68,7 +78,7 @@ class ForceTorqueSensorBroadcaster(Controller):
         if parameters.group("sensor_filter_chain"):
             text = "'sensor_filter_chain' names filters, which are C++ plug-ins: ~/wrench_filtered "
             text += "is not offered; ~/wrench has the unfiltered values"
-            parameters.report("control.idle-parameter", text, key="sensor_filter_chain")
+            parameters.report("parameter.idle", text, key="sensor_filter_chain")
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Publish if somebody listens."""

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import frame_rows, limit_rows
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic, TopicKind
 
 __all__ = ["TABLE"]
 
 
-def _row(key: str, kind: str, default: object, meaning: str, unit: str = "") -> Parameter:
+def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
     return Parameter(key, kind, default, meaning, unit=unit, generations=(1,))
 
 
-def _topic(name: str, type_name: str, kind: str = "publishes", frame: str = "") -> Topic:
+def _topic(name: str, type_name: str, kind: TopicKind = "publishes", frame: str = "") -> Topic:
     rate = "publish_rate" if kind == "publishes" else ""
     return Topic(name, type_name, kind, rate=rate, frame=frame, generations=(1,))
 
@@ -27,12 +28,12 @@ _PARAMETERS = (
     _row("wheel_radius", "number", None, "radius of the wheels; from the URDF", "m"),
     _row(
         "wheel_steering_y_offset",
-        "none",
+        "refused",
         None,
         "the distance of steering joint and wheel joint in the URDF counts, as in the original",
     ),
     _row("publish_rate", "number", 50.0, "rate of odometry and tf", "Hz"),
-    _row("open_loop", "none", False, "read by the original and never used"),
+    _row("open_loop", "refused", False, "read by the original and never used"),
     _row("cmd_vel_timeout", "number", 0.5, "how long a command holds", "s"),
     _row(
         "velocity_rolling_window_size",
@@ -43,15 +44,17 @@ _PARAMETERS = (
 )
 
 TABLE = ControllerTable(
-    family="four_wheel_steering",
-    summary="Drives a base that steers front and rear wheels and publishes odometry.",
-    types=("four_wheel_steering_controller/FourWheelSteeringController",),
-    interfaces="claims and reads velocity of four driven and position of four steering joints",
-    parameters=(
-        *_PARAMETERS,
-        *frame_rows(diagonals=None),
-        *limit_rows("linear.x", "angular.z"),
+    ParameterTable(
+        "four_wheel_steering",
+        "Drives a base that steers front and rear wheels and publishes odometry.",
+        ("four_wheel_steering_controller/FourWheelSteeringController",),
+        (
+            *_PARAMETERS,
+            *frame_rows(diagonals=None),
+            *limit_rows("linear.x", "angular.z"),
+        ),
     ),
+    interfaces="claims and reads velocity of four driven and position of four steering joints",
     topics=(
         _topic("~/cmd_vel", "geometry_msgs/Twist", "listens"),
         _topic(

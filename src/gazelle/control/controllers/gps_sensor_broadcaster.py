@@ -7,7 +7,8 @@ import numpy as np
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import sensor_places
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["GpsSensorBroadcaster"]
 
@@ -20,25 +21,34 @@ class GpsSensorBroadcaster(Controller):
     """Publishes one satellite receiver at every update."""
 
     TABLE = ControllerTable(
-        "gps_sensor_broadcaster",
-        "Publishes one satellite navigation receiver.",
-        ("gps_sensor_broadcaster/GPSSensorBroadcaster",),
-        "claims none; reads status, service, latitude, longitude and altitude of the sensor",
-        (
-            Parameter("sensor_name", "text", None, "the sensor; required"),
-            Parameter("frame_id", "text", None, "frame of the message; required"),
-            Parameter(
-                "static_position_covariance", "numbers", (0.0,) * 9, "nine values, row by row", "m²"
-            ),
-            Parameter(
-                "read_covariance_from_interface",
-                "flag",
-                False,
-                "variances are the state interfaces latitude_covariance …",
+        ParameterTable(
+            "gps_sensor_broadcaster",
+            "Publishes one satellite navigation receiver.",
+            ("gps_sensor_broadcaster/GPSSensorBroadcaster",),
+            (
+                Parameter("sensor_name", "text", None, "the sensor; required"),
+                Parameter("frame_id", "text", None, "frame of the message; required"),
+                Parameter(
+                    "static_position_covariance",
+                    "numbers",
+                    (0.0,) * 9,
+                    "nine values, row by row",
+                    "m²",
+                ),
+                Parameter(
+                    "read_covariance_from_interface",
+                    "flag",
+                    False,
+                    "variances are the state interfaces latitude_covariance …",
+                ),
             ),
         ),
-        (Topic("~/gps/fix", "sensor_msgs/NavSatFix", rate="every update", frame="frame_id"),),
-        ("The covariance's type is 3 (known), or 2 (diagonal known) when it is read.",),
+        interfaces="claims none; reads status, service, latitude, longitude and altitude of"
+        " the sensor",
+        topics=(
+            Topic("~/gps/fix", "sensor_msgs/NavSatFix", rate="every update", frame="frame_id"),
+        ),
+        behaviour=("The covariance's type is 3 (known), or 2 (diagonal known) when it is read.",),
     )
 
     def __init__(self, context: ControllerContext) -> None:
@@ -59,7 +69,7 @@ class GpsSensorBroadcaster(Controller):
             text = (
                 f"'static_position_covariance' has {len(covariance)} values, not 9; zeros are used"
             )
-            parameters.report("control.bad-value", text, key="static_position_covariance")
+            parameters.report("parameter.bad-value", text, key="static_position_covariance")
             covariance = np.zeros(9)
         self._covariance = covariance
         self._publisher = context.ports.publisher("~/gps/fix", "sensor_msgs/NavSatFix")

@@ -10,7 +10,8 @@ from gazelle.control.errors import ControllerError
 from gazelle.control.pid import Pid, offer_live_gains, read_gains
 from gazelle.control.pid.reading import gain_rows
 from gazelle.control.ports import GoalPort
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["GripperActionController"]
 
@@ -21,21 +22,27 @@ class GripperActionController(Controller):
     """Moves a gripper's joint to a goal, with at most some effort."""
 
     TABLE: ClassVar[ControllerTable] = ControllerTable(
-        family="gripper_action_controller",
-        summary="Moves one joint to the goal of an action and tells when it is there or stalls.",
-        types=(
-            "position_controllers/GripperActionController",
-            "effort_controllers/GripperActionController",
+        ParameterTable(
+            "gripper_action_controller",
+            "Moves one joint to the goal of an action and tells when it is there or stalls.",
+            (
+                "position_controllers/GripperActionController",
+                "effort_controllers/GripperActionController",
+            ),
+            (
+                *GRIPPER_ROWS,
+                Parameter(
+                    "max_effort",
+                    "number",
+                    0.0,
+                    "bound of the effort while there is no goal",
+                    "N·m, N",
+                ),
+                *gain_rows("gains.<joint>"),
+            ),
         ),
         interfaces="Claims `<joint>/position` or `<joint>/effort` by its type, reads position and "
         "velocity.",
-        parameters=(
-            *GRIPPER_ROWS,
-            Parameter(
-                "max_effort", "number", 0.0, "bound of the effort while there is no goal", "N·m, N"
-            ),
-            *gain_rows("gains.<joint>"),
-        ),
         topics=(
             Topic(
                 "~/gripper_cmd",

@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.ports import GoalPort
-from gazelle.control.table import Parameter
+from gazelle.parameters import Parameter
 
 __all__ = ["GRIPPER_ROWS", "GripperGoal", "Outcome"]
 

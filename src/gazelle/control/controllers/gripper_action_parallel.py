@@ -8,14 +8,15 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.gripper_action_goal import GRIPPER_ROWS, GripperGoal, Outcome
 from gazelle.control.messages import stamped
 from gazelle.control.ports import GoalPort
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["ParallelGripperActionController"]
 
 _ROS2 = (2,)
 
 
-def _row(key: str, kind: str, default: object, meaning: str, unit: str = "") -> Parameter:
+def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
     return Parameter(key, kind, default, meaning, unit, generations=_ROS2)
 
 
@@ -23,24 +24,26 @@ class ParallelGripperActionController(Controller):
     """Moves a parallel gripper's joint to a goal."""
 
     TABLE: ClassVar[ControllerTable] = ControllerTable(
-        family="parallel_gripper_action_controller",
-        summary="Moves one joint to the goal of an action and tells when it is there or stalls.",
-        types=("parallel_gripper_action_controller/GripperActionController",),
-        interfaces="Claims `<joint>/position`, and max_effort_interface and max_velocity_interface "
-        "when they are given; reads position and velocity.",
-        parameters=(
-            *GRIPPER_ROWS,
-            _row("max_effort", "number", 10.0, "effort when a goal has none", "N·m, N"),
-            _row("max_velocity", "number", 0.1, "speed when a goal has none", "rad/s, m/s"),
-            _row("max_effort_interface", "text", "", "command interface `<joint>/<name>`"),
-            _row("max_velocity_interface", "text", "", "command interface `<joint>/<name>`"),
-            _row(
-                "state_interfaces",
-                "none",
-                None,
-                "position and velocity are read, more would change nothing",
+        ParameterTable(
+            "parallel_gripper_action_controller",
+            "Moves one joint to the goal of an action and tells when it is there or stalls.",
+            ("parallel_gripper_action_controller/GripperActionController",),
+            (
+                *GRIPPER_ROWS,
+                _row("max_effort", "number", 10.0, "effort when a goal has none", "N·m, N"),
+                _row("max_velocity", "number", 0.1, "speed when a goal has none", "rad/s, m/s"),
+                _row("max_effort_interface", "text", "", "command interface `<joint>/<name>`"),
+                _row("max_velocity_interface", "text", "", "command interface `<joint>/<name>`"),
+                _row(
+                    "state_interfaces",
+                    "refused",
+                    None,
+                    "position and velocity are read, more would change nothing",
+                ),
             ),
         ),
+        interfaces="Claims `<joint>/position`, and max_effort_interface and max_velocity_interface "
+        "when they are given; reads position and velocity.",
         topics=(
             Topic(
                 "~/gripper_cmd",

@@ -8,8 +8,9 @@ from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import IMU_INTERFACES, fill_imu, sensor_places
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["ImuSensorBroadcaster"]
 
@@ -22,24 +23,29 @@ class ImuSensorBroadcaster(Controller):
     """Publishes one IMU at every update."""
 
     TABLE = ControllerTable(
-        "imu_sensor_broadcaster",
-        "Publishes one IMU.",
-        ("imu_sensor_broadcaster/IMUSensorBroadcaster",),
-        "claims none; reads orientation, angular velocity and linear acceleration of the sensor",
-        (
-            Parameter("sensor_name", "text", None, "the sensor; required"),
-            Parameter("frame_id", "text", None, "frame of the message; required"),
-            *(
-                Parameter(f"static_covariance_{part}", "numbers", _ZERO, "nine values, row by row")
-                for part in _PARTS
-            ),
-            *(
-                Parameter(f"rotation_offset.{axis}", "number", 0.0, "of the frame", "rad")
-                for axis in _AXES
+        ParameterTable(
+            "imu_sensor_broadcaster",
+            "Publishes one IMU.",
+            ("imu_sensor_broadcaster/IMUSensorBroadcaster",),
+            (
+                Parameter("sensor_name", "text", None, "the sensor; required"),
+                Parameter("frame_id", "text", None, "frame of the message; required"),
+                *(
+                    Parameter(
+                        f"static_covariance_{part}", "numbers", _ZERO, "nine values, row by row"
+                    )
+                    for part in _PARTS
+                ),
+                *(
+                    Parameter(f"rotation_offset.{axis}", "number", 0.0, "of the frame", "rad")
+                    for axis in _AXES
+                ),
             ),
         ),
-        (Topic("~/imu", "sensor_msgs/Imu", rate="every update", frame="frame_id"),),
-        (
+        interfaces="claims none; reads orientation, angular velocity and linear"
+        " acceleration of the sensor",
+        topics=(Topic("~/imu", "sensor_msgs/Imu", rate="every update", frame="frame_id"),),
+        behaviour=(
             "rotation_offset turns rates and accelerations and their covariances, and takes itself "
             "off the orientation (imu_transform.hpp).",
             "What the IMU does not measure is 0, its covariance begins with -1.",
@@ -78,7 +84,7 @@ class ImuSensorBroadcaster(Controller):
         values = np.array(self.context.parameters.numbers(key))
         if len(values) != len(_ZERO):
             text = f"'{key}' has {len(values)} values, not 9; zeros are used"
-            self.context.parameters.report("control.bad-value", text, key=key)
+            self.context.parameters.report("parameter.bad-value", text, key=key)
             return np.zeros(len(_ZERO))
         if self._offset is None or part == "orientation":
             return values

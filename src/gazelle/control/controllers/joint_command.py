@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointCommandController"]
 
@@ -20,13 +21,15 @@ class JointCommandController(Controller):
     """Passes ``~/command`` on to one joint's effort, velocity or position."""
 
     TABLE = ControllerTable(
-        "joint_command",
-        "Passes a command on to the same interface of one joint.",
-        tuple(_INTERFACES),
-        "claims effort, velocity or position of the joint, as its type says",
-        (Parameter("joint", "text", None, "the joint; required"),),
-        (Topic("~/command", "std_msgs/Float64", "listens"),),
-        (
+        ParameterTable(
+            "joint_command",
+            "Passes a command on to the same interface of one joint.",
+            tuple(_INTERFACES),
+            (Parameter("joint", "text", None, "the joint; required"),),
+        ),
+        interfaces="claims effort, velocity or position of the joint, as its type says",
+        topics=(Topic("~/command", "std_msgs/Float64", "listens"),),
+        behaviour=(
             "At the start efforts and velocities are 0 and positions where the joint is "
             "(joint_*_controller.cpp).",
             "Once stopped it leaves its last command with the hardware.",

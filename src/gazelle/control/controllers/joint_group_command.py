@@ -9,7 +9,8 @@ import numpy as np
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointGroupCommandController", "MultiInterfaceCommandController"]
 
@@ -76,25 +77,30 @@ class JointGroupCommandController(_ForwardController):
     """Passes arrays on to one interface of several joints, in both generations."""
 
     TABLE = ControllerTable(
-        "joint_group_command",
-        "Passes an array of commands on to the same interface of several joints.",
-        (*_INTERFACES, _FORWARD),
-        "claims effort, velocity or position of the joints, as the type says, or `interface_name`",
-        (
-            Parameter("joints", "texts", None, "the joints, in the order of the array; required"),
-            Parameter(
-                "interface_name",
-                "text",
-                None,
-                "interface of ForwardCommandController; required there",
-                generations=(2,),
+        ParameterTable(
+            "joint_group_command",
+            "Passes an array of commands on to the same interface of several joints.",
+            (*_INTERFACES, _FORWARD),
+            (
+                Parameter(
+                    "joints", "texts", None, "the joints, in the order of the array; required"
+                ),
+                Parameter(
+                    "interface_name",
+                    "text",
+                    None,
+                    "interface of ForwardCommandController; required there",
+                    generations=(2,),
+                ),
             ),
         ),
-        (
+        interfaces="claims effort, velocity or position of the joints, as the type says, or"
+        " `interface_name`",
+        topics=(
             Topic("~/command", _ARRAY, "listens", generations=(1,)),
             Topic("~/commands", _ARRAY, "listens", generations=(2,)),
         ),
-        (
+        behaviour=(
             "In ROS 1 efforts and velocities begin at 0 and positions where the joints are "
             "(joint_group_*_controller.cpp).",
             _UNTIL_TOLD,
@@ -121,7 +127,7 @@ class JointGroupCommandController(_ForwardController):
             interface = parameters.text("interface_name")
         elif parameters.has("interface_name"):
             text = f"'interface_name' has no effect: {context.type} commands {interface}"
-            parameters.report("control.idle-parameter", text, key="interface_name")
+            parameters.report("parameter.idle", text, key="interface_name")
         self._forward(tuple(f"{joint}/{interface}" for joint in joints))
         self._state_places: Indices | None = None
         if context.generation == 1 and interface == "position":
@@ -143,22 +149,24 @@ class MultiInterfaceCommandController(_ForwardController):
     """Passes arrays on to several interfaces of one joint."""
 
     TABLE = ControllerTable(
-        "multi_interface_command",
-        "Passes an array of commands on to several interfaces of one joint.",
-        (_MULTI,),
-        "claims `interface_names` of the joint",
-        (
-            Parameter("joint", "text", None, "the joint; required", generations=(2,)),
-            Parameter(
-                "interface_names",
-                "texts",
-                None,
-                "its interfaces, in the order of the array; required",
-                generations=(2,),
+        ParameterTable(
+            "multi_interface_command",
+            "Passes an array of commands on to several interfaces of one joint.",
+            (_MULTI,),
+            (
+                Parameter("joint", "text", None, "the joint; required", generations=(2,)),
+                Parameter(
+                    "interface_names",
+                    "texts",
+                    None,
+                    "its interfaces, in the order of the array; required",
+                    generations=(2,),
+                ),
             ),
         ),
-        (Topic("~/commands", _ARRAY, "listens", generations=(2,)),),
-        (_UNTIL_TOLD, "Once stopped it leaves its last command with the hardware."),
+        interfaces="claims `interface_names` of the joint",
+        topics=(Topic("~/commands", _ARRAY, "listens", generations=(2,)),),
+        behaviour=(_UNTIL_TOLD, "Once stopped it leaves its last command with the hardware."),
     )
 
     def __init__(self, context: ControllerContext) -> None:

@@ -13,8 +13,9 @@ from gazelle.control.controllers.pid_joint import required_gains
 from gazelle.control.errors import ControllerError
 from gazelle.control.pid import PidBank, offer_live_gains
 from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.description.model import JointType
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointGroupPositionController"]
 
@@ -23,18 +24,25 @@ class JointGroupPositionController(Controller):
     """Holds several joints at positions by effort."""
 
     TABLE = ControllerTable(
-        "joint_group_position",
-        "Holds several joints at positions: a PID for each commands its effort.",
-        ("effort_controllers/JointGroupPositionController",),
-        "claims effort of the joints; reads their positions",
-        (
-            Parameter("joints", "texts", None, "the joints, in the order of the array; required"),
-            *gain_rows("<joint>.pid", (1,)),
-            Parameter(
-                "<joint>.pid.publish_state", "none", None, "the PIDs of a group publish no states"
+        ParameterTable(
+            "joint_group_position",
+            "Holds several joints at positions: a PID for each commands its effort.",
+            ("effort_controllers/JointGroupPositionController",),
+            (
+                Parameter(
+                    "joints", "texts", None, "the joints, in the order of the array; required"
+                ),
+                *gain_rows("<joint>.pid", (1,)),
+                Parameter(
+                    "<joint>.pid.publish_state",
+                    "refused",
+                    None,
+                    "the PIDs of a group publish no states",
+                ),
             ),
         ),
-        (
+        interfaces="claims effort of the joints; reads their positions",
+        topics=(
             Topic("~/command", "std_msgs/Float64MultiArray", "listens"),
             Topic(
                 "~/<joint>/pid/set_parameters",
@@ -43,7 +51,7 @@ class JointGroupPositionController(Controller):
                 "p, i, d, i_clamp_min, i_clamp_max, antiwindup",
             ),
         ),
-        (
+        behaviour=(
             "It begins where the joints are, and holds them there "
             "(joint_group_position_controller.cpp).",
             "Limits and the way round are those of JointPositionController.",

@@ -12,6 +12,7 @@ from gazelle.control.controllers.pid_joint import (
     PidJointController,
 )
 from gazelle.control.table import ControllerTable
+from gazelle.parameters import ParameterTable
 
 __all__ = ["JointPositionController"]
 
@@ -24,17 +25,20 @@ class JointPositionController(PidJointController):
     """
 
     TABLE = ControllerTable(
-        "joint_position",
-        "Holds one joint at a position: a PID of the position's error commands its effort or "
-        "velocity.",
-        (
-            "effort_controllers/JointPositionController",
-            "velocity_controllers/JointPositionController",
+        ParameterTable(
+            "joint_position",
+            "Holds one joint at a position: a PID of the position's error commands its effort or "
+            "velocity.",
+            (
+                "effort_controllers/JointPositionController",
+                "velocity_controllers/JointPositionController",
+            ),
+            PID_PARAMETERS,
         ),
-        "claims effort or velocity of the joint, as its type says; reads position and velocity",
-        PID_PARAMETERS,
-        PID_TOPICS,
-        (
+        interfaces="claims effort or velocity of the joint, as its type says; reads"
+        " position and velocity",
+        topics=PID_TOPICS,
+        behaviour=(
             "It begins where the joint is, and holds it there (joint_position_controller.cpp).",
             "Commands are kept within the limits of revolute and prismatic joints.",
             "Revolute joints take the shorter way round if it ends within their limits, continuous "

@@ -11,7 +11,8 @@ from gazelle.control.bank import Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.messages import message_class, stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointStateBroadcaster"]
 
@@ -22,32 +23,45 @@ class JointStateBroadcaster(Controller):
     """Publishes state interfaces at every update."""
 
     TABLE = ControllerTable(
-        "joint_state_broadcaster",
-        "Publishes the state interfaces of the hardware, joints as `joint_states` and everything "
-        "as `dynamic_joint_states`.",
-        ("joint_state_broadcaster/JointStateBroadcaster",),
-        "claims none; reads all state interfaces, or `interfaces` of `joints`",
-        (
-            Parameter("joints", "texts", (), "joints to publish, together with `interfaces`"),
-            Parameter("interfaces", "texts", (), "interfaces to publish, together with `joints`"),
-            Parameter("extra_joints", "texts", (), "further joints, published as 0"),
-            Parameter("use_local_topics", "flag", False, "topics below `~/`"),
-            Parameter(
-                "map_interface_to_joint_state.position", "text", "position", "published as position"
+        ParameterTable(
+            "joint_state_broadcaster",
+            "Publishes the state interfaces of the hardware, joints as `joint_states` and"
+            " everything "
+            "as `dynamic_joint_states`.",
+            ("joint_state_broadcaster/JointStateBroadcaster",),
+            (
+                Parameter("joints", "texts", (), "joints to publish, together with `interfaces`"),
+                Parameter(
+                    "interfaces", "texts", (), "interfaces to publish, together with `joints`"
+                ),
+                Parameter("extra_joints", "texts", (), "further joints, published as 0"),
+                Parameter("use_local_topics", "flag", False, "topics below `~/`"),
+                Parameter(
+                    "map_interface_to_joint_state.position",
+                    "text",
+                    "position",
+                    "published as position",
+                ),
+                Parameter(
+                    "map_interface_to_joint_state.velocity",
+                    "text",
+                    "velocity",
+                    "published as velocity",
+                ),
+                Parameter(
+                    "map_interface_to_joint_state.effort", "text", "effort", "published as effort"
+                ),
+                Parameter(
+                    "use_urdf_to_filter", "flag", True, "`joint_states` has joints of the URDF only"
+                ),
+                Parameter("frame_id", "text", "base_link", "frame of both messages"),
+                Parameter(
+                    "publish_dynamic_joint_states", "flag", True, "offer `dynamic_joint_states`"
+                ),
             ),
-            Parameter(
-                "map_interface_to_joint_state.velocity", "text", "velocity", "published as velocity"
-            ),
-            Parameter(
-                "map_interface_to_joint_state.effort", "text", "effort", "published as effort"
-            ),
-            Parameter(
-                "use_urdf_to_filter", "flag", True, "`joint_states` has joints of the URDF only"
-            ),
-            Parameter("frame_id", "text", "base_link", "frame of both messages"),
-            Parameter("publish_dynamic_joint_states", "flag", True, "offer `dynamic_joint_states`"),
         ),
-        (
+        interfaces="claims none; reads all state interfaces, or `interfaces` of `joints`",
+        topics=(
             Topic("joint_states", "sensor_msgs/JointState", rate="every update", frame="frame_id"),
             Topic(
                 "dynamic_joint_states",
@@ -56,7 +70,7 @@ class JointStateBroadcaster(Controller):
                 frame="frame_id",
             ),
         ),
-        (
+        behaviour=(
             "A joint with at least one of position, velocity and effort is in `joint_states`; what "
             "it lacks is NaN (joint_state_broadcaster.cpp).",
             "Joints come in the order of the hardware's description.",
@@ -138,7 +152,7 @@ class JointStateBroadcaster(Controller):
                     f"Mapping from '{interface}' to interface '{field}' will not be done, because "
                 )
                 text += f"'{field}' is defined in 'interface' parameter."
-                parameters.report("control.idle-parameter", text, key=key)
+                parameters.report("parameter.idle", text, key=key)
         return found
 
     def _joint_names(self) -> list[str]:

@@ -11,7 +11,8 @@ from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.publish_rate import PublishRate
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointStateController"]
 
@@ -22,24 +23,26 @@ class JointStateController(Controller):
     """Publishes position, velocity and effort of the hardware's joints."""
 
     TABLE = ControllerTable(
-        "joint_state_controller",
-        "Publishes the state of all joints, or of those it is told.",
-        ("joint_state_controller/JointStateController",),
-        "claims none; reads position, velocity and effort of the joints",
-        (
-            Parameter("publish_rate", "number", None, "how often; required", "Hz"),
-            Parameter(
-                "joints", "texts", (), "joints and their order; all of the hardware if empty"
-            ),
-            Parameter(
-                "extra_joints",
-                "group",
-                None,
-                "list of {name, position, velocity, effort} that are published as they stand",
+        ParameterTable(
+            "joint_state_controller",
+            "Publishes the state of all joints, or of those it is told.",
+            ("joint_state_controller/JointStateController",),
+            (
+                Parameter("publish_rate", "number", None, "how often; required", "Hz"),
+                Parameter(
+                    "joints", "texts", (), "joints and their order; all of the hardware if empty"
+                ),
+                Parameter(
+                    "extra_joints",
+                    "group",
+                    None,
+                    "list of {name, position, velocity, effort} that are published as they stand",
+                ),
             ),
         ),
-        (Topic("joint_states", "sensor_msgs/JointState", rate="publish_rate"),),
-        (
+        interfaces="claims none; reads position, velocity and effort of the joints",
+        topics=(Topic("joint_states", "sensor_msgs/JointState", rate="publish_rate"),),
+        behaviour=(
             "The first message comes with the first update; the rate is kept on average "
             "(joint_state_controller.cpp).",
             "A joint that lacks a state is published as 0 in that field.",
@@ -100,7 +103,7 @@ class JointStateController(Controller):
         return found
 
     def _report(self, text: str) -> None:
-        self.context.parameters.report("control.bad-value", text, key="extra_joints")
+        self.context.parameters.report("parameter.bad-value", text, key="extra_joints")
 
 
 def _problem(row: Any, names: list[str]) -> str:

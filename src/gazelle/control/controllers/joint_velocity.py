@@ -9,6 +9,7 @@ from gazelle.control.controllers.pid_joint import (
     PidJointController,
 )
 from gazelle.control.table import ControllerTable
+from gazelle.parameters import ParameterTable
 
 __all__ = ["JointVelocityController"]
 
@@ -21,13 +22,15 @@ class JointVelocityController(PidJointController):
     """
 
     TABLE = ControllerTable(
-        "joint_velocity",
-        "Moves one joint at a velocity: a PID of the velocity's error commands its effort.",
-        ("effort_controllers/JointVelocityController",),
-        "claims effort of the joint; reads position and velocity",
-        PID_PARAMETERS,
-        PID_TOPICS,
-        (
+        ParameterTable(
+            "joint_velocity",
+            "Moves one joint at a velocity: a PID of the velocity's error commands its effort.",
+            ("effort_controllers/JointVelocityController",),
+            PID_PARAMETERS,
+        ),
+        interfaces="claims effort of the joint; reads position and velocity",
+        topics=PID_TOPICS,
+        behaviour=(
             "It begins with velocity 0 (joint_velocity_controller.cpp).",
             "Once stopped it leaves its last effort with the hardware.",
         ),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import frame_rows, limit_rows
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["TABLE", "WHEELS"]
 
@@ -12,7 +13,13 @@ WHEELS = ("front_left", "front_right", "rear_right", "rear_left")
 
 
 def _row(
-    key: str, kind: str, default: object, meaning: str, unit: str = "", *, live: bool = False
+    key: str,
+    kind: ParameterKind,
+    default: object,
+    meaning: str,
+    unit: str = "",
+    *,
+    live: bool = False,
 ) -> Parameter:
     return Parameter(key, kind, default, meaning, unit=unit, live=live)
 
@@ -52,16 +59,18 @@ _REST = (
 )
 
 TABLE = ControllerTable(
-    family="mecanum_drive",
-    summary="Drives a base on four mecanum wheels and publishes odometry.",
-    types=("mecanum_drive_controller/MecanumDriveController",),
-    interfaces="claims and reads velocity of four joints",
-    parameters=(
-        *_JOINTS,
-        *_REST,
-        *frame_rows(diagonals=(0.1,) * 6),
-        *limit_rows("linear.x", "linear.y", "angular.z"),
+    ParameterTable(
+        "mecanum_drive",
+        "Drives a base on four mecanum wheels and publishes odometry.",
+        ("mecanum_drive_controller/MecanumDriveController",),
+        (
+            *_JOINTS,
+            *_REST,
+            *frame_rows(diagonals=(0.1,) * 6),
+            *limit_rows("linear.x", "linear.y", "angular.z"),
+        ),
     ),
+    interfaces="claims and reads velocity of four joints",
     topics=(
         Topic("~/reference", "geometry_msgs/TwistStamped", "listens"),
         Topic("~/reference_unstamped", "geometry_msgs/Twist", "listens"),

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import frame_rows
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_covariance, read_frames
@@ -17,6 +17,7 @@ from gazelle.control.wheels.omni import OmniDrive
 from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.wheel_measures import positive
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["OmniWheelDriveController"]
 
@@ -40,15 +41,17 @@ class OmniWheelDriveController(Controller):
     """Drives three or more omnidirectional wheels on a circle."""
 
     TABLE = ControllerTable(
-        family="omni_wheel_drive",
-        summary="Drives a base on three or more omnidirectional wheels and publishes odometry.",
-        types=("omni_wheel_drive_controller/OmniWheelDriveController",),
+        ParameterTable(
+            "omni_wheel_drive",
+            "Drives a base on three or more omnidirectional wheels and publishes odometry.",
+            ("omni_wheel_drive_controller/OmniWheelDriveController",),
+            (
+                *_ROWS,
+                *(row for row in frame_rows(diagonals=None) if "covariance" not in row.key),
+            ),
+        ),
         interfaces="claims velocity of every wheel; reads position (velocity with"
         " position_feedback: false)",
-        parameters=(
-            *_ROWS,
-            *(row for row in frame_rows(diagonals=None) if "covariance" not in row.key),
-        ),
         topics=(
             Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens"),
             Topic("~/odom", "nav_msgs/Odometry", rate="every update", frame="odom_frame_id"),

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Topic
+from gazelle.parameters.markdown import facts, headed, in_code, only_in, parameter_lines
 
 __all__ = ["tables_as_markdown"]
 
@@ -26,32 +28,16 @@ def tables_as_markdown(tables: Sequence[ControllerTable]) -> str:
 
 
 def _section(table: ControllerTable) -> list[str]:
-    lines = [f"## {table.family}", "", table.summary, ""]
-    lines += ["Types: " + ", ".join(f"`{name}`" for name in table.types), ""]
-    lines += [f"Interfaces: {table.interfaces}"]
-    if table.behaviour:
-        lines += ["", *(f"- {fact}" for fact in table.behaviour)]
+    parameters = table.parameters
+    lines = [f"## {parameters.family}", "", parameters.summary, ""]
+    lines += [f"Types: {in_code(parameters.types)}", "", f"Interfaces: {table.interfaces}"]
+    lines += facts(table.behaviour)
     if table.topics:
-        lines += ["", "| name | type | | rate | frame |", "| --- | --- | --- | --- | --- |"]
+        lines += ["", *headed("name", "type", "", "rate", "frame")]
         lines += [_topic_line(row) for row in table.topics]
-    if table.parameters:
-        lines += ["", "| parameter | other names | default | unit | meaning |"]
-        lines += ["| --- | --- | --- | --- | --- |"]
-        lines += [_parameter_line(row) for row in table.parameters]
-    return lines
+    return lines + parameter_lines(parameters.rows, "parameter")
 
 
 def _topic_line(row: Topic) -> str:
-    kind = row.kind + _only(row.generations)
+    kind = row.kind + only_in(row.generations)
     return f"| `{row.name}` | `{row.type}` | {kind} | {row.rate} | {row.frame} |"
-
-
-def _parameter_line(row: Parameter) -> str:
-    aliases = ", ".join(f"`{name}`" for name in row.aliases)
-    default = "" if row.kind == "none" or row.default is None else f"`{row.default}`"
-    meaning = row.meaning + (" *(live)*" if row.live else "") + _only(row.generations)
-    return f"| `{row.key}` | {aliases} | {default} | {row.unit} | {meaning} |"
-
-
-def _only(generations: tuple[int, ...]) -> str:
-    return "" if len(generations) > 1 else f" (ROS {generations[0]})"

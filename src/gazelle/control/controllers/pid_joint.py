@@ -7,10 +7,10 @@ from typing import Any
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.messages import stamped
-from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
 from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import Parameter, Topic
+from gazelle.parameters import Parameter, Topic
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["PID_PARAMETERS", "PID_TOPICS", "PidJointController", "required_gains"]
 
@@ -34,7 +34,7 @@ PID_TOPICS = (
 )
 
 
-def required_gains(parameters: ControllerParameters, key: str) -> PidGains:
+def required_gains(parameters: ParameterReader, key: str) -> PidGains:
     """Return the gains below a key, which must be there.
 
     Raises:

@@ -13,9 +13,10 @@ from gazelle.control.controllers.sensor_messages import (
     sensor_places,
 )
 from gazelle.control.messages import message_class, stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import set_pose, set_transform
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["PoseBroadcaster"]
 
@@ -27,22 +28,24 @@ class PoseBroadcaster(Controller):
     """Publishes one pose at every update, as message and as transform."""
 
     TABLE = ControllerTable(
-        "pose_broadcaster",
-        "Publishes one pose, such as a tracker measures it, and its transform.",
-        ("pose_broadcaster/PoseBroadcaster",),
-        "claims none; reads position and orientation of the sensor",
-        (
-            Parameter("pose_name", "text", None, "the sensor; required"),
-            Parameter("frame_id", "text", None, "frame of the message; required"),
-            Parameter("tf.enable", "flag", True, "publish the transform"),
-            Parameter("tf.child_frame_id", "text", "", "child frame; pose_name if empty"),
-            Parameter("tf.publish_rate", "number", 0.0, "of transforms at most; 0: all", "Hz"),
+        ParameterTable(
+            "pose_broadcaster",
+            "Publishes one pose, such as a tracker measures it, and its transform.",
+            ("pose_broadcaster/PoseBroadcaster",),
+            (
+                Parameter("pose_name", "text", None, "the sensor; required"),
+                Parameter("frame_id", "text", None, "frame of the message; required"),
+                Parameter("tf.enable", "flag", True, "publish the transform"),
+                Parameter("tf.child_frame_id", "text", "", "child frame; pose_name if empty"),
+                Parameter("tf.publish_rate", "number", 0.0, "of transforms at most; 0: all", "Hz"),
+            ),
         ),
-        (
+        interfaces="claims none; reads position and orientation of the sensor",
+        topics=(
             Topic("~/pose", "geometry_msgs/PoseStamped", rate="every update", frame="frame_id"),
             Topic("/tf", "tf2_msgs/TFMessage", rate="every update", frame="frame_id"),
         ),
-        (
+        behaviour=(
             "A pose that is no number, or whose quaternion is not of length 1, has no transform "
             "(pose_broadcaster.cpp).",
         ),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import sensor_places
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["RangeSensorBroadcaster"]
 
@@ -14,20 +15,22 @@ class RangeSensorBroadcaster(Controller):
     """Publishes one range sensor at every update."""
 
     TABLE = ControllerTable(
-        "range_sensor_broadcaster",
-        "Publishes one range sensor.",
-        ("range_sensor_broadcaster/RangeSensorBroadcaster",),
-        "claims none; reads the sensor's range",
-        (
-            Parameter("sensor_name", "text", None, "the sensor; required"),
-            Parameter("frame_id", "text", None, "frame of the message; required"),
-            Parameter("radiation_type", "integer", 0, "0 ultrasound, 1 infrared"),
-            Parameter("field_of_view", "number", 0.52, "published as it stands", "rad"),
-            Parameter("min_range", "number", 0.52, "published as it stands", "m"),
-            Parameter("max_range", "number", 4.0, "published as it stands", "m"),
-            Parameter("variance", "number", 0.0, "published as it stands", "m²"),
+        ParameterTable(
+            "range_sensor_broadcaster",
+            "Publishes one range sensor.",
+            ("range_sensor_broadcaster/RangeSensorBroadcaster",),
+            (
+                Parameter("sensor_name", "text", None, "the sensor; required"),
+                Parameter("frame_id", "text", None, "frame of the message; required"),
+                Parameter("radiation_type", "integer", 0, "0 ultrasound, 1 infrared"),
+                Parameter("field_of_view", "number", 0.52, "published as it stands", "rad"),
+                Parameter("min_range", "number", 0.52, "published as it stands", "m"),
+                Parameter("max_range", "number", 4.0, "published as it stands", "m"),
+                Parameter("variance", "number", 0.0, "published as it stands", "m²"),
+            ),
         ),
-        (Topic("~/range", "sensor_msgs/Range", rate="every update", frame="frame_id"),),
+        interfaces="claims none; reads the sensor's range",
+        topics=(Topic("~/range", "sensor_msgs/Range", rate="every update", frame="frame_id"),),
     )
 
     def __init__(self, context: ControllerContext) -> None:

@@ -49,7 +49,7 @@ def _by_type() -> dict[str, type[Controller]]:
     for module_name, class_name in _FAMILIES:
         module = import_module(f"gazelle.control.controllers.{module_name}")
         controller: type[Controller] = getattr(module, class_name)
-        for name in controller.TABLE.types:
+        for name in controller.TABLE.parameters.types:
             found[name] = controller
     return found
 
@@ -69,5 +69,5 @@ def known_types() -> tuple[str, ...]:
 
 def all_tables() -> tuple[ControllerTable, ...]:
     """Return every table, in the order of the documentation."""
-    tables = {cls.TABLE.family: cls.TABLE for cls in _by_type().values()}
+    tables = {cls.TABLE.parameters.family: cls.TABLE for cls in _by_type().values()}
     return tuple(tables.values())

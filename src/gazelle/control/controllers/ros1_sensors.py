@@ -16,7 +16,8 @@ from gazelle.control.controllers.sensor_messages import (
     sensor_places,
 )
 from gazelle.control.messages import stamped
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["ForceTorqueSensorController", "ImuSensorController"]
 
@@ -87,13 +88,19 @@ class ImuSensorController(_SensorController):
 
     KIND = _IMU
     TABLE = ControllerTable(
-        "imu_sensor_controller",
-        "Publishes every IMU of the hardware.",
-        ("imu_sensor_controller/ImuSensorController",),
-        "claims none; reads orientation, angular velocity and linear acceleration of the IMUs",
-        _PARAMETERS,
-        (Topic("<sensor>", _IMU.message, rate="publish_rate", frame="the sensor's"),),
-        (*_BEHAVIOUR, "What an IMU does not measure is 0, its covariance begins with -1."),
+        ParameterTable(
+            "imu_sensor_controller",
+            "Publishes every IMU of the hardware.",
+            ("imu_sensor_controller/ImuSensorController",),
+            _PARAMETERS,
+        ),
+        interfaces="claims none; reads orientation, angular velocity and linear"
+        " acceleration of the IMUs",
+        topics=(Topic("<sensor>", _IMU.message, rate="publish_rate", frame="the sensor's"),),
+        behaviour=(
+            *_BEHAVIOUR,
+            "What an IMU does not measure is 0, its covariance begins with -1.",
+        ),
     )
 
 
@@ -102,11 +109,13 @@ class ForceTorqueSensorController(_SensorController):
 
     KIND = _WRENCH
     TABLE = ControllerTable(
-        "force_torque_sensor_controller",
-        "Publishes every force-torque sensor of the hardware.",
-        ("force_torque_sensor_controller/ForceTorqueSensorController",),
-        "claims none; reads forces and torques of the sensors",
-        _PARAMETERS,
-        (Topic("<sensor>", _WRENCH.message, rate="publish_rate", frame="the sensor's"),),
-        _BEHAVIOUR,
+        ParameterTable(
+            "force_torque_sensor_controller",
+            "Publishes every force-torque sensor of the hardware.",
+            ("force_torque_sensor_controller/ForceTorqueSensorController",),
+            _PARAMETERS,
+        ),
+        interfaces="claims none; reads forces and torques of the sensors",
+        topics=(Topic("<sensor>", _WRENCH.message, rate="publish_rate", frame="the sensor's"),),
+        behaviour=_BEHAVIOUR,
     )

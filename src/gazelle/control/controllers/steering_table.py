@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.control.table import Parameter, Topic
 from gazelle.control.wheels.base_parameters import command_rows, frame_rows
+from gazelle.parameters import Parameter, Topic
 
 __all__ = ["LIBRARY_BEHAVIOUR", "LIBRARY_DIAGONAL", "library_rows", "library_topics"]
 

@@ -10,7 +10,8 @@ from gazelle.control.controllers.steering_table import (
     library_rows,
     library_topics,
 )
-from gazelle.control.table import ControllerTable, Parameter
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["TricycleSteeringController"]
 
@@ -19,23 +20,24 @@ class TricycleSteeringController(DriveController):
     """Two driven wheels and one steered wheel."""
 
     TABLE = ControllerTable(
-        family="tricycle_steering",
-        summary="Drives a base with two driven wheels and one steered wheel, and publishes"
-        " odometry.",
-        types=("tricycle_steering_controller/TricycleSteeringController",),
-        interfaces="claims velocity of the driven and position of the steered joint; reads"
-        " velocity and position",
-        parameters=(
-            *library_rows("traction_wheels_radius"),
-            Parameter(
-                "traction_track_width",
-                "number",
-                None,
-                "distance of the driven wheels",
-                unit="m",
-                aliases=("wheel_track",),
+        ParameterTable(
+            "tricycle_steering",
+            "Drives a base with two driven wheels and one steered wheel, and publishes odometry.",
+            ("tricycle_steering_controller/TricycleSteeringController",),
+            (
+                *library_rows("traction_wheels_radius"),
+                Parameter(
+                    "traction_track_width",
+                    "number",
+                    None,
+                    "distance of the driven wheels",
+                    unit="m",
+                    aliases=("wheel_track",),
+                ),
             ),
         ),
+        interfaces="claims velocity of the driven and position of the steered joint; reads"
+        " velocity and position",
         topics=library_topics(),
         behaviour=LIBRARY_BEHAVIOUR,
     )

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import command_rows, frame_rows
 from gazelle.control.wheels.limiter import TractionLimits
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["TABLE", "read_steering_limits", "read_traction_limits"]
 
@@ -16,7 +17,7 @@ __all__ = ["TABLE", "read_steering_limits", "read_traction_limits"]
 _MOST = 1000.0
 
 
-def _row(key: str, kind: str, default: object, meaning: str, unit: str = "") -> Parameter:
+def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
     return Parameter(key, kind, default, meaning, unit=unit, generations=(2,))
 
 
@@ -55,17 +56,19 @@ _TRACTION_UNITS = {
 _STEERING_UNITS = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s²"}
 
 TABLE = ControllerTable(
-    family="tricycle",
-    summary="Drives a base with one wheel that is driven and steered, and publishes odometry.",
-    types=("tricycle_controller/TricycleController",),
-    interfaces="claims and reads velocity of the driven and position of the steered joint",
-    parameters=(
-        *_PARAMETERS,
-        *command_rows(),
-        *frame_rows(diagonals=(0.0,) * 6, enable_tf=False),
-        *_bounds("traction", _TRACTION_UNITS),
-        *_bounds("steering", _STEERING_UNITS),
+    ParameterTable(
+        "tricycle",
+        "Drives a base with one wheel that is driven and steered, and publishes odometry.",
+        ("tricycle_controller/TricycleController",),
+        (
+            *_PARAMETERS,
+            *command_rows(),
+            *frame_rows(diagonals=(0.0,) * 6, enable_tf=False),
+            *_bounds("traction", _TRACTION_UNITS),
+            *_bounds("steering", _STEERING_UNITS),
+        ),
     ),
+    interfaces="claims and reads velocity of the driven and position of the steered joint",
     topics=(
         Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", generations=(2,)),
         Topic("~/odom", "nav_msgs/Odometry", rate="every update", frame="odom_frame_id"),
@@ -83,7 +86,7 @@ TABLE = ControllerTable(
 )
 
 
-def read_traction_limits(parameters: ControllerParameters) -> TractionLimits:
+def read_traction_limits(parameters: ParameterReader) -> TractionLimits:
     """Read the limits of the driven joint.
 
     Raises:
@@ -97,7 +100,7 @@ def read_traction_limits(parameters: ControllerParameters) -> TractionLimits:
     return TractionLimits(velocity, increase, decrease, bend)
 
 
-def read_steering_limits(parameters: ControllerParameters) -> TractionLimits:
+def read_steering_limits(parameters: ParameterReader) -> TractionLimits:
     """Read the limits of the steered joint.
 
     Raises:
@@ -112,7 +115,7 @@ def read_steering_limits(parameters: ControllerParameters) -> TractionLimits:
     return TractionLimits(increase=rate, decrease=rate, bend=bend, between=between)
 
 
-def _ends(parameters: ControllerParameters, name: str) -> tuple[float, float]:
+def _ends(parameters: ParameterReader, name: str) -> tuple[float, float]:
     group, _, word = name.partition(".")
     return (
         parameters.number(f"{group}.min_{word}", math.nan),
@@ -120,7 +123,7 @@ def _ends(parameters: ControllerParameters, name: str) -> tuple[float, float]:
     )
 
 
-def _read(parameters: ControllerParameters, name: str) -> tuple[float, float] | None:
+def _read(parameters: ParameterReader, name: str) -> tuple[float, float] | None:
     lowest, highest = _ends(parameters, name)
     if math.isnan(lowest) and math.isnan(highest):
         return None

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from gazelle.control.hardware.host import ParameterStore
 from gazelle.control.hardware.ros1_joints import Ros1Joint
-from gazelle.control.parameters import ControllerParameters
+from gazelle.control.parameters import controller_parameters
 from gazelle.control.pid import PidGains, read_gains
 from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["GAINS_NAME", "gains_parameters", "read_joint_gains"]
 
@@ -20,14 +21,13 @@ GAINS_NAME = "gazebo_ros_control/pid_gains"
 
 def gains_parameters(
     parameters: ParameterStore, namespace: str, diagnostics: Diagnostics
-) -> ControllerParameters:
+) -> ParameterReader:
     """Return ``<namespace>/gazebo_ros_control/pid_gains``; keys begin with the joint's name."""
     place = f"{namespace}/{GAINS_NAME}"
     tree = parameters.get(place, {})
-    table = ControllerTable(
-        GAINS_NAME, "PIDs of simulated joints.", (), "", parameters=gain_rows("<joint>", (1,))
-    )
-    return ControllerParameters(
+    rows = gain_rows("<joint>", (1,))
+    table = ParameterTable(GAINS_NAME, "PIDs of simulated joints.", rows=rows)
+    return controller_parameters(
         "gazebo_ros_control",
         tree if isinstance(tree, dict) else {},
         table,
@@ -37,7 +37,7 @@ def gains_parameters(
 
 
 def read_joint_gains(
-    parameters: ControllerParameters, model: Model, joints: Sequence[Ros1Joint]
+    parameters: ParameterReader, model: Model, joints: Sequence[Ros1Joint]
 ) -> dict[str, PidGains]:
     """Return the gains of the position and velocity joints that have some.
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid.gains import AntiWindup, PidGains
-from gazelle.control.table import Parameter
+from gazelle.parameters import Parameter, ParameterKind
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["gain_rows", "read_gains"]
 
 
 def read_gains(
-    parameters: ControllerParameters, key: str = "pid", joint: str = "", *, generation: int = 1
+    parameters: ParameterReader, key: str = "pid", joint: str = "", *, generation: int = 1
 ) -> PidGains | None:
     """Return the gains below a key, None when there is no ``p`` at all.
 
@@ -68,12 +68,16 @@ def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Param
     In ROS 2 all but i_clamp and the strategy can be set live; in ROS 1 dynamic_reconfigure does.
     """
 
-    def row(name: str, kind: str, default: object, meaning: str, live: bool = True) -> Parameter:
+    def row(
+        name: str, kind: ParameterKind, default: object, meaning: str, live: bool = True
+    ) -> Parameter:
         is_live = live and 2 in generations
         key = f"{prefix}.{name}"
         return Parameter(key, kind, default, meaning, live=is_live, generations=generations)
 
-    def newer(name: str, kind: str, default: object, meaning: str, live: bool = True) -> Parameter:
+    def newer(
+        name: str, kind: ParameterKind, default: object, meaning: str, live: bool = True
+    ) -> Parameter:
         return replace(row(name, kind, default, meaning, live), generations=(2,))
 
     no_clamp = "0 in ROS 1: without it i has no effect; unbounded in ROS 2"
@@ -99,7 +103,7 @@ def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Param
     )
 
 
-def _strategy(parameters: ControllerParameters, prefix: str) -> AntiWindup | None:
+def _strategy(parameters: ParameterReader, prefix: str) -> AntiWindup | None:
     key = f"{prefix}.antiwindup_strategy"
     name = parameters.text(key, "")
     if not name:
@@ -109,11 +113,11 @@ def _strategy(parameters: ControllerParameters, prefix: str) -> AntiWindup | Non
     except ValueError:
         words = ", ".join(sorted(strategy.value for strategy in AntiWindup))
         text = f"parameter '{parameters.full_name(key)}' is '{name}', not one of {words}; "
-        parameters.report("control.bad-value", text + "'none' is used", key=key)
+        parameters.report("parameter.bad-value", text + "'none' is used", key=key)
         return AntiWindup.NONE
 
 
-def _report_no_clamp(parameters: ControllerParameters, key: str, gains: PidGains) -> None:
+def _report_no_clamp(parameters: ParameterReader, key: str, gains: PidGains) -> None:
     text = f"'{parameters.full_name(key)}' is {gains.i:g} and there is no i_clamp: "
     if gains.i_max == 0.0:
         text += "its default 0 bounds the integral to nothing, so i has no effect (as in ROS 1)"

@@ -13,6 +13,7 @@ from gazelle.control.python_controllers.places import located
 from gazelle.control.python_controllers.times import ControlPeriod, ControlTime
 from gazelle.control.python_controllers.views import UserNode, UserRobot
 from gazelle.control.table import ControllerTable
+from gazelle.parameters import ParameterTable
 
 __all__ = ["PythonController", "adapted"]
 
@@ -40,9 +41,11 @@ class PythonController(Controller):
     """
 
     TABLE: ClassVar[ControllerTable] = ControllerTable(
-        family="python",
-        summary="A Python class of the user's own.",
-        types=(),
+        ParameterTable(
+            "python",
+            "A Python class of the user's own.",
+            (),
+        ),
         interfaces="what init() takes",
     )
     has_table: ClassVar[bool] = False

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from gazelle.control.parameters import flattened, nested
 from gazelle.control.sources.ros_arguments import read_ros_arguments
 from gazelle.control.sources.yaml_file import NodeSection, read_parameter_file
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.parameters.trees import flattened, nested
 
 __all__ = ["FileSource"]
 
@@ -106,7 +106,7 @@ class FileSource:
         self._remappings[controller] = given.remappings
         if given.strange:
             text = f"--controller-ros-args of '{controller}': '{' '.join(given.strange)}' has no"
-            self._diagnostics.report("control.bad-value", f"{text} effect")
+            self._diagnostics.report("parameter.bad-value", f"{text} effect")
 
     def remappings(self, controller: str) -> tuple[tuple[str, str], ...]:
         """Return the rules for a controller's names, of what `take_named` has read."""

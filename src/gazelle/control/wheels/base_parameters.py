@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.control.table import Parameter
+from gazelle.parameters import Parameter
 
 __all__ = ["command_rows", "frame_rows", "limit_rows"]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import ControllerParameters
 from gazelle.control.wheels.limiter import AccelerationLimits, SpeedLimits
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["read_limits"]
 
 
-def read_limits(parameters: ControllerParameters, axis: str, generation: int) -> SpeedLimits:
+def read_limits(parameters: ParameterReader, axis: str, generation: int) -> SpeedLimits:
     """Read the limits of an axis such as ``linear.x``.
 
     ROS 1 wants ``has_…_limits: true`` and takes 0 for a limit that is then missing; ROS 2 takes
@@ -28,7 +28,7 @@ def read_limits(parameters: ControllerParameters, axis: str, generation: int) ->
 
 
 class _Reader:
-    def __init__(self, parameters: ControllerParameters, axis: str, generation: int) -> None:
+    def __init__(self, parameters: ParameterReader, axis: str, generation: int) -> None:
         self.parameters = parameters
         self.axis = axis
         self.generation = generation

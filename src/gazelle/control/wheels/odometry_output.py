@@ -10,10 +10,10 @@ from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.messages import header, message_class
-from gazelle.control.parameters import ControllerParameters
 from gazelle.control.wheels.odometry import PlanarOdometry, PlanarPose
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import set_plane_pose, set_transform
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Frames", "OdometryOutput", "PublishRate", "read_covariance", "read_frames"]
 
@@ -49,7 +49,7 @@ def read_frames(context: ControllerContext, *, namespace_prefix: bool) -> Frames
 
 
 def read_covariance(
-    parameters: ControllerParameters, key: str, default: tuple[float, ...] = ()
+    parameters: ParameterReader, key: str, default: tuple[float, ...] = ()
 ) -> Array:
     """Read a diagonal of six variances as a covariance (36,).
 

@@ -8,27 +8,11 @@ __all__ = ["ENTRIES"]
 
 ENTRIES = (
     Entry(
-        "control.bad-value",
-        "warning",
-        "A controller's parameter has the wrong type",
-        "The value cannot be read as what the controller needs; its default is used.",
-        "write a value of the right type",
-        "Could not load parameter",
-    ),
-    Entry(
         "control.double-parameter",
         "warning",
         "A parameter file has a key twice",
         "YAML keeps the last one and says nothing.",
         "remove one of them",
-    ),
-    Entry(
-        "control.idle-parameter",
-        "info",
-        "A controller's parameter has no effect",
-        "The key is known and changes nothing here; the message says why.",
-        "remove it",
-        idle=True,
     ),
     Entry(
         "control.parameters-of-others",
@@ -55,21 +39,5 @@ ENTRIES = (
         "It is missing, not UTF-8, not YAML, or has a value no parameter can have.",
         "mend the file at the place given",
         "failed to parse yaml params file",
-    ),
-    Entry(
-        "control.number-as-text",
-        "warning",
-        "A number of a controller is written as text",
-        "YAML 1.1 reads 1e-3 as a text, and ROS would leave the parameter out. Gazelle takes the"
-        " number.",
-        "write 0.001 or 1.0e-3",
-        "Could not load parameter",
-    ),
-    Entry(
-        "control.unknown-parameter",
-        "warning",
-        "A controller does not know a parameter",
-        "A mistyped key changes nothing in ROS and nobody says so.",
-        "use the name of the controller's table",
     ),
 )

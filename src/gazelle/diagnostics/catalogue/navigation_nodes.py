@@ -8,29 +8,6 @@ __all__ = ["ENTRIES"]
 
 ENTRIES = (
     Entry(
-        "navigation.unknown-parameter",
-        "warning",
-        "A node of navigation has no parameter of this name",
-        "ROS reads the names it knows and never looks at the others, so a misspelt one does"
-        " nothing, silently.",
-        "correct the name, or take it out",
-    ),
-    Entry(
-        "navigation.idle-parameter",
-        "info",
-        "A parameter of navigation has no effect here",
-        "The original reads it; what it changes there does not exist here. The message says what.",
-        "nothing, if that is well",
-        idle=True,
-    ),
-    Entry(
-        "navigation.bad-value",
-        "warning",
-        "A parameter of navigation has a value of the wrong kind or beyond its limits",
-        "ROS would take its default without a word, or stop the node.",
-        "write a value as the message says",
-    ),
-    Entry(
         "navigation.unknown-plugin",
         "error",
         "A plug-in of navigation is not known",

@@ -26,22 +26,6 @@ ENTRIES = (
         quiet=True,
     ),
     Entry(
-        "plugin.unknown-parameter",
-        "warning",
-        "A plug-in has no such parameter",
-        "Gazebo reads the keys it knows and drops all others in silence, which hides mistyped "
-        "names: the default is used instead.",
-        "correct the name or remove the element",
-    ),
-    Entry(
-        "plugin.idle-parameter",
-        "info",
-        "Parameters of a plug-in that change nothing",
-        "They are known and have no effect here, mostly because they have none in Gazebo either.",
-        "nothing to do; the elements can be removed",
-        idle=True,
-    ),
-    Entry(
         "plugin.missing-joint",
         "error",
         "A plug-in names a joint that the model does not have",
@@ -64,13 +48,6 @@ ENTRIES = (
         "Camera, laser and IMU plug-ins read the sensor they stand in.",
         "move the <plugin> into a <sensor> of the right type",
         "requires a sensor as its parent",
-    ),
-    Entry(
-        "plugin.bad-value",
-        "warning",
-        "A parameter of a plug-in has a value it does not know",
-        "The default is used, as Gazebo does.",
-        "write one of the values named",
     ),
     Entry(
         "plugin.wheel-geometry",

@@ -50,7 +50,7 @@ def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
             text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
             name = f"{node.full_name}/{item.key.replace('.', '/')}"
             span = launched.places.get(name, node.spec.span)
-            diagnostics.report("navigation.idle-parameter", text, span)
+            diagnostics.report("parameter.idle", text, span)
 
 
 def _has_own(launched: Launched, node: LaunchedNode) -> bool:

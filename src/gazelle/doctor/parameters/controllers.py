@@ -8,11 +8,12 @@ from functools import partial
 from typing import Any
 
 from gazelle.control.controllers.registry import controller_class
-from gazelle.control.parameters import ControllerParameters, flattened, nested
+from gazelle.control.parameters import controller_parameters
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
 from gazelle.doctor.parameters.layouts import MARK, Layout
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from gazelle.parameters.trees import flattened, nested
 
 __all__ = ["FoundController", "FoundControllers", "check_controllers", "controllers_in"]
 
@@ -57,10 +58,10 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
         if kind is None:
             continue
         prefix = f"{item.full_name}/" if item.generation == 1 else ""
-        parameters = ControllerParameters(
+        parameters = controller_parameters(
             item.name,
             item.tree,
-            kind.TABLE,
+            kind.TABLE.parameters,
             diagnostics,
             full_name=partial(_full, prefix),
             place=partial(_place, item.nodes),
@@ -190,7 +191,7 @@ def _check_types(item: FoundController, diagnostics: Diagnostics) -> None:
     kind = controller_class(item.type)
     assert kind is not None
     for key, _ in flattened(nested(item.tree)):
-        row = kind.TABLE.row_for(key)
+        row = kind.TABLE.parameters.row_for(key)
         node, span = item.nodes.get(key, (None, None))
         if row is None or node is None or row.kind not in _KINDS or 2 not in row.generations:
             continue

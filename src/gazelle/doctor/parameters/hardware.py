@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from gazelle.control.hardware.ros1_joints import HARDWARE_INTERFACES
 from gazelle.control.hardware.ros2_tags import read_hardware_tags
-from gazelle.control.parameters import nested
 from gazelle.control.robot import JointResource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.parameters.controllers import FoundController
+from gazelle.parameters.trees import nested
 
 __all__ = ["check_claims", "hardware_of"]
 

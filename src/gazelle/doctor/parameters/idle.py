@@ -18,7 +18,7 @@ def check_idle(document: Document, diagnostics: Diagnostics) -> None:
 
     Args:
         document: a file of ROS 2: names of nodes, ``ros__parameters``, parameters.
-        diagnostics: receives ``navigation.idle-parameter``.
+        diagnostics: receives ``parameter.idle``.
     """
     for path, values in _nodes(document.root, ()):
         node = node_of_name(path[-1])
@@ -27,7 +27,7 @@ def check_idle(document: Document, diagnostics: Diagnostics) -> None:
             continue
         for item in idle_parameters(node, found, 2):
             text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
-            diagnostics.report("navigation.idle-parameter", text, _span(values, item.key))
+            diagnostics.report("parameter.idle", text, _span(values, item.key))
 
 
 def _nodes(node: YamlMapping, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], YamlNode]]:

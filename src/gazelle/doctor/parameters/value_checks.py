@@ -113,7 +113,7 @@ def _check_point(key: str, node: YamlScalar, layout: Layout, diagnostics: Diagno
     fix = f"write {value!r}" if "e" not in repr(value) else f"write {value:.1e}"
     # What the node of such a file does with a text is not known.
     severity = Severity.WARNING if layout is Layout.ROS1 else Severity.INFO
-    diagnostics.report("control.number-as-text", text, node.span, fix=fix, severity=severity)
+    diagnostics.report("parameter.number-as-text", text, node.span, fix=fix, severity=severity)
 
 
 def _check_doubles(node: YamlNode, diagnostics: Diagnostics, *, adds_up: bool = False) -> None:

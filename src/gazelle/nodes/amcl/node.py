@@ -396,16 +396,16 @@ def _checked(settings: Settings, options: AmclOptions, generation: int) -> AmclO
     if model not in _SENSOR_MODELS:
         hint = did_you_mean(model, _SENSOR_MODELS)
         text = f"Unknown laser model type '{model}'; likelihood_field is used"
-        settings.report("navigation.bad-value", text, hint)
+        settings.report("parameter.bad-value", text, hint)
         options = replace(options, laser_model_type="likelihood_field")
     if drive not in MOTION_MODELS:
         text = f"Unknown odom model type '{drive}'; the differential one is used"
-        settings.report("navigation.bad-value", text, did_you_mean(drive, MOTION_MODELS))
+        settings.report("parameter.bad-value", text, did_you_mean(drive, MOTION_MODELS))
         options = replace(options, odom_model_type="diff")
     if options.min_particles > options.max_particles:
         text = "You've set min_particles to be greater than max particles, this isn't allowed so "
         text += "they'll be set to be equal."
-        settings.report("navigation.bad-value", text)
+        settings.report("parameter.bad-value", text)
         options = replace(options, max_particles=options.min_particles)
     if generation == 2:
         options = replace(

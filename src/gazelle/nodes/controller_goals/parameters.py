@@ -89,7 +89,7 @@ def start(
     found = Diagnostics()
     for name, hint in parameters.unknown(defaults, *groups):
         text = f"{node.name}: parameter '{name}' is not read; it has no effect"
-        found.report("navigation.unknown-parameter", text, fix=hint)
+        found.report("parameter.unknown", text, fix=hint)
     log_findings(node, found)
     if arguments.generation != 1:
         offer_parameters(node, parameters.tree)

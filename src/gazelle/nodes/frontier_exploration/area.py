@@ -140,7 +140,7 @@ class Area:
             return point
         text = f"Invalid 'frontier_travel_point' parameter '{point}', falling back to 'closest'"
         known = ", ".join(_TRAVEL_POINTS)
-        self.settings.report("navigation.bad-value", text, f"there are {known}")
+        self.settings.report("parameter.bad-value", text, f"there are {known}")
         return "closest"
 
     def _made(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:

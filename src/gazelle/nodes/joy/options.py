@@ -88,7 +88,7 @@ def read_options(
         coalesce_s = settings.number("coalesce_interval_ms") / 1000
     if rate > 0 and coalesce_s > 0 and rate > 1 / coalesce_s:
         text = f"autorepeat_rate ({rate:g} Hz) > 1/coalesce_interval ({1 / coalesce_s:g} Hz) "
-        settings.report("navigation.bad-value", f"{text}does not make sense")
+        settings.report("parameter.bad-value", f"{text}does not make sense")
     # The file that ROS 2 ships writes "''" for no name.
     device_name = settings.text("device_name").strip().strip("'")
     settings.report_unknown()
@@ -110,5 +110,5 @@ def _deadzone(settings: Settings) -> float:
     used = min(max(used, 0.0), _MOST_DEADZONE)
     if used != value:
         text = f"deadzone {value:g} is not a share from 0 to {_MOST_DEADZONE}; {used:g} is used"
-        settings.report("navigation.bad-value", text, "write a share of full deflection")
+        settings.report("parameter.bad-value", text, "write a share of full deflection")
     return used

@@ -243,7 +243,7 @@ class MoveBase:
         own: dict[str, Any] = dict(below) if isinstance(below, Mapping) else {}
         if not own:
             text = f"{self.node.name}: there are no parameters '{name}'; defaults are used"
-            diagnostics.report("navigation.bad-value", text, fix=f"load a YAML with ns={name!r}")
+            diagnostics.report("parameter.bad-value", text, fix=f"load a YAML with ns={name!r}")
         if name == "local_costmap":
             own.setdefault("global_frame", "odom")
         made = assemble(own, f"{self.node.name}/{name}", diagnostics, above=tree)
@@ -283,7 +283,7 @@ class MoveBase:
         for key in idle:
             text = f"the parameters '{key}' are read by nobody: the planners are "
             text += f"{self.planner.name} and {self.local.name}"
-            self.settings.report("navigation.idle-parameter", text)
+            self.settings.report("parameter.idle", text)
         known = (*names, *idle, *INHERITED, "TrajectoryPlannerROS", "recovery_behaviors")
         self.settings.report_unknown(*known)
 

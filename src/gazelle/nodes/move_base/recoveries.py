@@ -73,7 +73,7 @@ def make_behaviours(
     for row in rows if isinstance(rows, list) else [rows]:
         if not isinstance(row, Mapping) or not {"name", "type"} <= set(row):
             text = f"{name}: recovery_behaviors has {row!r}, not {{name, type}}; it is left out"
-            diagnostics.report("navigation.bad-value", text, fix="write {name: …, type: …}")
+            diagnostics.report("parameter.bad-value", text, fix="write {name: …, type: …}")
             continue
         own = tree.get(str(row["name"]))
         behaviour = _make(str(row["name"]), str(row["type"]), own, name, around, diagnostics)
@@ -135,7 +135,7 @@ def _clearing(settings: Settings, around: Surroundings) -> Callable[[], None]:
     which = settings.text("affected_maps")
     if which not in ("local", "global", "both"):
         text = f"affected_maps is '{which}', not local, global or both; both are cleared"
-        settings.report("navigation.bad-value", text)
+        settings.report("parameter.bad-value", text)
         which = "both"
     layers = settings.raw("layer_names", ["obstacle_layer"])
     names = tuple(str(layer) for layer in layers) if isinstance(layers, Sequence) else ()

@@ -88,7 +88,7 @@ class _Smoother:
         for key in ("max_velocity", "min_velocity", "max_accel", "max_decel", "deadband_velocity"):
             if len(settings.numbers(key)) != 3:
                 text = f"'{key}' has {len(settings.numbers(key))} numbers; write x, y and turn"
-                diagnostics.report("navigation.bad-value", text)
+                diagnostics.report("parameter.bad-value", text)
                 return log_findings(self._node, diagnostics) and False
         settings.report_unknown()
         return log_findings(self._node, diagnostics)

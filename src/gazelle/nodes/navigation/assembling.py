@@ -214,7 +214,7 @@ def _left_out(settings: Settings) -> list[str]:
     ]
     for name in names:
         text = f"layer '{name}' has parameters and is not one of plugins; it is not made"
-        settings.report("navigation.idle-parameter", text, "add it to plugins, or leave it out")
+        settings.report("parameter.idle", text, "add it to plugins, or leave it out")
     return names
 
 
@@ -222,7 +222,7 @@ def _listed(value: Any, name: str, diagnostics: Diagnostics) -> Sequence[Any]:
     if isinstance(value, list | tuple):
         return value
     text = f"{name}: parameter 'plugins' is {value!r}, not a list; there are no layers"
-    diagnostics.report("navigation.bad-value", text, fix="write a list of {name, type}")
+    diagnostics.report("parameter.bad-value", text, fix="write a list of {name, type}")
     return ()
 
 
@@ -316,7 +316,7 @@ def _sized(settings: Settings, options: CostmapOptions) -> CostmapOptions:
         return options
     usual = CostmapOptions()
     settings.report(
-        "navigation.bad-value",
+        "parameter.bad-value",
         f"parameters 'width' ({options.width:g} m) and 'height' ({options.height:g} m) are "
         f"{cells:.3g} cells of {options.resolution:g} m, {_MOST_CELLS:.3g} can be held; "
         f"{usual.width:g} m and {usual.height:g} m are used",
@@ -334,7 +334,7 @@ def _footprint(settings: Settings, options: CostmapOptions) -> Footprint:
     except ValueError as error:
         radius = options.robot_radius
         message = f"parameter 'footprint': {error}; a circle of {radius:g} m is used"
-        settings.report("navigation.bad-value", message, "write [[x1, y1], [x2, y2], [x3, y3]]")
+        settings.report("parameter.bad-value", message, "write [[x1, y1], [x2, y2], [x3, y3]]")
         return Footprint.of_radius(radius)
 
 

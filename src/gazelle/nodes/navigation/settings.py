@@ -190,10 +190,10 @@ class Settings:
             if row is None:
                 known = (*self.table.keys(), *others)
                 text = f"parameter '{key}' is not one of {self.table.family}; it has no effect"
-                self.report("navigation.unknown-parameter", text, did_you_mean(word, known))
+                self.report("parameter.unknown", text, did_you_mean(word, known))
             elif row.kind == "refused":
                 text = f"parameter '{key}' ({_short(value)}) has no effect here: {row.meaning}"
-                self.report("navigation.idle-parameter", text)
+                self.report("parameter.idle", text)
 
     def _given(self, key: str) -> Any:
         row = next((row for row in self.table.rows if row.key == key), None)
@@ -222,7 +222,7 @@ class Settings:
 
     def _bad(self, key: str, value: Any, wanted: str, used: Any) -> Any:
         text = f"parameter '{key}' is {value!r}, not {wanted}; {used!r} is used"
-        self.report("navigation.bad-value", text, f"write {wanted}")
+        self.report("parameter.bad-value", text, f"write {wanted}")
         return used
 
 

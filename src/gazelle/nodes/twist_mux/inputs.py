@@ -95,7 +95,7 @@ def read_inputs(kind: str, given: Any, owner: str, found: Diagnostics) -> tuple[
     for one in inputs if kind == "topics" else ():
         if one.priority == 0:
             text = f"{owner}: topic '{one.name}' has priority 0, which never passes, as in ROS"
-            found.report("navigation.bad-value", text, fix="write a priority from 1 to 255")
+            found.report("parameter.bad-value", text, fix="write a priority from 1 to 255")
     return tuple(inputs)
 
 
@@ -114,7 +114,7 @@ def _groups(
             yield str(name), item
             continue
         text = f"{owner}: '{name}' is {item!r}, not a group of topic, timeout and priority"
-        found.report("navigation.bad-value", f"{text} ({_PARSING})", fix=_FIX[kind])
+        found.report("parameter.bad-value", f"{text} ({_PARSING})", fix=_FIX[kind])
 
 
 def _name(item: Any, fallback: str) -> str:
@@ -128,13 +128,13 @@ def _input(name: str, group: Mapping[str, Any], owner: str, found: Diagnostics) 
         hints = filter(None, (did_you_mean(member, others) for member in missing))
         text = f"{owner}: '{name}' has no {' and no '.join(missing)}; it is left out ({_PARSING})"
         fix = next(hints, f"add {', '.join(missing)} to '{name}'")
-        found.report("navigation.bad-value", text, fix=fix)
+        found.report("parameter.bad-value", text, fix=fix)
         return None
     numbers = [_number(group[member]) for member in ("timeout", "priority")]
     for member, number in zip(("timeout", "priority"), numbers, strict=True):
         if number is None:
             text = f"{owner}: '{name}': {member} is {group[member]!r}, not a number; "
-            found.report("navigation.bad-value", f"{text}it is left out", fix="write a number")
+            found.report("parameter.bad-value", f"{text}it is left out", fix="write a number")
     timeout_s, priority = numbers
     if timeout_s is None or priority is None:
         return None

@@ -58,11 +58,11 @@ def _look(node: Node, tree: dict[str, Any], choice: Choice, found: Diagnostics) 
     for key in tree:
         if key not in _KNOWN:
             text = f"{node.name}: parameter '{key}' is not one of twist_mux; it has no effect"
-            found.report("navigation.unknown-parameter", text, fix=f"it has {', '.join(_KNOWN)}")
+            found.report("parameter.unknown", text, fix=f"it has {', '.join(_KNOWN)}")
     if not choice.topics:
         text = f"{node.name}: no topic is given, so nothing will ever come on cmd_vel_out"
         fix = f"give 'topics'; a file of ROS 2 begins with the node's name, {node.name}, or /**"
-        found.report("navigation.bad-value", text, fix=fix)
+        found.report("parameter.bad-value", text, fix=fix)
 
 
 class _Mux:

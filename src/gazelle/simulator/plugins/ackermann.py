@@ -87,7 +87,7 @@ class _Car:
         radius = wheel_radius_m(model, rear) if rear is not None else None
         if radius is None:
             self._context.report(
-                "plugin.bad-value",
+                "parameter.bad-value",
                 f"plug-in '{self._context.plugin.name}' takes the wheel's radius from the rear"
                 " right wheel's collision, which is no cylinder or sphere; 1 m is used",
             )
@@ -218,6 +218,6 @@ def _pid(context: PluginContext, parameters: ParameterReader, name: str) -> Gaze
         low, high = (float(word) for word in words)
     except ValueError:
         text = f"<{name}_i_range> is '{' '.join(words)}', not two numbers; 0 0 is used"
-        context.report("plugin.bad-value", text)
+        context.report("parameter.bad-value", text)
         low = high = 0.0
     return GazeboPid(p, i, d, i_max=high, i_min=low)

@@ -49,7 +49,7 @@ def read_calibration(
     if focal and abs(focal - computed) > 1e-6 * computed:
         text = f"<focalLength> {focal:g} does not fit the image's width and field of view, which "
         text += f"give {computed:.10g}; camera_info says {focal:g}, the picture is unchanged"
-        context.report("plugin.bad-value", text)
+        context.report("parameter.bad-value", text)
     return Calibration(
         frame=frame,
         width_px=spec.width_px,

@@ -258,7 +258,7 @@ def _odometry_source(context: PluginContext, parameters: ParameterReader) -> str
     source = _SOURCES.get(word.lower())
     if source is None:
         text = f"<odometrySource> is '{word}', not 'encoder' or 'world': 'world' is used"
-        context.report("plugin.bad-value", text, fix=did_you_mean(word, _SOURCES))
+        context.report("parameter.bad-value", text, fix=did_you_mean(word, _SOURCES))
     tag = parameters.tag("odometrySource")
     if word == "0" and tag is not None and tag.name == "odometrySource":
         # ROS 1 knows only the words; its reader falls back to the default.

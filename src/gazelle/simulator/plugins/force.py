@@ -53,7 +53,7 @@ def load(context: PluginContext) -> None:
     frame = parameters.text("force_frame")
     if frame not in _FRAMES:
         text = f"<force_frame> is '{frame}', not 'world' or 'link'; the plug-in is left out"
-        context.report("plugin.bad-value", text, fix=did_you_mean(frame, _FRAMES))
+        context.report("parameter.bad-value", text, fix=did_you_mean(frame, _FRAMES))
     elif name is not None:
         _Force(context, parameters, name, turns=frame == "link")
     parameters.report_unread()

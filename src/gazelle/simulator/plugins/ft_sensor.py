@@ -139,7 +139,7 @@ def wrench_message(time_ns: int, frame: str, force: Array, torque: Array) -> Any
 
 def _report_no_topic(context: PluginContext) -> None:
     text = f"plug-in '{context.plugin.name}' has no <topicName>; it is left out"
-    context.report("plugin.bad-value", text)
+    context.report("parameter.bad-value", text)
 
 
 def _start(

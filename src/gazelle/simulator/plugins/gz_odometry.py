@@ -119,7 +119,7 @@ def load(context: PluginContext) -> None:
         _start(context, parameters, is_flat=dimensions == 2)
     else:
         text = f"<dimensions> is {dimensions}, not 2 or 3; plug-in '{context.plugin.name}' is "
-        context.report("plugin.bad-value", text + "left out")
+        context.report("parameter.bad-value", text + "left out")
     parameters.report_unread()
 
 

@@ -135,7 +135,7 @@ def _output_kind(context: PluginContext, parameters: ParameterReader) -> str:
     if word in _OUTPUTS:
         return word
     text = f"<output_type> is '{word}'; PointCloud2 is used"
-    context.report("plugin.bad-value", text, fix=did_you_mean(word, _OUTPUTS))
+    context.report("parameter.bad-value", text, fix=did_you_mean(word, _OUTPUTS))
     return "PointCloud2"
 
 

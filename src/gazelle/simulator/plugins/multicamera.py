@@ -69,7 +69,7 @@ def _start_ros1(context: PluginContext, parameters: ParameterReader, place: Sens
     side = next((word for word in _SIDES if word in spec.name), None)
     if side is None:
         text = f"camera '{spec.name}' of sensor '{place.name}' is neither left nor right by its "
-        context.report("plugin.bad-value", text + "name; it is not published")
+        context.report("parameter.bad-value", text + "name; it is not published")
         return
     calibration = read_calibration(context, parameters, spec, parameters.text("frameName"))
     baseline_m = calibration.baseline_m if side == "right" else 0.0

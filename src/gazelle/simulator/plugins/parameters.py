@@ -156,13 +156,13 @@ class ParameterReader:
                 idle.append(f"<{tag.name}>{self._instead_of(row, tag.name)}")
         if idle:
             text = f"plug-in '{self.plugin.name}': these keys change nothing: {', '.join(idle)}"
-            self._diagnostics.report("plugin.idle-parameter", text, self.plugin.span)
+            self._diagnostics.report("parameter.idle", text, self.plugin.span)
 
     def _report_unknown(self, tag: Tag, known: list[str]) -> None:
         hint = did_you_mean(tag.name, known)
         text = f"plug-in '{self.plugin.name}' ({self.plugin.filename}) has no key <{tag.name}>"
         text += "; it has no effect"
-        self._diagnostics.report("plugin.unknown-parameter", text, tag.span, fix=hint)
+        self._diagnostics.report("parameter.unknown", text, tag.span, fix=hint)
 
     def _known_row(self, name: str) -> Parameter | None:
         if name == "ros":
@@ -216,10 +216,10 @@ def _read_ros_block(tag: Tag | None, diagnostics: Diagnostics) -> RosBlock:
         if child.name not in _ROS_WORDS:
             text = f"<ros> has no element <{child.name}>; it has no effect"
             hint = did_you_mean(child.name, _ROS_WORDS)
-            diagnostics.report("plugin.unknown-parameter", text, child.span, fix=hint)
+            diagnostics.report("parameter.unknown", text, child.span, fix=hint)
     for word in (*(f"-p {name}" for name in found.values), *found.strange):
         text = f"argument '{word}' of <ros> has no effect"
-        diagnostics.report("plugin.unknown-parameter", text, tag.span)
+        diagnostics.report("parameter.unknown", text, tag.span)
     pairs = [child.text.partition(":=")[::2] for child in tag.find_all("remapping")]
     rules = tuple((source.strip(), target.strip()) for source, target in pairs)
     namespace = tag.text_of("namespace")

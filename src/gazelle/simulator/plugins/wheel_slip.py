@@ -117,7 +117,7 @@ def _wheels(context: PluginContext, parameters: ParameterReader) -> list[_Wheel]
     tags = [tag for tag in context.plugin.parameters.children if tag.name == "wheel"]
     if not tags:
         text = f"plug-in '{context.plugin.name}' has no <wheel>; nothing slips"
-        context.report("plugin.bad-value", text)
+        context.report("parameter.bad-value", text)
     found = [_wheel(context, tag) for tag in tags]
     return [wheel for wheel in found if wheel is not None]
 
@@ -129,14 +129,14 @@ def _wheel(context: PluginContext, tag: Tag) -> _Wheel | None:
     joint = _axle(context, name)
     if joint is None:
         text = f"link '{name}' has no parent joint that turns; it cannot slip like a wheel"
-        context.report("plugin.bad-value", text)
+        context.report("parameter.bad-value", text)
         return None
     radius = _number(context, tag, "wheel_radius") or wheel_radius_m(context.model, joint) or 0.0
     force = _number(context, tag, "wheel_normal_force")
     if radius <= 0 or force <= 0:
         what = "wheel_normal_force" if force <= 0 else "wheel_radius"
         text = f"wheel '{name}' needs a positive <{what}>; it does not slip"
-        context.report("plugin.bad-value", text)
+        context.report("parameter.bad-value", text)
         return None
     lateral, longitudinal = (
         max(0.0, _number(context, tag, f"slip_compliance_{way}")) for way in _WAYS

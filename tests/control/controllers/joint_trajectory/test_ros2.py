@@ -511,7 +511,7 @@ def test_trajectories_may_run_slower_than_planned() -> None:
 def test_only_positions_may_be_scaled() -> None:
     scaling = {"speed_scaling": {"initial_scaling_factor": 0.5}}
     bench = Bench(ROS2, commands("velocity") | SLOW | scaling)
-    assert [found.code for found in bench.diagnostics] == ["control.bad-value"]
+    assert [found.code for found in bench.diagnostics] == ["parameter.bad-value"]
     assert "~/speed_scaling_input" not in bench.ports.subscriptions
 
 

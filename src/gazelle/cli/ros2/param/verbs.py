@@ -109,9 +109,9 @@ def run_dump(options: argparse.Namespace) -> int:
 
 def run_load(options: argparse.Namespace) -> int:
     """Set what a parameter file says about a node."""
-    from gazelle.control.parameters import flattened, nested
     from gazelle.control.sources.yaml_file import read_parameter_file
     from gazelle.diagnostics import Diagnostics, Severity, render
+    from gazelle.parameters.trees import flattened, nested
 
     found = Diagnostics()
     sections = read_parameter_file(Path(options.file), found)
@@ -175,6 +175,6 @@ def _constraints(row: Any) -> list[str]:
 
 
 def _branches(values: Mapping[str, Any]) -> dict[str, Any]:
-    from gazelle.control.parameters import nested
+    from gazelle.parameters.trees import nested
 
     return nested({name: value for name, value in values.items() if value is not None})

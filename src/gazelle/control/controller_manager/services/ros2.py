@@ -9,9 +9,9 @@ from gazelle.control.controller_manager.records import ControllerRecord, OwnedPo
 from gazelle.control.controller_manager.services.acting import Actor
 from gazelle.control.controllers.registry import known_types
 from gazelle.control.hardware_lifecycle import HardwareState
-from gazelle.control.parameters import flattened
 from gazelle.control.robot import HardwareComponent
 from gazelle.diagnostics import did_you_mean
+from gazelle.parameters.trees import flattened
 
 __all__ = ["offer_ros2"]
 

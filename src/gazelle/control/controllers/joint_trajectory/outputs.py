@@ -9,8 +9,8 @@ from typing import Any, Protocol
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameters import flattened
 from gazelle.control.pid import AntiWindup, PidBank, PidGains, offer_live_gains, read_gains
+from gazelle.parameters.trees import flattened
 
 __all__ = ["Forwarding", "PidOutput", "TrajectoryOutput", "report_idle_gains"]
 

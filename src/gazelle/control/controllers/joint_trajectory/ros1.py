@@ -54,7 +54,8 @@ class Ros1JointTrajectoryController(Controller):
         super().__init__(context)
         if context.generation == 2:
             text = f"controller '{context.name}': type '{context.type}' is ROS 1's; ROS 2 has "
-            text += f"{ROS2_TABLE.types[0]}, and its 'command_interfaces' say what it commands"
+            text += f"{ROS2_TABLE.parameters.types[0]}, and its 'command_interfaces' say what it"
+            text += " commands"
             raise ControllerError(text)
         parameters, ports = context.parameters, context.ports
         self._joints = joints = TrackedJoints.of_ros1(context)

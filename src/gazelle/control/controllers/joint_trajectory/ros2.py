@@ -55,7 +55,7 @@ class Ros2JointTrajectoryController(Controller):
         super().__init__(context)
         if context.generation == 1:
             text = f"controller '{context.name}': type '{context.type}' is ROS 2's; ROS 1 has "
-            raise ControllerError(f"{text}{', '.join(ROS1_TABLE.types)}")
+            raise ControllerError(f"{text}{', '.join(ROS1_TABLE.parameters.types)}")
         self._setup = setup = Ros2Setup(context)
         names, ports, parameters = setup.joints.names, context.ports, context.parameters
         self.commands = setup.output.commands

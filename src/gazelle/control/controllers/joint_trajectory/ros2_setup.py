@@ -225,7 +225,7 @@ def _scaling(context: ControllerContext, may_scale: bool) -> float:
         return factor
     text = f"'{key}' {factor:g} has no effect: "
     text += "it must not be negative" if may_scale else "only positions may be commanded with it"
-    parameters.report("control.bad-value", text, key=key)
+    parameters.report("parameter.bad-value", text, key=key)
     return 1.0
 
 

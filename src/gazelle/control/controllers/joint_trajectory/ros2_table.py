@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable, Parameter, Topic
+from gazelle.control.table import ControllerTable
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["ROS2_TABLE"]
 
@@ -12,7 +13,7 @@ _OLD_FF = ("ff_velocity_scale.<joint>",)
 
 
 def _row(
-    key: str, kind: str, default: object, meaning: str, unit: str = "", live: bool = False
+    key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "", live: bool = False
 ) -> Parameter:
     return Parameter(key, kind, default, meaning, unit, live=live, generations=_ROS2)
 
@@ -70,13 +71,13 @@ _PARAMETERS = (
     ),
     _row(
         "speed_scaling.state_interface",
-        "none",
+        "refused",
         None,
         "no simulated hardware has an interface for it",
     ),
     _row(
         "speed_scaling.command_interface",
-        "none",
+        "refused",
         None,
         "no simulated hardware has an interface for it",
     ),
@@ -163,12 +164,14 @@ _PARAMETERS = (
 _STATE = "control_msgs/JointTrajectoryControllerState"
 
 ROS2_TABLE = ControllerTable(
-    family="joint_trajectory_controller (ROS 2)",
-    summary="Follows trajectories of joints: splines through waypoints, watched by tolerances.",
-    types=("joint_trajectory_controller/JointTrajectoryController",),
+    ParameterTable(
+        "joint_trajectory_controller (ROS 2)",
+        "Follows trajectories of joints: splines through waypoints, watched by tolerances.",
+        ("joint_trajectory_controller/JointTrajectoryController",),
+        _PARAMETERS,
+    ),
     interfaces="Claims `<joint>/<interface>` for each of `command_interfaces`, reads those of "
     "`state_interfaces`.",
-    parameters=_PARAMETERS,
     topics=(
         Topic(
             "~/joint_trajectory", "trajectory_msgs/JointTrajectory", "listens", generations=_ROS2

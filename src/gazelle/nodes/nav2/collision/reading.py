@@ -68,7 +68,7 @@ def report_others(settings: Settings) -> None:
     ]
     for name in idle:
         text = f"'{name}' has parameters and is not one of polygons or observation_sources"
-        settings.report("navigation.idle-parameter", text, "add it, or leave it out")
+        settings.report("parameter.idle", text, "add it, or leave it out")
     settings.report_unknown(*named, *idle)
 
 
@@ -85,7 +85,7 @@ def _zone(name: str, own: Settings) -> Zone | None:
         if given not in known:
             text = f"parameter '{what}' is '{given}'; there are {', '.join(known)}"
             hint = did_you_mean(given, known)
-            own.report("navigation.bad-value", f"{text}. The zone is left out", hint)
+            own.report("parameter.bad-value", f"{text}. The zone is left out", hint)
             return None
     least = own.integer("min_points")
     if own.has("max_points") and not own.has("min_points"):
@@ -107,7 +107,7 @@ def _zone(name: str, own: Settings) -> Zone | None:
         return None if zone.outline is None else zone
     if not own.text("polygon_sub_topic") and zone.action is not Action.APPROACH:
         text = "neither 'points' nor 'polygon_sub_topic' is given; the zone is left out"
-        own.report("navigation.bad-value", text, "write points: '[[x1, y1], [x2, y2], [x3, y3]]'")
+        own.report("parameter.bad-value", text, "write points: '[[x1, y1], [x2, y2], [x3, y3]]'")
         return None
     return zone
 
@@ -135,5 +135,5 @@ def _outline(own: Settings) -> Points | None:
         return np.array(Footprint.parse(value).corners, float)
     except ValueError as error:
         fix = "write points: '[[x1, y1], [x2, y2], [x3, y3]]'"
-        own.report("navigation.bad-value", f"parameter 'points': {error}; it is left out", fix)
+        own.report("parameter.bad-value", f"parameter 'points': {error}; it is left out", fix)
         return None

@@ -1,0 +1,110 @@
+"""One parameter as a row of a table."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import KW_ONLY, dataclass
+from functools import lru_cache
+from typing import Any, Literal
+
+__all__ = ["Parameter", "ParameterKind", "refused"]
+
+ParameterKind = Literal[
+    "any", "flag", "group", "integer", "number", "numbers", "refused", "text", "texts", "vector",
+    "words",
+]  # fmt: skip
+
+_ROS2 = 2
+# What is below them is theirs, too.
+_WITH_BRANCHES = ("group", "refused")
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter.
+
+    Attributes:
+        key: its name, parts joined with dots; ``<joint>`` stands for any one word, as in
+            ``gains.<joint>.p``.
+        kind: type of its value. A single text is a list of one for ``texts`` and parted at its
+            spaces for ``words``; ``vector`` is three numbers; ``any`` is read by other means and
+            so is ``group``, a subtree; ``refused`` is known and has no effect here.
+        default: value when it is absent; None when it is required or the absence means something.
+        meaning: what it does; of a refused one why it does nothing.
+        unit: SI unit, empty for none.
+        low: smallest value, None for none.
+        high: largest value, None for none.
+        aliases: other spellings, such as the other generation's.
+        live: dynamic_reconfigure or ``ros2 param set`` changes it while its owner runs.
+        generations: those of ROS that know it.
+        ros2_default: what ROS 2 takes for an absent one where that differs, None where not.
+    """
+
+    key: str
+    kind: ParameterKind
+    default: Any
+    meaning: str
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    _: KW_ONLY
+    aliases: tuple[str, ...] = ()
+    live: bool = False
+    generations: tuple[int, ...] = (1, 2)
+    ros2_default: Any = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All spellings, the table's own first."""
+        return (self.key, *self.aliases)
+
+    @property
+    def is_refused(self) -> bool:
+        """True when it is known and has no effect."""
+        return self.kind == "refused"
+
+    @property
+    def is_exact(self) -> bool:
+        """True when it stands for one name, no pattern and no branch."""
+        return self.kind not in _WITH_BRANCHES and not any("<" in name for name in self.names)
+
+    def matches(self, name: str) -> bool:
+        """Tell whether a name with dots is this row's, or lies below it where it is a branch."""
+        branches = self.kind in _WITH_BRANCHES
+        return any(_pattern(own, branches).fullmatch(name) for own in self.names)
+
+    def spellings(self, generation: int) -> tuple[str, ...]:
+        """Return the names that count in a generation of ROS, 0 for any.
+
+        ROS 1's plug-ins write camelCase and ROS 2's snake_case; a key that is spelled in one way
+        only is spelled so in both.
+        """
+        if not generation:
+            return self.names
+        if generation not in self.generations:
+            return ()
+        own = tuple(name for name in self.names if _is_written_in(name, generation))
+        return own or self.names
+
+    def default_in(self, generation: int) -> Any:
+        """Return the value of an absent one in a generation of ROS."""
+        if generation == _ROS2 and self.ros2_default is not None:
+            return self.ros2_default
+        return self.default
+
+
+def refused(why: str, *keys: str) -> tuple[Parameter, ...]:
+    """Return rows of parameters that have no effect, for one reason."""
+    return tuple(Parameter(key, "refused", None, why) for key in keys)
+
+
+@lru_cache(maxsize=4096)
+def _pattern(key: str, branches: bool) -> re.Pattern[str]:
+    below = r"(\..*)?" if branches else ""
+    return re.compile(re.sub(r"<\w+>", r"[^.]+", re.escape(key)) + below)
+
+
+def _is_written_in(name: str, generation: int) -> bool:
+    if generation == _ROS2:
+        return name == name.lower()
+    return "_" not in name

@@ -1,0 +1,277 @@
+"""Reads parameters by a table: typed values, defaults, and what is wrong, all of it told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, TypeVar
+
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.parameters.owner import ParameterOwner
+from gazelle.parameters.parameter import Parameter
+from gazelle.parameters.sources import MISSING, ParameterSource, TreeSource
+from gazelle.parameters.table import ParameterTable
+from gazelle.parameters.trees import nested
+from gazelle.parameters.values import flag_of, number_of, shortened
+
+__all__ = ["ParameterReader"]
+
+_T = TypeVar("_T")
+_READ = {
+    "any": "raw", "flag": "flag", "group": "group", "integer": "integer", "number": "number",
+    "numbers": "numbers", "text": "text", "texts": "texts", "words": "texts",
+}  # fmt: skip
+
+
+class ParameterReader:
+    """Typed access to the parameters of one owner, defaults from its table.
+
+    Args:
+        table: the names that there are, with defaults.
+        source: what was given.
+        owner: whose they are, for messages.
+        diagnostics: receives what is wrong, where it is read.
+    """
+
+    def __init__(
+        self,
+        table: ParameterTable,
+        source: ParameterSource,
+        owner: ParameterOwner,
+        diagnostics: Diagnostics,
+    ) -> None:
+        self.table = table
+        self.source = source
+        self.owner = owner
+        self.diagnostics = diagnostics
+
+    @property
+    def name(self) -> str:
+        """The owner's name."""
+        return self.owner.name
+
+    @property
+    def tree(self) -> dict[str, Any]:
+        """What was given, nested; of a source that is a tree its own, which may be changed."""
+        if isinstance(self.source, TreeSource):
+            return self.source.tree
+        return nested(dict(self.source.leaves()))
+
+    def full_name(self, key: str) -> str:
+        """Return the name that a user knows a parameter by, such as ``/mira/arm/pid/p``."""
+        return self.source.full_name(key)
+
+    def place(self, key: str) -> SourceSpan | None:
+        """Return where a parameter stands, None when that is not known."""
+        return self.source.place(key)
+
+    def has(self, key: str) -> bool:
+        """Tell whether a parameter was given, under any of its spellings."""
+        return self._given(key) is not MISSING
+
+    def raw(self, key: str, default: Any = None) -> Any:
+        """Return what was given as it is, or a default of the caller's."""
+        value = self._given(key)
+        return default if value is MISSING else value
+
+    def number(self, key: str, default: float | None = None) -> float:
+        """Return a number within the row's limits; `default` in place of the table's."""
+        value = self._given(key)
+        fallback = float(self._default(key, default, 0.0))
+        if value is MISSING:
+            return fallback
+        number = number_of(value)
+        if number is None:
+            return float(self._bad(key, value, "a number", fallback))
+        if isinstance(value, str):
+            text = f"parameter '{self.full_name(key)}' is the text '{value}', used as the number"
+            text += f" {number:g}; real ROS would not take it (YAML 1.1 reads 1e-3 as a text)"
+            self.report("parameter.number-as-text", text, key=key, fix=f"write {number!r}")
+        return self._limited(key, number, fallback)
+
+    def integer(self, key: str, default: int | None = None) -> int:
+        """Return a whole number within the row's limits."""
+        value = self.number(key, default)
+        if not math.isfinite(value) or value != int(value):
+            fallback = self._default(key, default, 0)
+            return int(self._bad(key, value, "a whole number", fallback))
+        return int(value)
+
+    def flag(self, key: str, default: bool | None = None) -> bool:
+        """Return a truth value; ROS' ``true``/``false`` as text and 0/1 are understood."""
+        value = self._given(key)
+        fallback = bool(self._default(key, default, False))
+        if value is MISSING:
+            return fallback
+        found = flag_of(value)
+        return bool(self._bad(key, value, "true or false", fallback)) if found is None else found
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """Return a text; `default` in place of the table's."""
+        value = self._given(key)
+        fallback = str(self._default(key, default, ""))
+        if value is MISSING:
+            return fallback
+        if isinstance(value, list | dict):
+            return str(self._bad(key, value, "a text", fallback))
+        return str(value)
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return texts: a list, or a text, which for ``words`` is parted at its spaces."""
+        value = self._given(key)
+        if value is MISSING:
+            value = self._default(key, None, ())
+        if isinstance(value, str):
+            row = self.table.row_for(key)
+            return tuple(value.split()) if row is not None and row.kind == "words" else (value,)
+        if not isinstance(value, list | tuple):
+            return tuple(self._bad(key, value, "a list of texts", ()))
+        return tuple(str(item) for item in value)
+
+    def numbers(self, key: str) -> tuple[float, ...]:
+        """Return a list of numbers; a single one is a list of one."""
+        value = self._given(key)
+        default = tuple(self._default(key, None, ()))
+        if value is MISSING:
+            return default
+        found = [
+            number_of(item) for item in (value if isinstance(value, list | tuple) else [value])
+        ]
+        if any(item is None for item in found):
+            return tuple(self._bad(key, value, "a list of numbers", default))
+        return tuple(item for item in found if item is not None)
+
+    def vector(self, key: str) -> tuple[float, float, float]:
+        """Return three numbers."""
+        found = self.numbers(key)
+        if len(found) != 3:
+            default = tuple(self._default(key, None, (0.0, 0.0, 0.0)))
+            found = self._bad(key, list(found), "three numbers", default)
+        x, y, z = found
+        return (x, y, z)
+
+    def group(self, key: str) -> dict[str, Any]:
+        """Return a subtree, empty when it is absent."""
+        value = self._given(key)
+        return value if isinstance(value, dict) else {}
+
+    def value(self, row: Parameter) -> Any:
+        """Return the value of a row by its kind."""
+        return getattr(self, _READ[row.kind])(row.key)
+
+    def fill(self, options: type[_T], **others: Any) -> _T:
+        """Return an instance of the option class that the table was made of.
+
+        Args:
+            options: the class, see `gazelle.parameters.options`.
+            **others: values of fields that take the place of what was given.
+        """
+        own = {
+            item.metadata.get("key") or item.name: item.name
+            for item in fields(options)  # type: ignore[arg-type]
+        }
+        rows = [row for row in self.table.rows if row.kind in _READ and row.key in own]
+        named = {own[row.key]: self.value(row) for row in rows}
+        return options(**{**named, **others})
+
+    def below(self, key: str, table: ParameterTable) -> ParameterReader:
+        """Return a reader of a subtree."""
+        return self.with_table(table, self.group(key), key)
+
+    def with_table(
+        self, table: ParameterTable, tree: Mapping[str, Any], name: str
+    ) -> ParameterReader:
+        """Return a reader of something below, with a table and values of its own."""
+        return ParameterReader(table, TreeSource(tree), self.owner.below(name), self.diagnostics)
+
+    def require(self, key: str) -> None:
+        """Insist on a parameter.
+
+        Raises:
+            Exception: the owner's `ParameterOwner.missing`: it is absent; the message names the
+                nearest one that is there.
+        """
+        if self.has(key):
+            return
+        names = (name for name, _ in self.source.leaves())
+        there = [name for name in names if name.partition(".")[0] not in self.owner.managed]
+        hint = did_you_mean(key, there)
+        if not there and self.source.find("type") is MISSING:
+            hint = f"it has no parameters at all: is its section named '{self.name}'?"
+        row, full_name = self.table.row_for(key), self.full_name(key)
+        others = "".join(f" or '{alias}'" for alias in row.aliases) if row is not None else ""
+        # In ROS 2 parameters belong to their owner's node and have no longer name.
+        place = f"parameter {full_name}" if full_name != key else f"parameter of node {self.name}"
+        text = f"{self.owner.beginning}: no '{key}'{others} given ({place})"
+        raise self.owner.missing(f"{text}; {hint}" if hint else text)
+
+    def report(self, code: str, text: str, fix: str = "", *, key: str = "") -> None:
+        """Report something about these parameters, at the place of one."""
+        place = self.place(key) if key else None
+        phrase = self.owner.bad_phrase if code == "parameter.bad-value" else ""
+        message = f"{self.owner.beginning}: {text}"
+        self.diagnostics.report(code, message, place, fix=fix, phrase=phrase)
+
+    def report_unknown(self, *others: str) -> None:
+        """Report what was given and is not known, and what changes nothing.
+
+        Args:
+            *others: names that somebody else reads, of subtrees too.
+        """
+        for name, value in self.source.leaves():
+            word = name.partition(".")[0]
+            if word in others or word in self.owner.managed:
+                continue
+            why = self.owner.refused.get(name, "")
+            row = self.table.row_for(name)
+            if why:
+                self._report_idle(name, value, why)
+            elif row is not None and row.is_refused:
+                self._report_idle(name, value, row.meaning)
+            elif row is None and value != {}:
+                self._report_unknown(name, others)
+
+    def _report_unknown(self, name: str, others: tuple[str, ...]) -> None:
+        known = (*self.table.keys(), *others)
+        words = {"name": self.full_name(name), "family": self.table.family}
+        hint = did_you_mean(name, known) or did_you_mean(name.partition(".")[0], known)
+        self.report("parameter.unknown", self.owner.unknown.format(**words), hint, key=name)
+
+    def _report_idle(self, name: str, value: Any, why: str) -> None:
+        words = {"name": self.full_name(name), "value": shortened(value), "why": why}
+        self.report("parameter.idle", self.owner.idle.format(**words), key=name)
+
+    def _given(self, key: str) -> Any:
+        # A key of a pattern's row (gains.joint_1.p) has no aliases of its own.
+        found = self.source.find(key)
+        row = self.table.exact_row(key) if found is MISSING else None
+        for name in () if row is None else row.names:
+            found = self.source.find(name)
+            if found is not MISSING:
+                return found
+        return found
+
+    def _default(self, key: str, default: Any, otherwise: Any) -> Any:
+        if default is not None:
+            return default
+        row = self.table.row_for(key)
+        return otherwise if row is None or row.default is None else row.default
+
+    def _limited(self, key: str, value: float, fallback: float) -> float:
+        row = self.table.row_for(key)
+        if row is None or (row.low is None and row.high is None):
+            if math.isnan(value) and not self.owner.takes_nan:
+                return float(self._bad(key, value, "a number", fallback))
+            return value
+        low = -math.inf if row.low is None else row.low
+        high = math.inf if row.high is None else row.high
+        if low <= value <= high:
+            return value
+        used = min(max(value, low), high) if math.isfinite(value) else fallback
+        return float(self._bad(key, value, f"a number of {low:g} to {high:g}", used))
+
+    def _bad(self, key: str, value: Any, wanted: str, used: Any) -> Any:
+        text = f"parameter '{self.full_name(key)}' is {value!r}, not {wanted}; {used!r} is used"
+        self.report("parameter.bad-value", text, f"write {wanted}", key=key)
+        return used
