@@ -284,6 +284,28 @@ def test_laser_scans_are_points_within_their_range(page: Page, talk: Talk, move:
     assert len(colours) == 3
 
 
+@pytest.mark.parametrize(
+    ("display", "field"),
+    [
+        ("FluidPressure", "fluid_pressure"),
+        ("Illuminance", "illuminance"),
+        ("RelativeHumidity", "relative_humidity"),
+        ("Temperature", "temperature"),
+    ],
+)
+def test_a_sensor_of_one_number_is_a_point_whose_colour_tells_it(
+    page: Page, talk: Talk, move: Move, display: str, field: str
+) -> None:
+    move("map", "sensor", (0, 0, 2))
+    bounds = {"Autocompute Intensity Bounds": False, "Min Intensity": 0, "Max Intensity": 4}
+    stream = page.display(display, f"/{field}", **{"Channel Name": field}, **bounds)
+    talk(f"/{field}", f"sensor_msgs/{display}", header={"frame_id": "sensor"}, **{field: 4.0})
+    pose, points, colours = _points(stream.next())
+    assert pose[:3].tolist() == [0, 0, 2]
+    assert points.tolist() == [[0, 0, 0]]
+    assert colours.tolist() == [[255, 0, 255, 255]]
+
+
 def test_depth_clouds_use_camera_and_colours(page: Page, talk: Talk, move: Move) -> None:
     move("map", "optical", (0, 0, 0))
     stream = page.display("DepthCloud", "/rgbd/depth", **{"Color Image Topic": "/rgbd/image"})

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { Channel, StatusLevel } from '../channel';
 import type { Connection } from '../connection';
 import type { Frame } from '../frame';
+import type { DisplayRow } from '../generated/messages';
 import type { GraphStore } from '../graph_store';
 import { isObject, textOf, type Json, type JsonObject } from '../json';
 import { place } from '../model/shapes';
@@ -42,19 +43,16 @@ export interface Drawer {
   counts?(): Record<string, number>;
 }
 
-/** A class of RViz's displays. */
-export interface DisplayKind {
-  name: string;
-  about: string;
-  /** Message types it shows, as `sensor_msgs/LaserScan`; none for those without a topic. */
-  types: readonly string[];
+/** How displays of a class are drawn. */
+export interface Drawing {
   properties: readonly PropertySpec[];
-  /** It reads the `display` stream (those with a topic, if not said otherwise). */
-  streams?: boolean;
   /** The pose of a message is not the place of the root: the drawer handles it. */
   ownPose?: boolean;
   make(site: Site): Drawer;
 }
+
+/** A class of RViz's displays. */
+export type DisplayKind = DisplayRow & Drawing;
 
 /** A line of the status. */
 export interface StatusLine {
@@ -158,8 +156,7 @@ export class Display {
   }
 
   private begin(): void {
-    const streams = this.kind.streams ?? this.kind.types.length > 0;
-    if (!streams || this.channel) return;
+    if (!this.kind.streams || this.channel) return;
     if (!this.topic) return this.tell('Topic', 'warn', 'No topic is chosen.');
     this.channel = this.stage.connection.open('display', this.params(), {
       onData: (value) => this.take(value),

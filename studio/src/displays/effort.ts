@@ -5,16 +5,13 @@ import { matrixOf } from '../model/assembly';
 import type { JointValue, SceneValue } from '../model/scene_value';
 import type { JsonObject } from '../json';
 import { asCallError } from '../errors';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { numbers, part, list } from './message';
 import { flag, num, text } from './properties';
 import { InstancePool } from './shapes';
 
 /** RViz's Effort. */
-export const EFFORT: DisplayKind = {
-  name: 'Effort',
-  about: 'The efforts of the joints, green to red of their limits.',
-  types: ['sensor_msgs/JointState'],
+export const EFFORT: Drawing = {
   ownPose: true,
   properties: [
     num('Alpha', 1, 'How opaque the arrows are, 0 to 1.', { min: 0, max: 1 }),

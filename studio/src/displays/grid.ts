@@ -3,7 +3,7 @@ import { shared, axesGeometry } from '../model/geometry';
 import { place } from '../model/shapes';
 import { gridLines } from '../scene/grid';
 import * as THREE from 'three';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { choice, colour, num, type PropertySpec } from './properties';
 
 const FIXED = '<Fixed Frame>';
@@ -12,10 +12,7 @@ const FRAME: PropertySpec = {
 };
 
 /** RViz's Grid. */
-export const GRID: DisplayKind = {
-  name: 'Grid',
-  about: 'A grid along the ground or any other plane.',
-  types: [],
+export const GRID: Drawing = {
   properties: [
     FRAME,
     num('Plane Cell Count', 10, 'Cells along each side.', { min: 1, max: 1000 }),
@@ -38,10 +35,7 @@ export const GRID: DisplayKind = {
 };
 
 /** RViz's Axes. */
-export const AXES: DisplayKind = {
-  name: 'Axes',
-  about: 'Axes at a frame.',
-  types: [],
+export const AXES: Drawing = {
   properties: [
     FRAME,
     num('Length', 1, 'Length of each axis, metres.', { min: 0.001 }),

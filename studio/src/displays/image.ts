@@ -2,18 +2,13 @@
 import * as THREE from 'three';
 import type { Frame } from '../frame';
 import type { JsonObject } from '../json';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { arrayMatrix, numbers, part } from './message';
 import { PictureBox } from './picture_box';
 import { choice, flag, num } from './properties';
 
-const IMAGE_TYPES = ['sensor_msgs/Image', 'sensor_msgs/CompressedImage'];
-
 /** RViz's Image. */
-export const IMAGE: DisplayKind = {
-  name: 'Image',
-  about: 'The picture of a camera, in a window of its own.',
-  types: IMAGE_TYPES,
+export const IMAGE: Drawing = {
   properties: [
     num('Max Value', 1, 'White of a depth image, metres.', { server: true }),
     num('Min Value', 0, 'Black of a depth image, metres.', { server: true }),
@@ -36,10 +31,7 @@ export const IMAGE: DisplayKind = {
 };
 
 /** RViz's Camera. */
-export const CAMERA: DisplayKind = {
-  name: 'Camera',
-  about: 'What a camera sees, with the displays laid over it.',
-  types: IMAGE_TYPES,
+export const CAMERA: Drawing = {
   ownPose: true,
   properties: [
     choice('Image Rendering', 'background and overlay', ['background', 'overlay', 'background and overlay'], 'Where the picture lies.'),

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import { freeLabel, label } from '../scene/labels';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { ControlDrag, controlAxis, defaultHandle, type Control, type InteractiveMarker } from './interactive_controls';
 import { MarkerSet } from './marker_set';
 import { arrayMatrix, list, part, poseMatrix, type PoseMessage } from './message';
@@ -13,10 +13,7 @@ import { flag } from './properties';
 export const FEEDBACK = { KEEP_ALIVE: 0, POSE_UPDATE: 1, MENU_SELECT: 2, BUTTON_CLICK: 3, MOUSE_DOWN: 4, MOUSE_UP: 5 };
 
 /** RViz's InteractiveMarkers. */
-export const INTERACTIVE_MARKERS: DisplayKind = {
-  name: 'InteractiveMarkers',
-  about: 'Markers that can be dragged; the tool Interact moves them.',
-  types: ['visualization_msgs/InteractiveMarkerUpdate', 'visualization_msgs/InteractiveMarkerInit'],
+export const INTERACTIVE_MARKERS: Drawing = {
   ownPose: true,
   properties: [
     flag('Show Descriptions', true, 'Whether the descriptions are drawn.'),

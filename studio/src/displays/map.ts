@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { floats, type Frame } from '../frame';
 import { place } from '../model/shapes';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { Swatches, type Look } from './map_swatches';
 import { choice, flag, num } from './properties';
 
@@ -11,10 +11,7 @@ const HEADER_BYTES = 64;
 const PART = 30;
 
 /** RViz's Map. */
-export const MAP: DisplayKind = {
-  name: 'Map',
-  about: 'An occupancy grid or a costmap.',
-  types: ['nav_msgs/OccupancyGrid'],
+export const MAP: Drawing = {
   ownPose: true,
   properties: [
     num('Alpha', 0.7, 'How opaque the map is, 0 to 1.', { min: 0, max: 1 }),

@@ -1,23 +1,17 @@
 /** Marker and MarkerArray. */
 import type { JsonObject } from '../json';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { MarkerSet } from './marker_set';
 import type { MarkerMessage } from './marker_shapes';
 import { arrayMatrix, list, part } from './message';
 import { flag } from './properties';
 
-/** RViz's Marker; like RViz's it also understands arrays on `<topic>_array`. */
-export const MARKER: DisplayKind = {
-  name: 'Marker',
-  about: 'Shapes, lines, texts and meshes that programs draw.',
-  types: ['visualization_msgs/Marker'],
+/** RViz's Marker and MarkerArray; like RViz's it also understands arrays on `<topic>_array`. */
+export const MARKERS: Drawing = {
   ownPose: true,
   properties: [],
   make: (site) => new MarkersDrawer(site),
 };
-
-/** RViz's MarkerArray. */
-export const MARKER_ARRAY: DisplayKind = { ...MARKER, name: 'MarkerArray', types: ['visualization_msgs/MarkerArray'] };
 
 class MarkersDrawer implements Drawer {
   private readonly set: MarkerSet;

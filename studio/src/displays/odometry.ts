@@ -2,16 +2,13 @@
 import * as THREE from 'three';
 import type { JsonObject } from '../json';
 import { Covariance, covarianceProperties, type Uncertain } from './covariance';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { arrayMatrix, numbers, part, poseMatrix } from './message';
 import { num } from './properties';
 import { PoseShapes, shapeProperties } from './shapes';
 
 /** RViz's Odometry. */
-export const ODOMETRY: DisplayKind = {
-  name: 'Odometry',
-  about: 'The way of a robot by its odometry.',
-  types: ['nav_msgs/Odometry'],
+export const ODOMETRY: Drawing = {
   ownPose: true,
   properties: [
     num('Position Tolerance', 0.1, 'A new arrow after so many metres.', { min: 0 }),

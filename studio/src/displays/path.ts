@@ -1,17 +1,14 @@
 /** Path and Polygon: lines through points. */
 import type * as THREE from 'three';
 import type { JsonObject } from '../json';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { strip, ThinLines, WideLines } from './lines';
 import { list, part, poseMatrix, vector, type PoseMessage, type XYZ } from './message';
 import { choice, colour, num } from './properties';
 import { PoseShapes, shapeProperties } from './shapes';
 
 /** RViz's Path. */
-export const PATH: DisplayKind = {
-  name: 'Path',
-  about: 'A path of a planner or of what was driven.',
-  types: ['nav_msgs/Path'],
+export const PATH: Drawing = {
   properties: [
     choice('Line Style', 'Lines', ['Lines', 'Billboards'], 'Thin lines, or lines of a width.'),
     num('Line Width', 0.03, 'Width of Billboards, metres.', { min: 0.001 }),
@@ -76,10 +73,7 @@ class PathDrawer implements Drawer {
 }
 
 /** RViz's Polygon. */
-export const POLYGON: DisplayKind = {
-  name: 'Polygon',
-  about: 'A closed line: a footprint.',
-  types: ['geometry_msgs/PolygonStamped'],
+export const POLYGON: Drawing = {
   properties: [
     colour('Color', '25; 255; 0', 'Colour of the line.'),
     num('Alpha', 1, 'How opaque the line is, 0 to 1.', { min: 0, max: 1 }),

@@ -1,8 +1,9 @@
-/** LaserScan, PointCloud2, PointCloud and DepthCloud: points the server coloured, in pooled buffers. */
+/** LaserScan, clouds and sensors of one number: points the server coloured, in pooled buffers. */
 import * as THREE from 'three';
 import { floats, type Frame } from '../frame';
+import type { JsonObject } from '../json';
 import { place } from '../model/shapes';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { choice, colour, flag, num, text, type PropertySpec } from './properties';
 
 const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes'] as const;
@@ -37,20 +38,41 @@ const COMMON: PropertySpec[] = [
   num('Point Budget', 100000, 'Most points of one message that are sent to the page, evenly chosen.', { min: 1, ...SERVER }),
 ];
 
-function kind(name: string, types: string[], about: string, extra: PropertySpec[] = [], sizes = 0.01): DisplayKind {
-  const properties = COMMON.map((spec) => (spec.path === 'Size (m)' ? { ...spec, value: sizes } : spec));
-  return { name, types, about, ownPose: true, properties: [...properties, ...extra], make: (site) => new PointsDrawer(site) };
+/** Points whose properties begin with other values than usual, and that have more of them. */
+function points(values: JsonObject = {}, extra: PropertySpec[] = []): Drawing {
+  const properties = COMMON.map((spec) => ({ ...spec, value: values[spec.path] ?? spec.value }));
+  return { ownPose: true, properties: [...properties, ...extra], make: (site) => new PointsDrawer(site) };
 }
 
-/** RViz's displays of points. */
-export const POINT_KINDS: DisplayKind[] = [
-  kind('LaserScan', ['sensor_msgs/LaserScan'], 'The points of a laser scan.', [], 0.03),
-  kind('PointCloud2', ['sensor_msgs/PointCloud2'], 'A point cloud with any fields.'),
-  kind('PointCloud', ['sensor_msgs/PointCloud'], 'A point cloud of the old kind.'),
-  kind('DepthCloud', ['sensor_msgs/Image'], 'Points of a depth image, coloured by a colour image.', [
-    { path: 'Color Image Topic', kind: 'topic', value: '', types: ['sensor_msgs/Image'], about: 'The image that gives the colours.', server: true },
-  ]),
-];
+/** A sensor of one number: a point whose colour tells it, between bounds as RViz has them. */
+function reading(channel: string, least: number, most: number, inverted = false): Drawing {
+  return points({
+    'Channel Name': channel, 'Invert Rainbow': inverted, 'Autocompute Intensity Bounds': false, 'Min Intensity': least, 'Max Intensity': most,
+  });
+}
+
+/** RViz's LaserScan. */
+export const LASER_SCAN = points({ 'Size (m)': 0.03 });
+
+/** RViz's PointCloud and PointCloud2. */
+export const POINT_CLOUD = points();
+
+/** RViz's DepthCloud. */
+export const DEPTH_CLOUD = points({}, [
+  { path: 'Color Image Topic', kind: 'topic', value: '', types: ['sensor_msgs/Image'], about: 'The image that gives the colours.', server: true },
+]);
+
+/** RViz's FluidPressure, pascals. */
+export const FLUID_PRESSURE = reading('fluid_pressure', 98000, 105000);
+
+/** RViz's Illuminance, lux. */
+export const ILLUMINANCE = reading('illuminance', 0, 1000);
+
+/** RViz's RelativeHumidity, 0 to 1. */
+export const RELATIVE_HUMIDITY = reading('relative_humidity', 0, 1);
+
+/** RViz's Temperature, degrees Celsius: red is hot. */
+export const TEMPERATURE = reading('temperature', 0, 100, true);
 
 const VERTEX = `
   attribute vec4 tint; uniform float size, pixels, scale, alpha; varying vec4 shade;

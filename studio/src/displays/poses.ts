@@ -3,34 +3,25 @@ import * as THREE from 'three';
 import { unit } from '../model/geometry';
 import type { JsonObject } from '../json';
 import { Covariance, covarianceProperties } from './covariance';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { list, numbers, part, poseMatrix, vector } from './message';
 import { colour, num, type Properties } from './properties';
 import { InstancePool, PoseShapes, shapeProperties } from './shapes';
 
 /** RViz's Pose. */
-export const POSE: DisplayKind = {
-  name: 'Pose',
-  about: 'A pose as an arrow or axes: the goal.',
-  types: ['geometry_msgs/PoseStamped'],
+export const POSE: Drawing = {
   properties: shapeProperties('Arrow'),
   make: (site) => new PosesDrawer(site, (message) => [poseMatrix(message['pose'])]),
 };
 
 /** RViz's PoseArray. */
-export const POSE_ARRAY: DisplayKind = {
-  name: 'PoseArray',
-  about: 'Many poses: the particles of a localization.',
-  types: ['geometry_msgs/PoseArray'],
+export const POSE_ARRAY: Drawing = {
   properties: [...shapeProperties('Arrow (Flat)', '', true), num('Arrow Length', 0.3, 'Length of a flat arrow, metres.', { min: 0 })],
   make: (site) => new PosesDrawer(site, (message) => list(message, 'poses').map((pose) => poseMatrix(pose as never)), null, 'Arrow Length'),
 };
 
 /** Nav2's ParticleCloud: the likelier a particle the longer its arrow. */
-export const PARTICLE_CLOUD: DisplayKind = {
-  name: 'ParticleCloud',
-  about: 'The particles of a localization with their weights.',
-  types: ['nav2_msgs/ParticleCloud'],
+export const PARTICLE_CLOUD: Drawing = {
   properties: [
     ...shapeProperties('Arrow (Flat)', '', true),
     num('Min Arrow Length', 0.02, 'Length of the least likely one, metres.', { min: 0 }),
@@ -50,10 +41,7 @@ function particles(message: JsonObject, props: Properties): THREE.Matrix4[] {
 }
 
 /** RViz's PoseWithCovariance. */
-export const POSE_WITH_COVARIANCE: DisplayKind = {
-  name: 'PoseWithCovariance',
-  about: 'A pose and how sure it is.',
-  types: ['geometry_msgs/PoseWithCovarianceStamped'],
+export const POSE_WITH_COVARIANCE: Drawing = {
   properties: [...shapeProperties('Arrow'), ...covarianceProperties()],
   make: (site) => new PosesDrawer(
     site,
@@ -110,10 +98,7 @@ class PosesDrawer implements Drawer {
 }
 
 /** RViz's PointStamped. */
-export const POINT_STAMPED: DisplayKind = {
-  name: 'PointStamped',
-  about: 'Points, such as those of Publish Point.',
-  types: ['geometry_msgs/PointStamped'],
+export const POINT_STAMPED: Drawing = {
   ownPose: true,
   properties: [
     colour('Color', '204; 41; 204', 'Colour of the balls.'),

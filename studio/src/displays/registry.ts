@@ -1,29 +1,60 @@
-/** All kinds of displays, in RViz's order. */
+/** All kinds of displays: rows of the server's table, each with its drawing. */
+import { DISPLAY_ROWS, type DisplayName } from '../generated/displays';
 import { shortType } from '../graph_store';
 import { MOTION_PLANNING } from '../motion/display';
-import type { DisplayKind } from './display';
+import type { DisplayKind, Drawing } from './display';
 import { EFFORT } from './effort';
 import { AXES, GRID } from './grid';
 import { CAMERA, IMAGE } from './image';
 import { INTERACTIVE_MARKERS } from './interactive';
 import { MAP } from './map';
-import { MARKER, MARKER_ARRAY } from './markers';
+import { MARKERS } from './markers';
 import { ODOMETRY } from './odometry';
 import { PATH, POLYGON } from './path';
-import { POINT_KINDS } from './points';
+import { DEPTH_CLOUD, FLUID_PRESSURE, ILLUMINANCE, LASER_SCAN, POINT_CLOUD, RELATIVE_HUMIDITY, TEMPERATURE } from './points';
 import { PARTICLE_CLOUD, POINT_STAMPED, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE } from './poses';
 import { ROBOT_MODEL } from './robot_model';
 import { GRID_CELLS, IMU, RANGE, WRENCH } from './sensors';
 import { TF } from './tf';
 
-const KINDS: readonly DisplayKind[] = [
-  AXES, CAMERA, EFFORT, GRID, GRID_CELLS, IMAGE, IMU, INTERACTIVE_MARKERS, MAP, MARKER, MARKER_ARRAY,
-  MOTION_PLANNING, ODOMETRY, PARTICLE_CLOUD, PATH, POINT_STAMPED, ...POINT_KINDS, POLYGON, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE,
-  RANGE, ROBOT_MODEL, TF, WRENCH,
-].sort((a, b) => a.name.localeCompare(b.name));
+const DRAWINGS: Record<DisplayName, Drawing> = {
+  Axes: AXES,
+  Camera: CAMERA,
+  DepthCloud: DEPTH_CLOUD,
+  Effort: EFFORT,
+  FluidPressure: FLUID_PRESSURE,
+  Grid: GRID,
+  GridCells: GRID_CELLS,
+  Illuminance: ILLUMINANCE,
+  Image: IMAGE,
+  Imu: IMU,
+  InteractiveMarkers: INTERACTIVE_MARKERS,
+  LaserScan: LASER_SCAN,
+  Map: MAP,
+  Marker: MARKERS,
+  MarkerArray: MARKERS,
+  MotionPlanning: MOTION_PLANNING,
+  Odometry: ODOMETRY,
+  ParticleCloud: PARTICLE_CLOUD,
+  Path: PATH,
+  PointCloud: POINT_CLOUD,
+  PointCloud2: POINT_CLOUD,
+  PointStamped: POINT_STAMPED,
+  Polygon: POLYGON,
+  Pose: POSE,
+  PoseArray: POSE_ARRAY,
+  PoseWithCovariance: POSE_WITH_COVARIANCE,
+  Range: RANGE,
+  RelativeHumidity: RELATIVE_HUMIDITY,
+  RobotModel: ROBOT_MODEL,
+  TF: TF,
+  Temperature: TEMPERATURE,
+  Wrench: WRENCH,
+};
 
-/** Names that differ between RViz's versions. */
-const OTHER_NAMES: Record<string, string> = { WrenchStamped: 'Wrench' };
+const KINDS: readonly DisplayKind[] = Object.values(DISPLAY_ROWS)
+  .map((row) => ({ ...row, ...DRAWINGS[row.name as DisplayName] }))
+  .sort((a, b) => a.name.localeCompare(b.name));
 
 /** All kinds. */
 export function displayKinds(): readonly DisplayKind[] {
@@ -33,8 +64,7 @@ export function displayKinds(): readonly DisplayKind[] {
 /** The kind of a class as `.rviz` files write it: `rviz/LaserScan`, `rviz_default_plugins/LaserScan`. */
 export function displayKind(name: string): DisplayKind | undefined {
   const own = name.split('/').pop() ?? name;
-  const clean = OTHER_NAMES[own] ?? own;
-  return KINDS.find((kind) => kind.name === clean);
+  return KINDS.find((kind) => kind.name === own || kind.aliases.includes(own));
 }
 
 /** The kinds that show a type of message. */

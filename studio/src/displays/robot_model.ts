@@ -3,16 +3,13 @@ import { asCallError } from '../errors';
 import { Assembly } from '../model/assembly';
 import type { SceneValue } from '../model/scene_value';
 import { place } from '../model/shapes';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { flag, num, text } from './properties';
 
 const RETRY_MS = 2000;
 
 /** RViz's RobotModel. */
-export const ROBOT_MODEL: DisplayKind = {
-  name: 'RobotModel',
-  about: 'The robot of a description, moved by tf.',
-  types: [],
+export const ROBOT_MODEL: Drawing = {
   properties: [
     text('Robot Description', 'robot_description', 'The parameter with the URDF.'),
     text('Description Topic', '/robot_description', 'The topic with the URDF; used where it exists.'),

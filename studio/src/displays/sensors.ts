@@ -1,7 +1,7 @@
 /** Imu, Range, Wrench and GridCells. */
 import * as THREE from 'three';
 import { arrowGeometry, shared, unit } from '../model/geometry';
-import type { DisplayKind } from './display';
+import type { Drawing } from './display';
 import { list, part, vector, type XYZ } from './message';
 import { colour, flag, num } from './properties';
 import { InstancePool } from './shapes';
@@ -9,10 +9,7 @@ import { InstancePool } from './shapes';
 const X = new THREE.Vector3(1, 0, 0);
 
 /** RViz's Imu: a box that turns, axes and an arrow of the acceleration. */
-export const IMU: DisplayKind = {
-  name: 'Imu',
-  about: 'Orientation and acceleration of an IMU.',
-  types: ['sensor_msgs/Imu'],
+export const IMU: Drawing = {
   properties: [
     flag('Box properties/Enable box', false, 'A box with the orientation.'),
     colour('Box properties/Box color', '255; 0; 0', 'Colour of the box.'),
@@ -67,10 +64,7 @@ export const IMU: DisplayKind = {
 };
 
 /** RViz's Range: the cone of a sonar. */
-export const RANGE: DisplayKind = {
-  name: 'Range',
-  about: 'The cone of a sonar or infrared sensor.',
-  types: ['sensor_msgs/Range'],
+export const RANGE: Drawing = {
   properties: [
     colour('Color', '255; 255; 255', 'Colour of the cone.'),
     num('Alpha', 0.5, 'How opaque the cone is, 0 to 1.', { min: 0, max: 1 }),
@@ -100,10 +94,7 @@ export const RANGE: DisplayKind = {
 };
 
 /** RViz's WrenchStamped: an arrow of the force, and one with a ring of the torque. */
-export const WRENCH: DisplayKind = {
-  name: 'Wrench',
-  about: 'Force and torque of a sensor.',
-  types: ['geometry_msgs/WrenchStamped'],
+export const WRENCH: Drawing = {
   properties: [
     colour('Force Color', '204; 51; 51', 'Colour of the force.'),
     colour('Torque Color', '204; 204; 51', 'Colour of the torque.'),
@@ -136,10 +127,7 @@ export const WRENCH: DisplayKind = {
 };
 
 /** RViz's GridCells. */
-export const GRID_CELLS: DisplayKind = {
-  name: 'GridCells',
-  about: 'Cells of a grid: obstacles of a costmap.',
-  types: ['nav_msgs/GridCells'],
+export const GRID_CELLS: Drawing = {
   properties: [
     colour('Color', '25; 255; 0', 'Colour of the cells.'),
     num('Alpha', 1, 'How opaque the cells are, 0 to 1.', { min: 0, max: 1 }),

@@ -2,17 +2,14 @@
 import * as THREE from 'three';
 import { axesGeometry } from '../model/geometry';
 import { freeLabel, label } from '../scene/labels';
-import type { DisplayKind, Drawer, Site } from './display';
+import type { Drawing, Drawer, Site } from './display';
 import { flag, num } from './properties';
 import { InstancePool } from './shapes';
 
 const ARROW_COLOUR = 0xdccf5a;
 
 /** RViz's TF. */
-export const TF: DisplayKind = {
-  name: 'TF',
-  about: 'The tree of coordinate frames.',
-  types: [],
+export const TF: Drawing = {
   properties: [
     flag('Show Names', true, 'Whether the names of the frames are drawn.'),
     flag('Show Axes', true, 'Whether axes are drawn at the frames.'),

@@ -1,6 +1,6 @@
 /** MotionPlanning: the robot, ghosts of start and goal, the planned path and the planning scene. */
 import * as THREE from 'three';
-import type { DisplayKind, Drawer, Site } from '../displays/display';
+import type { Drawing, Drawer, Site } from '../displays/display';
 import { choice, colour, flag, num, text } from '../displays/properties';
 import { Ghost, paint } from './ghost';
 import { Inverse } from './inverse';
@@ -16,10 +16,7 @@ const MOST_TRAIL = 60;
 const GHOST_ALPHA = 0.55;
 
 /** RViz's MotionPlanning of moveit_rviz_plugin. */
-export const MOTION_PLANNING: DisplayKind = {
-  name: 'MotionPlanning',
-  about: "MoveIt's robot: start, goal, planned path and planning scene.",
-  types: [],
+export const MOTION_PLANNING: Drawing = {
   properties: [
     text('Move Group Namespace', '', 'Of the move_group that is spoken with.'),
     text('Robot Description', 'robot_description', 'The parameter with the URDF; the SRDF is beside it.'),

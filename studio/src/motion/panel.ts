@@ -1,4 +1,5 @@
 /** MotionPlanning: RViz's panel of MoveIt. */
+import { DISPLAY_ROWS } from '../generated/displays';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
 import { onActiveScene, scenePanels } from '../scene/active';
@@ -80,7 +81,7 @@ export class MotionPlanningPanel extends BasePanel {
     this.view.hidden = scene !== null;
     if (!scene || !this.unseen) return;
     this.unseen = false;
-    if (scene.displays.displays.some((display) => display.kind.name === 'MotionPlanning')) return;
+    if (scene.displays.displays.some((display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name)) return;
     scene.displays.add('moveit_rviz_plugin/MotionPlanning');
     scene.choose('Interact');
   }

@@ -1,12 +1,12 @@
 /** What can be done with the world from a view: insert, delete, follow, view one model. */
 import * as THREE from 'three';
 import { asCallError } from '../errors';
+import { DISPLAY_ROWS } from '../generated/displays';
 import { isObject, textOf, textsOf, type JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import type { Entity } from '../model/body';
 import { MODES, type Mode } from '../model/modes';
 import type { Pose } from '../model/scene_value';
-import { MOTION_PLANNING } from '../motion/display';
 import { scenePanels } from '../scene/active';
 import { groundPoint } from '../scene/picking';
 import type { ScenePanel } from '../scene/scene_panel';
@@ -129,7 +129,7 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
     if (!isObject(value)) return;
     panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
     openPanels(panel, value);
-    if (panel.displays.displays.some((display) => display.kind.name === MOTION_PLANNING.name)) {
+    if (panel.displays.displays.some((display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name)) {
       panel.choose('Interact');
       // As in RViz below the displays, unless Gazebo's panels leave little room there.
       panel.host.show('motion_planning', {}, scenePanels().some((each) => each.kind === 'gazebo') ? 'rviz' : 'displays');

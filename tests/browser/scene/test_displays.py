@@ -106,7 +106,7 @@ def test_odometry_keeps_arrows_of_the_way(rviz: RvizPage, bench: Any) -> None:
 
     bench.keep_publishing("/odom", "nav_msgs/msg/Odometry", fields, hz=10)
     rviz.add("/odom", "Odometry")
-    rviz.eventually(lambda: rviz.counts("Odometry")["arrows"] > 5)
+    rviz.eventually(lambda: rviz.counts("Odometry").get("arrows", 0) > 5)
     rviz.set("Odometry", "Keep", "3")
     rviz.shows("Odometry", arrows=3, covariances=3)
 
@@ -128,6 +128,7 @@ def test_single_sensor_displays_draw(rviz: RvizPage, bench: Any) -> None:
         header=header,
         polygon={"points": corners},
     )
+    _keep(bench, "/warmth", "sensor_msgs/msg/Temperature", header=header, temperature=21.0)
     cells = [{"x": 0.1 * i} for i in range(7)]
     _keep(
         bench,
@@ -151,6 +152,7 @@ def test_single_sensor_displays_draw(rviz: RvizPage, bench: Any) -> None:
         "/sonar": ("Range", {"cones": 1}),
         "/wrench": ("Wrench", {"arrows": 2}),
         "/point": ("PointStamped", {"points": 1}),
+        "/warmth": ("Temperature", {"points": 1}),
         "/footprint": ("Polygon", {"corners": 3}),
         "/cells": ("GridCells", {"cells": 7}),
         "/amcl_pose": ("PoseWithCovariance", {"poses": 1, "covariances": 1}),

@@ -1,4 +1,4 @@
-"""LaserScan, PointCloud2 and PointCloud: coloured points, not more than the page wants."""
+"""LaserScan, point clouds, sensors of one number: coloured points, as many as the page wants."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def points_of(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bo
     """Return points of a message, evenly chosen.
 
     Args:
-        message: ``LaserScan``, ``PointCloud2`` or ``PointCloud``.
+        message: ``LaserScan``, ``PointCloud2``, ``PointCloud``, or one of a sensor of one number.
         budget: most points.
         channels: fields that are wanted, where there are such.
         with_rgb: colours are wanted, where there are some.
@@ -245,8 +245,20 @@ def _from_cloud(message: Any, budget: int, channels: tuple[str, ...], with_rgb: 
     return _finite(Points(xyz, wanted, rgb, len(message.points)))
 
 
+def _from_reading(message: Any, _budget: int, channels: tuple[str, ...], _with_rgb: bool) -> Points:
+    """A sensor of one number is a point in its own frame, as in RViz."""
+    name = message.FIELDS[1].name
+    values = {name: np.array([getattr(message, name)])}
+    xyz = np.zeros((1, 3), np.float32)
+    return Points(xyz, {name: found for name, found in values.items() if name in channels})
+
+
 _READERS: dict[str, Callable[[Any, int, tuple[str, ...], bool], Points]] = {
+    "sensor_msgs/msg/FluidPressure": _from_reading,
+    "sensor_msgs/msg/Illuminance": _from_reading,
     "sensor_msgs/msg/LaserScan": _from_scan,
     "sensor_msgs/msg/PointCloud": _from_cloud,
     "sensor_msgs/msg/PointCloud2": _from_cloud2,
+    "sensor_msgs/msg/RelativeHumidity": _from_reading,
+    "sensor_msgs/msg/Temperature": _from_reading,
 }

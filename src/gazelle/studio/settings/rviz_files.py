@@ -9,6 +9,7 @@ from typing import Any
 
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, read_yaml
+from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
@@ -16,8 +17,9 @@ from gazelle.studio.session import Studio
 __all__ = ["open_rviz", "rviz_value"]
 
 _GROUPS = ("Group",)
-_TOPICS = ("Topic", "Image Topic", "Marker Topic", "Description Topic", "Depth Map Topic",
-           "Update Topic", "Interactive Markers Namespace")  # fmt: skip
+_TOPICS = dict.fromkeys(
+    ("Topic", *(name for display in DISPLAYS.values() for name in display.topic_names))
+)
 # Of the views: RViz's word, ours.
 _NUMBERS = {"Distance": "distance", "Yaw": "yaw", "Pitch": "pitch", "Scale": "scale",
             "Angle": "angle"}  # fmt: skip

@@ -1,0 +1,1 @@
+"""What the page takes from Python, as TypeScript: the rows of displays, the types of messages."""

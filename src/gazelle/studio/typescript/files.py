@@ -1,0 +1,40 @@
+"""The page's generated sources."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+from gazelle.studio.displays.display import display_row
+from gazelle.studio.displays.registry import DISPLAYS
+from gazelle.studio.typescript.messages import MESSAGES
+from gazelle.studio.typescript.types import interface
+
+__all__ = ["FILES", "FOLDER"]
+
+FOLDER = "studio/src/generated"
+_HEAD = "/** {what}. Generated: `python -m gazelle.studio.typescript`. */\n"
+
+
+def _displays() -> str:
+    rows = "".join(
+        f"  {row.name}: {json.dumps(display_row(row), ensure_ascii=False)},\n"
+        for row in DISPLAYS.values()
+    )
+    return (
+        _HEAD.format(what="The rows of `gazelle.studio.displays.registry`")
+        + "import type { DisplayRow } from './messages';\n\n"
+        + f"export const DISPLAY_ROWS = {{\n{rows}}} satisfies Record<string, DisplayRow>;\n\n"
+        + "export type DisplayName = keyof typeof DISPLAY_ROWS;\n"
+    )
+
+
+def _messages() -> str:
+    text = "\n".join(interface(message) for message in MESSAGES)
+    json_type = "import type { Json } from '../json';\n" if "Json" in text else ""
+    what = "What the server sends, as its Python types declare it"
+    return f"{_HEAD.format(what=what)}{json_type}\n{text}"
+
+
+FILES: dict[str, Callable[[], str]] = {"displays.ts": _displays, "messages.ts": _messages}
+"""Their names and what gives their texts."""

@@ -1,0 +1,10 @@
+"""The messages that the page knows by type; each is declared next to what makes it."""
+
+from __future__ import annotations
+
+from gazelle.studio.displays.display import DisplayRow
+
+__all__ = ["MESSAGES"]
+
+MESSAGES: tuple[type, ...] = (DisplayRow,)
+"""`TypedDict` classes, each before those that it is part of."""

@@ -1,0 +1,13 @@
+/** What the server sends, as its Python types declare it. Generated: `python -m gazelle.studio.typescript`. */
+
+/** What the page knows of a display before it draws one. */
+export interface DisplayRow {
+  name: string;
+  about: string;
+  /** messages it shows, as `sensor_msgs/LaserScan`; none for those without a topic. */
+  types: string[];
+  /** what other versions of RViz call it. */
+  aliases: string[];
+  /** it reads the stream `display`. */
+  streams: boolean;
+}
