@@ -52,7 +52,6 @@ def strify_message(
         field_filter: gives the fields that are shown.
         fixed_numeric_width: numbers are cut or filled to so many characters.
     """
-    del current_time
     return strify(
         val,
         indent,

@@ -6,13 +6,13 @@ One module for rospy and rclpy: a `Subscriber` of rclpy begins with its node.
 from __future__ import annotations
 
 import bisect
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.compat.rospy.rostime import get_rostime
 from gazelle.compat.rospy.topics import Subscriber as _Subscriber
+from gazelle.compat.telling import warn_once
 from gazelle.compat.tf.conversions import nanoseconds, time_of
 
 __all__ = [
@@ -22,9 +22,6 @@ __all__ = [
     "Subscriber",
     "TimeSynchronizer",
 ]
-
-
-_TOLD: set[str] = set()
 
 
 class SimpleFilter:
@@ -225,8 +222,6 @@ def _stamp_ns(message: Any, source: SimpleFilter, *, allow_headerless: bool) -> 
     if allow_headerless:
         return source.now_ns()
     kind = type(message).__name__
-    if kind not in _TOLD:
-        _TOLD.add(kind)
-        text = f"can not use message filters messages without timestamp infomation ({kind})"
-        sys.stderr.write(f"[WARN] {text} when 'allow_headerless' is disabled\n")
+    text = f"can not use message filters messages without timestamp infomation ({kind})"
+    warn_once(f"{text} when 'allow_headerless' is disabled")
     return None

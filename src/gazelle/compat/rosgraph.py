@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 from gazelle.compat.rospy import client
 from gazelle.compat.rospy.errors import ROSException
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.telling import warn_once
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 
@@ -151,9 +152,16 @@ def get_local_address() -> str:
     return os.environ.get(ROS_HOSTNAME) or os.environ.get(ROS_IP) or "127.0.0.1"
 
 
+def warn_of_master(uri: str | None) -> None:
+    """Say that another master's address leads to this process's own graph."""
+    own = get_master_uri()
+    if uri and uri.rstrip("/") != own.rstrip("/"):
+        warn_once(f"master {uri}: answered by the graph of this process, {own}")
+
+
 def is_master_online(master_uri: str | None = None) -> bool:
-    """Return whether a graph is running."""
-    del master_uri
+    """Return whether a graph is running; another address than this one's own is told of."""
+    warn_of_master(master_uri)
     try:
         Graph.open(role="client").close()
     except GraphError:
@@ -168,10 +176,14 @@ class Master:
     """Answers without the status that the XML-RPC calls carry.
 
     Every call raises `MasterException` when no graph is running.
+
+    Args:
+        caller_id: without effect: the graph knows who asks.
+        master_uri: told once where it is not this process's own.
     """
 
     def __init__(self, caller_id: str = "", master_uri: str | None = None) -> None:
-        del caller_id
+        warn_of_master(master_uri)
         self.master_uri = master_uri or get_master_uri()
         self._answers = client.Master()
 

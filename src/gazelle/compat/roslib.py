@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -54,50 +55,74 @@ class MultipleNodesException(ROSPkgException):
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
     """Do nothing: packages of the workspace are importable as they are."""
-    del package_name, bootstrap_version
 
 
 def get_message_class(message_type: str, reload_on_error: bool = False) -> Any:
     """Return the class of ``pkg/Name``, None when nothing defines it.
 
+    Args:
+        message_type: the name.
+        reload_on_error: without effect: classes are made from definitions, not from modules.
+
     Raises:
         ValueError: the name has no package.
     """
-    del reload_on_error
     return _class_of(message_type, ros1_message_type)
 
 
 def get_service_class(service_type: str, reload_on_error: bool = False) -> Any:
     """Return the class of service ``pkg/Name``, None when nothing defines it.
 
+    Args:
+        service_type: the name.
+        reload_on_error: as in `get_message_class`.
+
     Raises:
         ValueError: the name has no package.
     """
-    del reload_on_error
     return _class_of(service_type, ros1_service_type)
 
 
-def get_pkg_dir(package: str, required: bool = True, **_options: Any) -> str | None:
+def get_pkg_dir(
+    package: str,
+    required: bool = True,
+    ros_root: str | None = None,
+    ros_package_path: str | None = None,
+) -> str | None:
     """Return a package's folder.
+
+    Args:
+        package: its name.
+        required: it has to be there.
+        ros_root: searched after the paths, in place of ``ROS_ROOT``.
+        ros_package_path: where to search, in place of ``ROS_PACKAGE_PATH``.
 
     Raises:
         InvalidROSPkgException: there is no such package, and it is required.
     """
     try:
-        return RosPack().get_path(package)
+        return RosPack(_search_paths(ros_root, ros_package_path)).get_path(package)
     except ResourceNotFound as error:
         if required:
             raise InvalidROSPkgException(str(error)) from error
         return None
 
 
-def get_pkg_subdir(package: str, subdir: str, required: bool = True, **_options: Any) -> str | None:
+def get_pkg_subdir(
+    package: str, subdir: str, required: bool = True, env: Mapping[str, str] | None = None
+) -> str | None:
     """Return a folder of a package; it is made when it is required.
+
+    Args:
+        package: name of the package.
+        subdir: name of the folder.
+        required: it has to be there.
+        env: its ``ROS_ROOT`` counts in place of the environment's.
 
     Raises:
         InvalidROSPkgException: there is no such package, and it is required.
     """
-    folder = get_pkg_dir(package, required)
+    folder = get_pkg_dir(package, required, ros_root=(env or {}).get(ROS_ROOT))
     if folder is None:
         return None
     found = Path(folder) / subdir
@@ -124,28 +149,81 @@ def resource_file(package: str, subdir: str, resource_name: str) -> str:
     return str(Path(get_pkg_dir(package) or "") / subdir / resource_name)
 
 
-def find_resource(pkg: str, resource_name: str, **_options: Any) -> list[str]:
-    """Return the files of a name anywhere in a package."""
-    folder = get_pkg_dir(pkg)
-    return sorted(str(file) for file in Path(folder or "").rglob(resource_name) if file.is_file())
+def find_resource(
+    pkg: str,
+    resource_name: str,
+    filter_fn: Callable[[str], object] | None = None,
+    rospack: RosPack | None = None,
+) -> list[str]:
+    """Return the files of a name anywhere in a package.
+
+    Args:
+        pkg: name of the package.
+        resource_name: name of the file.
+        filter_fn: takes a path, and tells whether it is wanted.
+        rospack: knows the package, the workspace's own when None.
+
+    Raises:
+        InvalidROSPkgException: there is no such package.
+    """
+    folder = Path(get_pkg_dir(pkg) or "" if rospack is None else rospack.get_path(pkg))
+    found = sorted(str(file) for file in folder.rglob(resource_name) if file.is_file())
+    return [file for file in found if filter_fn is None or filter_fn(file)]
 
 
-def find_node(pkg: str, node_type: str, **_options: Any) -> list[str]:
-    """Return the files that ``rosrun PKG TYPE`` could mean."""
-    get_pkg_dir(pkg)
-    package = Workspace.discover().package(pkg)
-    return [str(file) for file in package.find_executables(node_type)]
+def find_node(pkg: str, node_type: str, rospack: RosPack | None = None) -> list[str]:
+    """Return the files that ``rosrun PKG TYPE`` could mean.
+
+    Args:
+        pkg: name of the package.
+        node_type: name of the program.
+        rospack: knows the package, the workspace's own when None.
+
+    Raises:
+        InvalidROSPkgException: there is no such package.
+    """
+    if rospack is None:
+        get_pkg_dir(pkg)
+    workspace = Workspace.discover() if rospack is None else rospack._workspace
+    return [str(file) for file in workspace.package(pkg).find_executables(node_type)]
 
 
-def list_pkgs_by_path(path: str, packages: list[str] | None = None, **_options: Any) -> list[str]:
-    """Return the names of the packages below a folder, after those given."""
+def list_pkgs_by_path(
+    path: str,
+    packages: list[str] | None = None,
+    cache: dict[str, Any] | None = None,
+    env: Mapping[str, str] | None = None,
+) -> list[str]:
+    """Return the names of the packages below a folder, after those given.
+
+    Args:
+        path: the folder.
+        packages: names that are known already; is extended.
+        cache: gets the folder of each new one, with ``ROS_ROOT`` and ``ROS_PACKAGE_PATH``.
+        env: the environment, that of the process when None.
+    """
     found = [] if packages is None else packages
-    environ = {**os.environ, ROS_PACKAGE_PATH: os.path.realpath(path)}
+    given = os.environ if env is None else env
+    environ = {**given, ROS_PACKAGE_PATH: os.path.realpath(path)}
     root = Path(path).resolve()
     for name, package in sorted(Workspace.discover(environ=environ).packages.items()):
         if root in (package.path, *package.path.parents) and name not in found:
             found.append(name)
+            if cache is not None:
+                cache[name] = (
+                    str(package.path),
+                    given.get(ROS_ROOT),
+                    given.get(ROS_PACKAGE_PATH, ""),
+                )
     return found
+
+
+def _search_paths(ros_root: str | None, ros_package_path: str | None) -> list[str] | None:
+    """Return the folders that are searched, None for those of the environment."""
+    if ros_root is None and ros_package_path is None:
+        return None
+    given = os.environ.get(ROS_PACKAGE_PATH, "") if ros_package_path is None else ros_package_path
+    return [path for path in (*given.split(os.pathsep), ros_root) if path]
 
 
 def _class_of(name: str, make: Any) -> Any:

@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import Any
 
 from gazelle.compat.junit import result_file, run_suite
+from gazelle.compat.telling import warn_once
 
 __all__ = ["rosrun", "run", "unitrun"]
 
@@ -37,7 +38,17 @@ def unitrun(
     sysargs: Sequence[str] | None = None,
     coverage_packages: Any = None,
 ) -> None:
-    """Run a test case that needs no graph (`rosunit.unitrun`); coverage is not measured."""
+    """Run a test case that needs no graph (`rosunit.unitrun`).
+
+    Args:
+        package: the package it belongs to.
+        test_name: its name.
+        test: a ``TestCase`` class, or its name ``module.Class``.
+        sysargs: the command line, ``sys.argv`` by default.
+        coverage_packages: told once: coverage is not measured.
+    """
+    if coverage_packages:
+        warn_once("unitrun: coverage is not measured; run the tests with `coverage run`")
     _run(package, test_name, test, sys.argv if sysargs is None else sysargs)
 
 

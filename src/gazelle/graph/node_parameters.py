@@ -86,6 +86,7 @@ class NodeParameters:
         strict: bool = False,
         run: Callable[[Callable[[], Any]], Any] = _at_once,
         now_ns: Callable[[], int] = lambda: 0,
+        services: bool = True,
     ) -> None:
         """Offer the services.
 
@@ -99,6 +100,7 @@ class NodeParameters:
             strict: refuse 3 for 3.0, in rclpy's words.
             run: runs a request's work, for example in the thread that owns the parameters.
             now_ns: stamp of events.
+            services: let others ask and set; changes are told in any case.
         """
         self.node_name = node_name
         self.values: dict[str, Any] = dict(values)
@@ -109,7 +111,10 @@ class NodeParameters:
         self._now_ns = now_ns
         self._closables: list[_Closable] = []
         with node.announced_together():
-            self._offer(node, run)
+            self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
+            self._closables.append(self._events)
+            if services:
+                self._offer(node, run)
 
     def declare(self, name: str, value: Any, descriptor: Descriptor = _PLAIN) -> None:
         """Add a parameter and tell others."""
@@ -154,8 +159,6 @@ class NodeParameters:
             self._closables.pop().unregister()
 
     def _offer(self, node: _Node, run: Callable[[Callable[[], Any]], Any]) -> None:
-        self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
-        self._closables.append(self._events)
         for name, kind, handler in (
             ("get_parameters", "GetParameters", self._get),
             ("set_parameters", "SetParameters", self._set),

@@ -157,3 +157,12 @@ message = deserialize_message(data, get_message(kinds[topic]))
 assert message.data == 'hello' and stamp > 10**18
 """
     )
+
+
+def test_other_serialization_formats_are_refused(tmp_path: Path) -> None:
+    options = _written(tmp_path / "bag", "mcap")
+    with pytest.raises(RuntimeError, match="Could not find converter for format json"):
+        SequentialReader().open(options, ConverterOptions("", "json"))
+    options.uri = str(tmp_path / "other")
+    with pytest.raises(RuntimeError, match="messages of a bag are cdr here"):
+        SequentialWriter().open(options, ConverterOptions("json", "cdr"))

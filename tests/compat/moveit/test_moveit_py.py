@@ -20,7 +20,7 @@ from gazelle.compat.moveit.py import planning
 from gazelle.compat.moveit.py.kinematic_constraints import construct_joint_constraint
 from gazelle.compat.moveit.py.robot import RobotState
 from gazelle.compat.moveit.py.scene import PlanningScene
-from gazelle.interfaces import fill, message_type
+from gazelle.interfaces import fill, message_type, service_type
 from gazelle.nodes.move_group.execution import ExecutionStatus
 
 
@@ -56,6 +56,10 @@ def test_tutorial_of_moveit_py(moveit: planning.MoveItPy) -> None:
     plan = arm.plan()
     assert plan and plan.trajectory is not None and plan.trajectory.duration > 1.0
     assert moveit.execute(plan.trajectory) is ExecutionStatus.SUCCEEDED
+    part = plan.trajectory.get_robot_trajectory_msg([JOINTS[2], JOINTS[0]]).joint_trajectory
+    whole = plan.trajectory.get_robot_trajectory_msg().joint_trajectory
+    assert part.joint_names == [JOINTS[0], JOINTS[2]]
+    assert list(part.points[5].positions) == [whole.points[5].positions[i] for i in (0, 2)]
 
     state = RobotState(model)
     state.set_to_default_values("arm", "ready")
@@ -76,8 +80,12 @@ def test_scene_and_states(moveit: planning.MoveItPy) -> None:
     fill(box, box_object("crate", [0.2, 0.2, 0.2], [0.178, 0.0, 0.32]))
     with monitor.read_only() as scene:
         assert not scene.is_state_colliding(joint_model_group_name="arm")
+    color: Any = message_type("moveit_msgs/msg/ObjectColor")(id="crate")
+    color.color.g = 1.0
     with monitor.read_write() as scene:
-        scene.apply_collision_object(box)
+        scene.apply_collision_object(box, color)
+        (shown,) = scene.planning_scene_message.object_colors
+        assert (shown.id, shown.color.g) == ("crate", 1.0)
     with monitor.read_only() as scene:
         assert scene.is_state_colliding(joint_model_group_name="arm")
     arm.set_goal_state(configuration_name="up")
@@ -151,3 +159,12 @@ def test_mistakes_are_told(moveit: planning.MoveItPy) -> None:
         arm.set_goal_state(configuration_name="redy")
     with pytest.raises(RuntimeError, match="there is no parameter 'robot_description'"):
         planning.MoveItPy("other", config_dict={"robot_description_semantic": "<robot/>"})
+
+
+def test_scene_is_told_by_the_service_of_its_node(moveit: planning.MoveItPy, bench: Bench) -> None:  # noqa: F811
+    kind = service_type("moveit_msgs/GetPlanningScene")
+    client = bench.node.create_client("/get_planning_scene", kind)
+    request = kind.Request()
+    request.components.components = 1
+    answer = client.call(request, timeout_s=20.0)
+    assert answer.scene.robot_model_name == moveit.get_robot_model().name

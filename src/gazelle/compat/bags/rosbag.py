@@ -110,7 +110,9 @@ class Bag:
         mode: one of those letters.
         compression: ``none``, ``bz2`` or ``lz4``.
         chunk_threshold: bytes of a full chunk.
-        allow_unindexed: accepted; bags without index are read in any case.
+        allow_unindexed: without effect: bags without index are read in any case.
+        options: ``compression`` and ``chunk_threshold`` once more, which count more.
+        skip_index: without effect: it would only read such a bag a second time.
 
     Raises:
         ValueError: mode or compression are not known.
@@ -128,7 +130,6 @@ class Bag:
         options: dict[str, Any] | None = None,
         skip_index: bool = False,
     ) -> None:
-        del allow_unindexed, skip_index
         chosen = options or {}
         compression = chosen.get("compression", compression)
         if mode not in ("r", "w", "a"):

@@ -71,10 +71,21 @@ class StorageOptions:
 
 @dataclass
 class ConverterOptions:
-    """How messages are written: ``cdr``, whatever is named."""
+    """How messages are written: ``cdr``, the only format here; another one is refused."""
 
     input_serialization_format: str = ""
     output_serialization_format: str = ""
+
+    def check(self) -> None:
+        """See that nothing would have to be converted.
+
+        Raises:
+            RuntimeError: a format is not ``cdr``.
+        """
+        for name in (self.input_serialization_format, self.output_serialization_format):
+            if name not in ("", "cdr"):
+                text = f"Could not find converter for format {name}"
+                raise RuntimeError(f"{text}; messages of a bag are cdr here")
 
 
 class TopicMetadata:
@@ -161,9 +172,9 @@ class SequentialReader:
         """Open a bag.
 
         Raises:
-            RuntimeError: it is not there or cannot be read.
+            RuntimeError: it is not there, cannot be read, or is to be converted.
         """
-        del converter_options
+        (converter_options or ConverterOptions()).check()
         self.open_uri(storage_options.uri)
 
     def open_uri(self, uri: str) -> None:
@@ -271,9 +282,9 @@ class SequentialWriter:
         """Create a bag: a folder with ``metadata.yaml``.
 
         Raises:
-            RuntimeError: there is one already, or the storage is not known.
+            RuntimeError: there is one already, it is to be converted, or the storage is not known.
         """
-        del converter_options
+        (converter_options or ConverterOptions()).check()
         name = storage_options.storage_id or get_default_storage_id()
         if name not in _STORAGES:
             text = f"No storage could be initialized: '{name}' is not known"

@@ -49,8 +49,7 @@ def get_msg_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     Raises:
         ROSMsgException: nothing defines it.
     """
-    del rospack
-    _learn(type_)
+    _learn(type_, rospack)
     try:
         if raw:
             return definition(type_, Generation.ROS1).text
@@ -65,8 +64,7 @@ def get_srv_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     Raises:
         ROSMsgException: nothing defines it.
     """
-    del rospack
-    _learn(type_)
+    _learn(type_, rospack)
     package, _, name = type_.partition("/")
     source = find_source(package, "srv", name, Generation.ROS1)
     if source is None:
@@ -154,11 +152,11 @@ def _part(mode: str) -> str:
     return mode[1:]
 
 
-def _learn(type_or_package: str) -> None:
-    """Take the definitions of a package of the workspace into account."""
+def _learn(type_or_package: str, rospack: RosPack | None = None) -> None:
+    """Take the definitions of a package into account, of the workspace unless it is told where."""
     package = type_or_package.partition("/")[0]
     try:
-        folder = Path(RosPack().get_path(package))
+        folder = Path((rospack or RosPack()).get_path(package))
     except ResourceNotFound:
         return
     if (folder / "msg").is_dir() or (folder / "srv").is_dir():

@@ -61,8 +61,14 @@ def kill_nodes(node_names: Sequence[str]) -> tuple[list[str], list[str]]:
 def rosnode_ping(
     node_name: str, max_count: int | None = None, verbose: bool = False, skip_cache: bool = False
 ) -> bool:
-    """Return whether a node is there: the graph forgets one within milliseconds of its end."""
-    del max_count, skip_cache
+    """Return whether a node is there: the graph forgets one within milliseconds of its end.
+
+    Args:
+        node_name: its name.
+        max_count: without effect: one look is an answer.
+        verbose: print it.
+        skip_cache: without effect: nothing is kept.
+    """
     full = STATE.resolved(node_name)
     is_there = full in STATE.open_graph().node_names()
     if verbose:
@@ -73,16 +79,14 @@ def rosnode_ping(
 def rosnode_ping_all(
     verbose: bool = False, skip_cache: bool = False
 ) -> tuple[list[str], list[str]]:
-    """Return the nodes that answer and those that do not."""
-    del skip_cache
+    """Return the nodes that answer and those that do not; nothing is kept to be skipped."""
     names = get_node_names()
     alive = [name for name in names if rosnode_ping(name, verbose=verbose)]
     return alive, [name for name in names if name not in alive]
 
 
 def get_api_uri(master: Master, caller_id: str, skip_cache: bool = False) -> str | None:
-    """Return a node's address, None when there is no such node."""
-    del skip_cache
+    """Return a node's address, None when there is no such node; none is kept to be skipped."""
     try:
         return master.lookupNode(caller_id)
     except MasterError:

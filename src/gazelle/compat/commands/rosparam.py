@@ -75,7 +75,6 @@ def load_str(
     Raises:
         RosParamException: it is no YAML of parameters.
     """
-    del verbose
     start = resolve(default_namespace or "/", client.get_namespace())
     found = []
     for part in _documents(str):
@@ -88,6 +87,8 @@ def load_str(
         space = start
         if isinstance(values, dict) and _NAMESPACE_KEY in values:
             space = resolve(f"{values.pop(_NAMESPACE_KEY)}", start)
+        if verbose:
+            sys.stdout.write(f"reading parameters into namespace [{space}]\n")
         found.append((values, space))
     return found
 

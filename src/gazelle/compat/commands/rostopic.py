@@ -74,8 +74,12 @@ def get_topic_class(
 
 
 def get_topic_list(master: Any = None) -> tuple[list[Row], list[Row]]:
-    """Return name, type and nodes of published and of subscribed topics."""
-    del master
+    """Return name, type and nodes of published and of subscribed topics.
+
+    Args:
+        master: without effect: a `rosgraph.Master` answers from the same graph, and has said so
+            where it was made for another one.
+    """
     topics = STATE.open_graph().topics()
     rows = [(one, ros1_type_of(one.type_name)) for one in topics]
     publishers = [(one.name, kind, list(one.publishers)) for one, kind in rows if one.publishers]

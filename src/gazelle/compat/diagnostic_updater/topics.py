@@ -27,7 +27,7 @@ class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
         self.addTask(self.freq)
         self.diag.add(self)
 
-    def tick(self, *stamp: Any) -> None:
+    def tick(self) -> None:
         """Count one message."""
         self.freq.tick()
 
@@ -46,7 +46,7 @@ class TopicDiagnostic(HeaderlessTopicDiagnostic):
         self.stamp = TimeStampStatus(stamp)
         self.addTask(self.stamp)
 
-    def tick(self, stamp: Any) -> None:
+    def tick(self, stamp: Any) -> None:  # type: ignore[override]
         """Count one message with its stamp."""
         self.stamp.tick(stamp)
         super().tick()

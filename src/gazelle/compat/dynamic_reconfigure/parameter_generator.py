@@ -153,8 +153,13 @@ class ParameterGenerator:
         return enum_edit_method(rows, description)
 
     def generate(self, pkgname: str, nodename: str, name: str) -> int:
-        """End the file; what was collected becomes the module ``<name>Config``."""
-        del pkgname, nodename
+        """End the file; what was collected becomes the module ``<name>Config``.
+
+        Args:
+            pkgname: without effect: the module is found in the package that the file is in.
+            nodename: without effect: the original writes it into documentation.
+            name: of the module, without ``Config``.
+        """
         FINISHED.append((self, name))
         return 0
 

@@ -77,8 +77,13 @@ def ok(*, context: Context | None = None) -> bool:
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Leave the graph. After a signal this ends what the signal began."""
-    del uninstall_handlers
+    """Leave the graph. After a signal this ends what the signal began.
+
+    Args:
+        context: the default one when None.
+        uninstall_handlers: without effect: they pass signals on to what was there before, and do
+            nothing else once the context is shut down.
+    """
     (context or get_default_context()).shutdown()
     if context is None:
         _executors.clear()

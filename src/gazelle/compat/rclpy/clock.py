@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -11,6 +12,7 @@ from gazelle.compat.rclpy.context import Context, get_default_context
 from gazelle.compat.rclpy.duration import Duration
 from gazelle.compat.rclpy.exceptions import NotInitializedException
 from gazelle.compat.rclpy.time import ClockType, Time
+from gazelle.compat.telling import warn_once
 from gazelle.graph import Clock as GraphClock
 from gazelle.graph import TimeJumpError
 
@@ -19,12 +21,31 @@ __all__ = ["Clock", "ClockChange", "JumpThreshold", "ROSClock", "TimeJump"]
 _SLICE_NS = 100_000_000
 
 
-class JumpThreshold(NamedTuple):
-    """Which jumps a callback hears of; this graph tells jumps backwards."""
+@dataclass(frozen=True, kw_only=True)
+class JumpThreshold:
+    """Which jumps a callback hears of; of jumps forward this graph tells nobody.
+
+    Attributes:
+        min_forward: the shortest one forward, None for none.
+        min_backward: the shortest one backwards, less than nothing; None for none.
+        on_clock_change: hear as well when the source of time changes.
+
+    Raises:
+        ValueError: a threshold has the wrong sign, or there is none.
+    """
 
     min_forward: Duration | None = None
     min_backward: Duration | None = None
-    on_clock_change: bool = False
+    on_clock_change: bool = True
+
+    def __post_init__(self) -> None:
+        """Refuse what rclpy refuses."""
+        if self.min_forward is not None and self.min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if self.min_backward is not None and self.min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        if self.min_forward is None and self.min_backward is None and not self.on_clock_change:
+            raise ValueError("At least one jump threshold must be enabled")
 
 
 class ClockChange(IntEnum):
@@ -141,10 +162,22 @@ class ROSClock(Clock):
         pre_callback: Callable[[], Any] | None = None,
         post_callback: Callable[[TimeJump], Any] | None = None,
     ) -> None:
-        """Call back when simulated time jumps backwards."""
-        del threshold
+        """Call back when simulated time jumps backwards, as far as `threshold` wants.
+
+        Raises:
+            ValueError: there is nothing to call.
+        """
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        least = threshold.min_backward
+        if threshold.min_forward is not None:
+            warn_once("create_jump_callback: jumps of time forward are not told, only backwards")
+        elif least is None:
+            warn_once("create_jump_callback: of a clock's changes only jumps backwards are told")
 
         def on_jump(delta_ns: int) -> None:
+            if least is None or delta_ns > least.nanoseconds:
+                return
             if pre_callback is not None:
                 pre_callback()
             if post_callback is not None:

@@ -124,11 +124,14 @@ _PREVIOUS: dict[int, Any] = {}
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
-    """Return the context that is used where none is named."""
-    del shutting_down
+    """Return the context that is used where none is named.
+
+    Args:
+        shutting_down: give it up, so that the next call makes another one.
+    """
     if not _DEFAULT:
         _DEFAULT.append(Context())
-    return _DEFAULT[0]
+    return _DEFAULT.pop() if shutting_down else _DEFAULT[0]
 
 
 def handle_signals() -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.annotations import MsgType, SrvType, SrvTypeRequest, SrvTypeResponse
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
-from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, announced_qos
+from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, announced_qos, tell_unusual_qos
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
@@ -88,7 +88,6 @@ class Publisher:
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
         """Return True: what was sent is on its way in order, and needs no word back."""
-        del timeout
         return not self._node.is_destroyed
 
     def get_subscription_count(self) -> int:
@@ -184,8 +183,10 @@ class Service:
         srv_type: Any,
         srv_name: str,
         callback: Callable[[Any, Any], Any],
+        qos: QoSProfile,
         group: CallbackGroup,
     ) -> None:
+        tell_unusual_qos(f"service '{srv_name}'", qos)
         self.srv_type = srv_type
         self.srv_name = srv_name
         self.callback = callback
@@ -215,7 +216,10 @@ class Service:
 class Client:
     """Calls a service; made by `Node.create_client`."""
 
-    def __init__(self, node: Node, srv_type: Any, srv_name: str, group: CallbackGroup) -> None:
+    def __init__(
+        self, node: Node, srv_type: Any, srv_name: str, qos: QoSProfile, group: CallbackGroup
+    ) -> None:
+        tell_unusual_qos(f"client of '{srv_name}'", qos)
         self.srv_type = srv_type
         self.srv_name = srv_name
         self.callback_group = group

@@ -42,6 +42,9 @@ class Executor:
         self._tasks: deque[tuple[Task, Work | None]] = deque()
         self._changed = threading.Condition()
         self._is_shutdown = False
+        # Callbacks that have been handed out and have not returned; those of one thread.
+        self._running_count = 0
+        self._own = threading.local()
         self._context.add_waker(self.wake)
 
     def __enter__(self) -> Executor:
@@ -86,13 +89,26 @@ class Executor:
             self._changed.notify_all()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """End spinning; True when all callbacks have ended in time."""
-        del timeout_sec
+        """End spinning and wait for the callbacks that run in other threads.
+
+        Args:
+            timeout_sec: the longest wait, None or a negative one for any.
+
+        Returns:
+            Whether all of them have ended.
+        """
         self._is_shutdown = True
         for node in self.get_nodes():
             self.remove_node(node)
         self.wake()
-        return True
+        own = self._own_count()
+        limit_s = None if timeout_sec is None or timeout_sec < 0 else timeout_sec
+        with self._changed:
+            return self._changed.wait_for(lambda: self._running_count <= own, limit_s)
+
+    def _own_count(self) -> int:
+        """Return how many callbacks of this executor the calling thread is in."""
+        return getattr(self._own, "count", 0)
 
     def spin(self) -> None:
         """Run callbacks until the shutdown.
@@ -151,6 +167,7 @@ class Executor:
                     raise self._end()
                 found = self._next()
                 if found is not None:
+                    self._running_count += 1
                     return found
                 left_s = None if deadline is None else deadline - _now()
                 if left_s is not None and left_s <= 0:
@@ -180,7 +197,14 @@ class Executor:
 
     def _step(self, task: Task, work: Work | None) -> None:
         """Run a task up to its end or its next `await`."""
-        awaited = task.step()
+        self._own.count = self._own_count() + 1
+        try:
+            awaited = task.step()
+        finally:
+            self._own.count -= 1
+            with self._changed:
+                self._running_count -= 1
+                self._changed.notify_all()
         if awaited is not None:
             awaited.wake_with(lambda _future: self._put(task, work))
         elif work is not None:
@@ -211,10 +235,10 @@ class MultiThreadedExecutor(Executor):
         self._running: list[tuple[_PoolFuture[None], Task, Work | None]] = []
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """End spinning and wait for the callbacks that run."""
-        super().shutdown(timeout_sec)
-        self._pool.shutdown(wait=timeout_sec != 0)
-        return True
+        """End spinning and wait for the callbacks that run, see `Executor.shutdown`."""
+        all_over = super().shutdown(timeout_sec)
+        self._pool.shutdown(wait=False)
+        return all_over
 
     def _spin_once(
         self, timeout_sec: float | None, until: Callable[[], bool] = lambda: False

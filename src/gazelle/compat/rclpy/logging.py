@@ -116,8 +116,13 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: LoggingSeverity | int, detailed_error: bool = False) -> None:
-    """Say nothing below a level under this name; UNSET takes that back."""
-    del detailed_error
+    """Say nothing below a level under this name; UNSET takes that back.
+
+    Args:
+        name: of the logger.
+        level: the least that is said.
+        detailed_error: without effect: setting a level does not fail here.
+    """
     _levels[name] = LoggingSeverity(level)
 
 

@@ -93,7 +93,6 @@ class Node(ParameterHolder, GraphQueries):
     ) -> None:
         from gazelle.compat.rclpy.arguments import RosArguments, parse_ros_arguments
 
-        del start_parameter_services
         self.context = context or get_default_context()
         if not self.context.ok():
             raise NotInitializedException
@@ -124,7 +123,7 @@ class Node(ParameterHolder, GraphQueries):
                     self._logger.set_level(logging.get_logging_severity_from_string(level))
             overrides = {**given.parameters(self._rcl_full), **own.parameters(self._rcl_full)}
             overrides |= {one.name: one.value for one in parameter_overrides or []}
-            self.__offer_parameters(overrides, allow_undeclared_parameters)
+            self.__make_parameters(overrides, allow_undeclared_parameters, start_parameter_services)
             self.__offer_type_descriptions()
             if enable_logger_service:
                 offer_logger_levels(self)
@@ -285,10 +284,9 @@ class Node(ParameterHolder, GraphQueries):
         Raises:
             AttributeError: the type is none of ROS 2.
         """
-        del qos_profile
         check_type(srv_type, "srv")
         group = callback_group or self._default_callback_group
-        return self.__keep(Service(self, srv_type, srv_name, callback, group))
+        return self.__keep(Service(self, srv_type, srv_name, callback, qos_profile, group))
 
     def create_client(
         self,
@@ -303,10 +301,9 @@ class Node(ParameterHolder, GraphQueries):
         Raises:
             AttributeError: the type is none of ROS 2.
         """
-        del qos_profile
         check_type(srv_type, "srv")
         group = callback_group or self._default_callback_group
-        return self.__keep(Client(self, srv_type, srv_name, group))
+        return self.__keep(Client(self, srv_type, srv_name, qos_profile, group))
 
     def create_timer(
         self,
@@ -449,7 +446,9 @@ class Node(ParameterHolder, GraphQueries):
     def __logger_name(self) -> str:
         return self._rcl_full.strip("/").replace("/", ".")
 
-    def __offer_parameters(self, overrides: dict[str, Any], allow_undeclared: bool) -> None:
+    def __make_parameters(
+        self, overrides: dict[str, Any], allow_undeclared: bool, services: bool
+    ) -> None:
         self._rcl_overrides = overrides
         self._rcl_allow_undeclared = allow_undeclared
         self._rcl_uninitialized = {}
@@ -463,6 +462,7 @@ class Node(ParameterHolder, GraphQueries):
             strict=True,
             run=self.__run_parameters,
             now_ns=self._clock.now_ns,
+            services=services,
         )
         self._rcl_take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
 

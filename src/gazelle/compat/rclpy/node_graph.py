@@ -84,8 +84,7 @@ class GraphQueries:
         return [(name, namespace) for namespace, name in found]
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """Return all topics."""
-        del no_demangle
+        """Return all topics; `no_demangle` changes nothing, as in rmw_zenoh."""
         topics = self._rcl_graph.topics(include_hidden=True)
         return [(one.name, [one.type_name]) for one in topics]
 
@@ -102,15 +101,13 @@ class GraphQueries:
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return what a node publishes."""
-        del no_demangle
+        """Return what a node publishes; `no_demangle` changes nothing, as in rmw_zenoh."""
         return _pairs(self.__info(node_name, node_namespace).publications)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return what a node subscribes."""
-        del no_demangle
+        """Return what a node subscribes; `no_demangle` changes nothing, as in rmw_zenoh."""
         return _pairs(self.__info(node_name, node_namespace).subscriptions)
 
     def get_service_names_and_types_by_node(

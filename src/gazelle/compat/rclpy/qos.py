@@ -6,6 +6,7 @@ import enum
 from typing import Any
 
 from gazelle.compat.rclpy.duration import Duration, Infinite
+from gazelle.compat.telling import warn_once
 from gazelle.graph import Qos
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "qos_profile_services_default",
     "qos_profile_system_default",
     "qos_profile_unknown",
+    "tell_unusual_qos",
 ]
 
 
@@ -229,6 +231,16 @@ def announced_qos(profile: QoSProfile) -> Qos:
         profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,
         _limit_ns(profile.liveliness_lease_duration),
     )
+
+
+def tell_unusual_qos(what: str, profile: QoSProfile) -> None:
+    """Say that services and actions are reliable here, where a profile wants something else.
+
+    How many requests may wait is no such thing: none is dropped, whatever the depth.
+    """
+    wanted = announced_qos(profile)
+    if wanted != Qos(depth=wanted.depth):
+        warn_once(f"{what}: its QoS is not heeded; here every request and answer arrives, once")
 
 
 def profile_of(qos: Qos) -> QoSProfile:

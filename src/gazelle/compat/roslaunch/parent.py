@@ -30,8 +30,10 @@ class ROSLaunchParent:
             program's own count, as in roslaunch.
         is_core: start the graph alone.
         port: of the graph.
-        local_only, is_rostest, num_workers, timeout, master_logger_level: accepted; nodes always
-            run on this machine, and there is no master.
+        local_only: without effect: nodes always run on this machine.
+        is_rostest: without effect: tests of a launch are run by ``rostest``.
+        num_workers, timeout, master_logger_level: without effect: they are the master's, and there
+            is none.
         process_listeners: hear of launches that end, by their file; not of single nodes.
         verbose: print each file as it is read.
         force_screen, force_log, force_required: as ``--screen``, ``--log``, ``--required``.
@@ -61,7 +63,6 @@ class ROSLaunchParent:
         sigint_timeout: float = 15.0,
         sigterm_timeout: float = 2.0,
     ) -> None:
-        del local_only, is_rostest, num_workers, timeout, master_logger_level
         self.run_id = run_id
         self._files = [_with_words(one) for one in roslaunch_files or ()]
         self._texts = list(roslaunch_strs or ())
@@ -70,6 +71,8 @@ class ROSLaunchParent:
         self._listeners = list(process_listeners or ())
         self._patience_s = sigint_timeout + sigterm_timeout
         self._processes: list[Process] = []
+        self._auto_terminate = True
+        self._is_shut_down = False
         flags = {
             "--screen": force_screen,
             "--log": force_log,
@@ -87,12 +90,12 @@ class ROSLaunchParent:
         """Start everything.
 
         Args:
-            auto_terminate: accepted; a launch ends with its last node.
+            auto_terminate: `spin` ends with the last launch, and not only with `shutdown`.
 
         Raises:
             RLException: a file does not exist or has errors.
         """
-        del auto_terminate
+        self._auto_terminate = auto_terminate
         for path, words in self._files:
             _check(path, words)
         if self._is_core:
@@ -104,12 +107,12 @@ class ROSLaunchParent:
         atexit.register(self.shutdown)
 
     def spin_once(self) -> bool:
-        """Tell whether something runs still."""
+        """Tell whether something runs still, or would be waited for."""
         for one in [one for one in self._processes if not one.is_alive()]:
             self._processes.remove(one)
             for listener in self._listeners:
                 listener.process_died(one.name, one.exit_code or 0)
-        return bool(self._processes)
+        return bool(self._processes) or not (self._auto_terminate or self._is_shut_down)
 
     def spin(self) -> None:
         """Wait until everything has ended."""
@@ -118,6 +121,7 @@ class ROSLaunchParent:
 
     def shutdown(self) -> None:
         """End everything; twice does nothing."""
+        self._is_shut_down = True
         atexit.unregister(self.shutdown)
         errors: list[str] = []
         for one in self._processes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import uuid
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,6 +14,8 @@ from gazelle.graph import Graph
 from gazelle.workspace import Workspace
 
 __all__ = ["configure_logging", "get_or_generate_uuid", "resolve_launch_arguments"]
+
+_PAUSE_S = 0.1
 
 
 def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
@@ -46,17 +49,23 @@ def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
 
 
 def get_or_generate_uuid(options_runid: str | None, options_wait_for_master: bool = False) -> str:
-    """Return a run's identifier: the one given, the running graph's, or a new one."""
-    del options_wait_for_master
+    """Return a run's identifier: the one given, the running graph's, or a new one.
+
+    Args:
+        options_runid: the one given, if any.
+        options_wait_for_master: wait for a running graph in place of a new one.
+    """
     if options_runid:
         return options_runid
-    try:
-        with Graph.open(role="client") as graph:
-            return str(graph.parameters.get("/run_id"))
-    except (GraphError, KeyError):
-        return str(uuid.uuid1())
+    while True:
+        try:
+            with Graph.open(role="client") as graph:
+                return str(graph.parameters.get("/run_id"))
+        except (GraphError, KeyError):
+            if not options_wait_for_master:
+                return str(uuid.uuid1())
+            time.sleep(_PAUSE_S)
 
 
 def configure_logging(run_id: str) -> None:
     """Do nothing: every launch writes its own log."""
-    del run_id

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from gazelle.compat.rospy.binary import as_binary, as_bytes
@@ -18,6 +19,7 @@ from gazelle.compat.rospy.naming import (
 )
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.rospy.topics import wait_for_message
+from gazelle.compat.telling import warn_once
 from gazelle.errors import GraphError
 from gazelle.graph.names import parse_command_line
 
@@ -69,12 +71,25 @@ def init_node(  # noqa: PLR0917 - rospy's signature
     xmlrpc_port: int = 0,
     tcpros_port: int = 0,
 ) -> None:
-    """Become a node; the ports and `disable_rostime` of ROS have no meaning here.
+    """Become a node.
+
+    Args:
+        name: the last part of its global name.
+        argv: its command line, the program's own when None.
+        anonymous: add a number that makes the name unique.
+        log_level: the least that is told, `rospy.INFO` when None.
+        disable_rostime: stay on wall time whatever ``/use_sim_time`` says.
+        disable_rosout: do not publish what is logged.
+        disable_signals: leave signals to the program.
+        xmlrpc_port: told once: this graph needs no ports of a node's own.
+        tcpros_port: likewise.
 
     Raises:
         ROSException: the name is not legal, or the graph cannot be joined.
     """
-    del disable_rostime, xmlrpc_port, tcpros_port
+    for what, port in (("xmlrpc_port", xmlrpc_port), ("tcpros_port", tcpros_port)):
+        if port:
+            warn_once(f"init_node: nothing listens at {what} {port}; this graph has no such ports")
     if not name:
         raise ValueError("name must not be empty")
     STATE.init(
@@ -82,6 +97,7 @@ def init_node(  # noqa: PLR0917 - rospy's signature
         argv,
         anonymous=anonymous,
         log_level=log_level,
+        disable_rostime=disable_rostime,
         disable_rosout=disable_rosout,
         disable_signals=disable_signals,
     )
@@ -144,9 +160,16 @@ def get_node_uri() -> str | None:
     return None if node is None else f"zenoh://127.0.0.1:{node.graph.port}/{node.graph.zid}"
 
 
-def get_ros_root(required: bool = False, env: Any = None) -> None:
-    """Return None: there is no ROS installation to point at."""
-    del required, env
+def get_ros_root(required: bool = False, env: Mapping[str, str] | None = None) -> str | None:
+    """Return ``ROS_ROOT``, None where it is not set.
+
+    Raises:
+        ROSException: it is not set, and is required.
+    """
+    found = (os.environ if env is None else env).get("ROS_ROOT")
+    if required and not found:
+        raise ROSException("ROS_ROOT is not set")
+    return found
 
 
 def load_command_line_node_params(argv: Sequence[str]) -> None:
@@ -226,8 +249,11 @@ def get_published_topics(namespace: str = "/") -> list[list[str]]:
 
 
 def get_master(env: Any = None) -> MasterProxy:
-    """Return what answers the questions that programs ask a ROS master."""
-    del env
+    """Return what answers the questions that programs ask a ROS master.
+
+    Args:
+        env: without effect, as in rospy.
+    """
     return MasterProxy()
 
 
@@ -259,11 +285,13 @@ class MasterProxy(Master):
     """The master's answers, and the parameters as a mapping (rospy.msproxy).
 
     Args:
-        uri: taken and without effect: there is one graph.
+        uri: told once where it is not ``ROS_MASTER_URI``, whose graph it is in any case.
     """
 
     def __init__(self, uri: str = "") -> None:
-        del uri
+        from gazelle.compat.rosgraph import warn_of_master
+
+        warn_of_master(uri)
 
     def __getitem__(self, key: str) -> Any:
         return get_param(key)

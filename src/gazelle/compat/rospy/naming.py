@@ -102,7 +102,6 @@ def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -
         caller_id: the node whose namespace counts, or None for this one.
         resolved: taken and without effect, as in rospy.
     """
-    del resolved
     found = get_mappings().get(name)
     return name if found is None else _names.resolve_name(found, caller_id or get_caller_id())
 
@@ -134,12 +133,11 @@ def valid_name_validator_resolved(param_name: str, param_value: object, caller_i
 
 
 def valid_name_validator_unresolved(param_name: str, param_value: object, caller_id: str) -> str:
-    """Return a name as it is.
+    """Return a name as it is; `caller_id` is there for all validators to be called alike.
 
     Raises:
         ParameterInvalid: it is no text, empty, or has a colon or a blank.
     """
-    del caller_id
     if not isinstance(param_value, str) or not param_value:
         raise ParameterInvalid(f"ERROR: parameter [{param_name}] must be a non-empty string")
     if ":" in param_value or " " in param_value:
@@ -157,7 +155,6 @@ def global_name(param_name: str) -> Validator:
     """Return a check of names that takes global ones only."""
 
     def check(param_value: object, caller_id: str) -> str:
-        del caller_id
         if not isinstance(param_value, str) or not param_value:
             raise ParameterInvalid(f"ERROR: parameter [{param_name}] must be a non-empty string")
         if not _names.is_global(param_value):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInterruptException, ServiceException
-from gazelle.compat.rospy.log import logerr
+from gazelle.compat.rospy.log import logdebug, logerr
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.rospy.topics import message_of, warn_of_headers
 from gazelle.errors import GazelleError
@@ -24,6 +24,7 @@ class Service:
         name: any legal name.
         service_class: service class.
         handler: takes a request; returns a response, or what a response is made of.
+        buff_size: without effect: no bytes are read from a socket here.
         error_handler: told about exceptions of the handler: (exception, type, value, traceback).
     """
 
@@ -35,7 +36,6 @@ class Service:
         buff_size: int = 65536,
         error_handler: Callable[..., Any] | None = None,
     ) -> None:
-        del buff_size
         node = STATE.require(f"Service('{name}')")
         self.resolved_name = STATE.resolved(name)
         self.service_class = service_class
@@ -50,7 +50,7 @@ class Service:
 
     def shutdown(self, reason: str = "") -> None:
         """Stop answering."""
-        del reason
+        logdebug(f"[{self.resolved_name}].shutdown: reason [{reason}]")
         self._impl.unregister()
 
     def spin(self) -> None:
@@ -116,7 +116,6 @@ class ServiceProxy:
         persistent: bool = False,
         headers: dict[str, str] | None = None,
     ) -> None:
-        del persistent
         warn_of_headers(headers)
         self.resolved_name = STATE.resolved(name)
         self.service_class = service_class
@@ -171,6 +170,7 @@ class ServiceProxy:
                     None,
                     anonymous=True,
                     log_level=None,
+                    disable_rostime=False,
                     disable_rosout=True,
                     disable_signals=True,
                 )

@@ -97,6 +97,7 @@ class NodeState:
         *,
         anonymous: bool,
         log_level: int | None,
+        disable_rostime: bool,
         disable_rosout: bool,
         disable_signals: bool,
     ) -> None:
@@ -121,6 +122,8 @@ class NodeState:
             except GazelleError as error:
                 raise ROSException(str(error)) from error
             self.node.outlives = True
+        if disable_rostime:
+            graph.clock.use(False)
         keep_log(self.node, self.line.special.get("__log", ""))
         self.node.log_level = _LEVELS.get(log_level or 2, Level.INFO)
         offer_loggers(self.node, "rosout")

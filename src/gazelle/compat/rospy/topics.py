@@ -104,6 +104,7 @@ class Publisher(Topic):
         data_class: message class.
         subscriber_listener: told about subscribers.
         latch: give late subscribers the last message.
+        tcp_nodelay: without effect: the graph sends at once in any case.
         queue_size: told to others; the graph sends at once, so nothing waits here.
     """
 
@@ -118,7 +119,6 @@ class Publisher(Topic):
         queue_size: int | None = None,
     ) -> None:
         super().__init__(name, data_class, "pub")
-        del tcp_nodelay
         warn_of_headers(headers)
         if queue_size is None:
             warnings.warn(
@@ -210,6 +210,8 @@ class Subscriber(Topic):
         data_class: message class, or `rospy.AnyMsg` for raw bytes of any type.
         callback: takes the message, and `callback_args` when that is not None.
         queue_size: most messages that wait; None for no limit.
+        buff_size: without effect: messages come whole, so a large one needs no larger buffer.
+        tcp_nodelay: without effect: the graph sends at once in any case.
     """
 
     def __init__(
@@ -223,7 +225,6 @@ class Subscriber(Topic):
         tcp_nodelay: bool = False,
     ) -> None:
         super().__init__(name, data_class, "sub")
-        del buff_size, tcp_nodelay
         self.callback = callback
         self.callback_args = callback_args
         self._headers: dict[bytes, dict[str, str]] = {}

@@ -5,18 +5,23 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from typing import Any
+from weakref import WeakSet
 
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.tf.conversions import generation, nanoseconds, stamped, time_of
 from gazelle.compat.tf.errors import TransformException, as_tf2_error
 from gazelle.compat.tf.interface import BufferInterface
+from gazelle.graph import Node
 from gazelle.graph import tf as graph_tf
+from gazelle.interfaces import ros1_service_type, service_type
 from gazelle.interfaces.poses import pose_of_transform
 
 __all__ = ["Buffer"]
 
 _SLICE_S = 0.1
+# Nodes whose service tells frames.
+_ASKED: WeakSet[Node] = WeakSet()
 
 
 class Buffer(BufferInterface):
@@ -25,15 +30,20 @@ class Buffer(BufferInterface):
     Args:
         cache_time: how far back, a Duration.
         node: of rclpy; its transforms take the form of ROS 2. In rospy programs this place is
-            ``debug``, whose service ``tf2_frames`` is not offered.
+            ``debug``.
+        debug: offer rospy's node's service ``~tf2_frames``; rclpy's node offers ``tf2_frames``.
     """
 
     def __init__(self, cache_time: Any = None, node: Any = None, debug: bool = True) -> None:
         super().__init__()
-        del debug
         self._node = node if hasattr(node, "graph_node") else None
         cache_ns = nanoseconds(cache_time) if cache_time is not None else 10_000_000_000
         self.core = graph_tf.TransformBuffer(cache_ns, on_warning=self._warn)
+        if self._node is not None:
+            kind = service_type("tf2_msgs/srv/FrameGraph")
+            self._offer_frames(self._node.graph_node, "tf2_frames", kind)
+        elif debug and node is not False and STATE.node is not None:
+            self._offer_frames(STATE.node, "~tf2_frames", ros1_service_type("tf2_msgs/FrameGraph"))
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = 0
@@ -219,6 +229,19 @@ class Buffer(BufferInterface):
             if is_there():
                 future.set_result(True)
                 return
+
+    def _offer_frames(self, owner: Node, name: str, kind: Any) -> None:
+        """Answer with all frames; as in tf2_ros the first buffer of a node does."""
+        if owner in _ASKED:
+            return
+        _ASKED.add(owner)
+
+        def answer(_request: object) -> Any:
+            response = (kind.Response if hasattr(kind, "Response") else kind._response_class)()
+            response.frame_yaml = self.all_frames_as_yaml()
+            return response
+
+        owner.create_service(name, kind, answer)
 
     def _warn(self, text: str) -> None:
         if self._node is not None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.telling import warn_once
 from gazelle.compat.tf.buffer import Buffer
-from gazelle.graph import Node
+from gazelle.graph import Node, Qos
 from gazelle.graph import tf as graph_tf
 
 __all__ = ["StaticTransformBroadcaster", "TransformBroadcaster", "TransformListener"]
@@ -18,15 +19,37 @@ class TransformListener:
     Args:
         buffer: is filled.
         node: of rclpy. In rospy programs this place is ``queue_size``.
-        options: ``spin_thread``, ``qos``, ``static_qos`` of rclpy, ``queue_size``, ``buff_size``,
-            ``tcp_nodelay`` of rospy: nothing here depends on them.
+        buff_size, tcp_nodelay, queue_size: of rospy; without effect, for frames are taken as they
+            come.
+        spin_thread: of rclpy; without effect, for frames come in a thread of their own.
+        qos, static_qos: of rclpy; without effect, for this graph connects ends of any quality and
+            every frame that reaches the process is taken.
+        tf_topic, tf_static_topic: of rclpy: where frames come from.
     """
 
-    def __init__(self, buffer: Buffer, node: Any = None, *_more: Any, **_options: Any) -> None:
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Any = None,
+        buff_size: int = 65536,
+        tcp_nodelay: bool = False,
+        *,
+        queue_size: int | None = None,
+        spin_thread: bool = False,
+        qos: Any = None,
+        static_qos: Any = None,
+        tf_topic: str = "/tf",
+        tf_static_topic: str = "/tf_static",
+    ) -> None:
         self.buffer = buffer
         if hasattr(node, "graph_node"):
             buffer.use_node(node)
-        self._listener = graph_tf.TransformListener(buffer.core, _node(node, "TransformListener"))
+        self._listener = graph_tf.TransformListener(
+            buffer.core,
+            _node(node, "TransformListener"),
+            moving=tf_topic,
+            static=tf_static_topic,
+        )
 
     def unregister(self) -> None:
         """Stop listening."""
@@ -38,11 +61,12 @@ class TransformBroadcaster:
 
     Args:
         node: of rclpy; rospy programs give none.
+        qos: of rclpy: a profile or a depth, which others are told.
     """
 
     def __init__(self, node: Any = None, qos: Any = None) -> None:
-        del qos
-        self._core = graph_tf.TransformBroadcaster(_node(node, "TransformBroadcaster"))
+        owner = _node(node, "TransformBroadcaster")
+        self._core = graph_tf.TransformBroadcaster(owner, qos=_announced(qos))
 
     def sendTransform(self, transform: Any) -> None:
         """Send one ``TransformStamped`` or a list of them."""
@@ -54,15 +78,27 @@ class StaticTransformBroadcaster:
 
     Args:
         node: of rclpy; rospy programs give none.
+        qos: of rclpy; told once where it would keep frames from late listeners.
     """
 
     def __init__(self, node: Any = None, qos: Any = None) -> None:
-        del qos
+        wanted = _announced(qos)
+        if wanted is not None and not wanted.latched:
+            warn_once("StaticTransformBroadcaster: late listeners get its frames whatever the QoS")
         self._core = graph_tf.StaticTransformBroadcaster(_node(node, "StaticTransformBroadcaster"))
 
     def sendTransform(self, transform: Any) -> None:
         """Send one ``TransformStamped`` or a list of them."""
         self._core.send(transform)
+
+
+def _announced(qos: Any) -> Qos | None:
+    """Return what others are told of rclpy's QoS, None for the usual."""
+    if qos is None:
+        return None
+    from gazelle.compat.rclpy.qos import announced_qos, as_profile
+
+    return announced_qos(as_profile(qos))
 
 
 def _node(node: Any, who: str) -> Node:

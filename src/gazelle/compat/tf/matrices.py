@@ -274,9 +274,8 @@ def superimposition_matrix(
         v0: points, one a column.
         v1: where they should be.
         scaling: find a common scale as well (Umeyama 1991, with the ratio of the spreads).
-        usesvd: accepted; both ways of the original give the same.
+        usesvd: without effect: both ways of the original give the same.
     """
-    del usesvd
     first, second = np.asarray(v0, float)[:3], np.asarray(v1, float)[:3]
     here, there = first.mean(axis=1), second.mean(axis=1)
     first, second = first - here[:, None], second - there[:, None]

@@ -48,13 +48,12 @@ class Transformer:
     """Keeps transforms; names may start with a slash, as in tf's days.
 
     Args:
-        interpolate: accepted; it always does.
+        interpolate: without effect, as in tf since it rests on tf2: it always does.
         cache_time: how far back, a Duration.
     """
 
     def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
-        del interpolate
-        self._buffer = tf2_ros.Buffer(cache_time)
+        self._buffer = tf2_ros.Buffer(cache_time, debug=False)
 
     def lookupTransform(
         self, target_frame: str, source_frame: str, time: Any
@@ -100,12 +99,11 @@ class Transformer:
         timeout: Any,
         polling_sleep_duration: Any = None,
     ) -> None:
-        """Wait until the transform is known.
+        """Wait until the transform is known, which is heard of and not polled.
 
         Raises:
             Exception: it was not in time; the text says why.
         """
-        del polling_sleep_duration
         self._buffer.lookup_transform(_bare(target_frame), _bare(source_frame), time, timeout)
 
     def canTransformFull(
@@ -131,19 +129,17 @@ class Transformer:
         timeout: Any,
         polling_sleep_duration: Any = None,
     ) -> None:
-        """Wait until the transform between two times is known.
+        """Wait until the transform between two times is known, heard of and not polled.
 
         Raises:
             Exception: it was not in time; the text says why.
         """
-        del polling_sleep_duration
         target, source, fixed = map(_bare, (target_frame, source_frame, fixed_frame))
         times = target_time, source_time
         self._buffer.lookup_transform_full(target, times[0], source, times[1], fixed, timeout)
 
     def setUsingDedicatedThread(self, value: bool) -> None:
         """Take either: frames always come in a thread of their own."""
-        del value
 
     def getLatestCommonTime(self, source_frame: str, dest_frame: str) -> Time:
         """Return the latest time that all frames in between know.
@@ -175,8 +171,7 @@ class Transformer:
         source_time: Any,
         fixed_frame: str,
     ) -> list[str]:
-        """Return the frames from source to target."""
-        del target_time, source_time, fixed_frame
+        """Return the frames from source to target, which are the same at all times."""
         try:
             return self._buffer.core.chain(_bare(target_frame), _bare(source_frame))
         except graph_tf.TransformError as error:
@@ -187,9 +182,9 @@ class Transformer:
         return self._buffer.all_frames_as_string()
 
     def allFramesAsDot(self, current_time: Any = None) -> str:
-        """Return all frames as a Graphviz graph; their ages do not depend on a time given."""
-        del current_time
-        return graph_tf.frames_as_dot(self._buffer.core)
+        """Return all frames as a Graphviz graph, recorded at a time when one is given."""
+        now_ns = 0 if current_time is None else tf2_ros.nanoseconds(current_time)
+        return graph_tf.frames_as_dot(self._buffer.core, now_ns)
 
     def clear(self) -> None:
         """Forget all moving frames."""
@@ -269,11 +264,15 @@ class TransformListener(TransformerROS):
 
 
 class TransformBroadcaster:
-    """Sends frames."""
+    """Sends frames.
+
+    Args:
+        queue_size: told to others; the graph sends at once, so nothing waits here.
+    """
 
     def __init__(self, queue_size: int = 100) -> None:
-        del queue_size
-        self._core = graph_tf.TransformBroadcaster(STATE.require("TransformBroadcaster"))
+        node = STATE.require("TransformBroadcaster")
+        self._core = graph_tf.TransformBroadcaster(node, queue_size=queue_size)
 
     def sendTransform(
         self, translation: Translation, rotation: Quaternion, time: Any, child: str, parent: str

@@ -12,6 +12,7 @@ from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import set_header
 
 if TYPE_CHECKING:
+    from gazelle.graph.keys import Qos
     from gazelle.graph.node import Node
 
 __all__ = ["StaticTransformBroadcaster", "TransformBroadcaster", "to_message"]
@@ -22,10 +23,18 @@ _TYPE = "tf2_msgs/msg/TFMessage"
 class TransformBroadcaster:
     """Publishes moving frames on ``/tf``."""
 
-    def __init__(self, node: Node) -> None:
-        """Offer ``/tf``."""
+    def __init__(self, node: Node, *, queue_size: int = 100, qos: Qos | None = None) -> None:
+        """Offer ``/tf``.
+
+        Args:
+            node: the node that publishes.
+            queue_size: told to others.
+            qos: likewise, in place of the queue's size.
+        """
         self._message_class = resolve_type(_TYPE)
-        self._publisher = node.create_publisher("/tf", self._message_class, queue_size=100)
+        self._publisher = node.create_publisher(
+            "/tf", self._message_class, queue_size=queue_size, qos=qos
+        )
 
     def send(self, transforms: StampedPose | Iterable[Any] | Any) -> None:
         """Send one or several transforms: `StampedPose` or ``geometry_msgs/TransformStamped``."""

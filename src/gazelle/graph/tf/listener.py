@@ -24,13 +24,27 @@ class TransformListener:
     Moving frames are forgotten when simulated time goes backwards.
     """
 
-    def __init__(self, buffer: TransformBuffer, node: Node) -> None:
-        """Start to listen."""
+    def __init__(
+        self,
+        buffer: TransformBuffer,
+        node: Node,
+        *,
+        moving: str = "/tf",
+        static: str = "/tf_static",
+    ) -> None:
+        """Start to listen.
+
+        Args:
+            buffer: is filled.
+            node: the node that subscribes.
+            moving: topic of frames that move.
+            static: topic of frames that do not.
+        """
         self.buffer = buffer
         message_class = resolve_type(_TYPE)
         self._subscriptions = [
             node.create_subscription(topic, message_class, callback, queue_size=100, with_info=True)
-            for topic, callback in (("/tf", self._on_moving), ("/tf_static", self._on_static))
+            for topic, callback in ((moving, self._on_moving), (static, self._on_static))
         ]
         node.clock.on_jump(self._on_jump)
 

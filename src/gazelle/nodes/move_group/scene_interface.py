@@ -9,7 +9,7 @@ from gazelle.interfaces import service_type
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.planning_scene_messages import Components
 
-__all__ = ["offer_scene", "offer_scene_topics"]
+__all__ = ["offer_scene", "offer_scene_answers", "offer_scene_topics"]
 
 _GET = "moveit_msgs/GetPlanningScene"
 _APPLY = "moveit_msgs/ApplyPlanningScene"
@@ -20,12 +20,18 @@ def offer_scene(context: MoveGroupContext) -> None:
     """Listen to the topics and offer the services."""
     node = context.node
     offer_scene_topics(context)
-    node.create_service("get_planning_scene", service_type(_GET), lambda r: _get(context, r))
+    offer_scene_answers(context)
     node.create_service("apply_planning_scene", service_type(_APPLY), lambda r: _apply(context, r))
     node.create_service("clear_octomap", service_type(_EMPTY), _cleared)
     node.create_subscription(
         "trajectory_execution_event", "std_msgs/msg/String", lambda m: _event(context, m)
     )
+
+
+def offer_scene_answers(context: MoveGroupContext) -> None:
+    """Offer the service that tells the scene."""
+    kind = service_type(_GET)
+    context.node.create_service("get_planning_scene", kind, lambda r: _get(context, r))
 
 
 def offer_scene_topics(context: MoveGroupContext) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -120,10 +120,11 @@ class SceneMonitor:
             self._node.log("warn", f"planning scene: {problem}")
         return not problems
 
-    def replace(self, scene: PlanningScene) -> None:
-        """Take a scene in place of the present one."""
+    def replace(self, scene: PlanningScene, colors: Mapping[str, Any]) -> None:
+        """Take a scene in place of the present one, and the colours of some of its objects."""
         with self._lock:
             self._scene = scene
+            self._colors.update(colors)
         self._tell_change()
 
     def apply_world(self, message: Any) -> bool:

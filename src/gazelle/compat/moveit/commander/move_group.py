@@ -9,6 +9,7 @@ from gazelle.compat.moveit.commander.conversions import pose_of_list
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.group_targets import GroupTargets
 from gazelle.compat.moveit.commander.session import client_of, robot_of, ros1
+from gazelle.compat.telling import warn_once
 from gazelle.interfaces import action_type, convert, message_type, service_type
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.constraint_messages import pose_of
@@ -20,6 +21,7 @@ __all__ = ["MoveGroupCommander", "PlanResult"]
 
 _MOVE = action_type("moveit_msgs/MoveGroup")
 _SUCCESS = 1
+_TIME_OPTIMAL = "time_optimal_trajectory_generation"
 _NO_PICK = (
     "cannot {}: move_group offers no actions 'pickup' and 'place' here. The same in steps: go() "
     "above it, compute_cartesian_path() down, the gripper's group to its closed state, "
@@ -214,7 +216,6 @@ class MoveGroupCommander(GroupTargets):
         Raises:
             MoveItCommanderException: always, with what does the same.
         """
-        del grasp, plan_only
         raise MoveItCommanderException(_NO_PICK.format(f"pick '{object_name}'"))
 
     def place(self, object_name: str, location: Any = None, plan_only: bool = False) -> int:
@@ -223,7 +224,6 @@ class MoveGroupCommander(GroupTargets):
         Raises:
             MoveItCommanderException: always, with what does the same.
         """
-        del location, plan_only
         raise MoveItCommanderException(_NO_PICK.format(f"place '{object_name}'"))
 
     def set_support_surface_name(self, value: str) -> None:
@@ -253,10 +253,19 @@ class MoveGroupCommander(GroupTargets):
         traj_in: Any,
         velocity_scaling_factor: float = 1.0,
         acceleration_scaling_factor: float = 1.0,
-        algorithm: str = "time_optimal_trajectory_generation",
+        algorithm: str = _TIME_OPTIMAL,
     ) -> Any:
-        """Return a trajectory with new times, time-optimal whatever `algorithm` says."""
-        del ref_state_in, algorithm
+        """Return a trajectory with new times.
+
+        Args:
+            ref_state_in: without effect: the group's joints are all in the trajectory.
+            traj_in: a ``RobotTrajectory``.
+            velocity_scaling_factor: of the velocity limits, 0 to 1.
+            acceleration_scaling_factor: of the acceleration limits, 0 to 1.
+            algorithm: told once where it is another than the time-optimal one.
+        """
+        if algorithm != _TIME_OPTIMAL:
+            warn_once(f"retime_trajectory: '{algorithm}' is not here; it is {_TIME_OPTIMAL}")
         names = list(traj_in.joint_trajectory.joint_names)
         order = [names.index(name) for name in self._group.variables]
         rows = [[p.positions[i] for i in order] for p in traj_in.joint_trajectory.points]

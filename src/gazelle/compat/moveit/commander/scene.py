@@ -23,14 +23,13 @@ class PlanningSceneInterface:
 
     Args:
         ns: namespace of move_group.
-        synchronous: as above either way; kept for programs that say so.
-        service_timeout: not used: a call waits until it is answered.
+        synchronous: without effect: what is asked for at leisure is there at once as well.
+        service_timeout: without effect: who is not answered hears of it in any case.
     """
 
     def __init__(
         self, ns: str = "", synchronous: bool = True, service_timeout: float = 5.0
     ) -> None:
-        del synchronous, service_timeout
         self._client = client_of(ns)
 
     def add_object(self, collision_object: Any) -> None:

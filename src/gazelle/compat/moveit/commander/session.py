@@ -13,17 +13,23 @@ from gazelle.compat.moveit.robot_view import RobotView
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import Node
+from gazelle.graph.names import CommandLine, parse_command_line
 from gazelle.interfaces import convert, ros1_message_type
 
 __all__ = ["client_of", "robot_of", "ros1", "roscpp_initialize", "roscpp_shutdown"]
 
 _numbers = itertools.count()
 _own: list[Node] = []
+_line: list[CommandLine] = []
 
 
 def roscpp_initialize(args: Sequence[str] | None = None) -> None:
-    """Do what must come before `MoveGroupCommander`: join the graph."""
-    del args
+    """Do what must come before `MoveGroupCommander`: join the graph.
+
+    Args:
+        args: a command line, whose ``a:=b`` count for a node of moveit_commander's own.
+    """
+    _line[:] = [parse_command_line([] if args is None else args)]
     STATE.open_graph()
 
 
@@ -41,7 +47,11 @@ def node() -> Node:
         return STATE.node
     if not _own:
         name = f"move_group_commander_wrappers_{os.getpid()}_{next(_numbers)}"
-        _own.append(STATE.open_graph().create_node(name))
+        given = _line[0] if _line else parse_command_line([])
+        made = STATE.open_graph().create_node(
+            name, namespace=given.namespace, remappings=given.remappings
+        )
+        _own.append(made)
     return _own[-1]
 
 

@@ -22,7 +22,7 @@ from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
 from gazelle.nodes.move_group.execution import ExecutionStatus
-from gazelle.nodes.move_group.scene_interface import offer_scene_topics
+from gazelle.nodes.move_group.scene_interface import offer_scene_answers, offer_scene_topics
 from gazelle.workspace import Workspace
 
 __all__ = [
@@ -89,7 +89,7 @@ class MoveItPy:
         node_name: of the node it makes.
         launch_params_filepaths: files of parameters, besides those of the command line.
         config_dict: parameters such as ``MoveItConfigsBuilder(…).to_moveit_configs().to_dict()``.
-        provide_planning_service: not offered; start move_group for it.
+        provide_planning_service: offer ``get_planning_scene``.
 
     Raises:
         RuntimeError: the parameters have no robot.
@@ -103,7 +103,6 @@ class MoveItPy:
         config_dict: Mapping[str, Any] | None = None,
         provide_planning_service: bool = True,
     ) -> None:
-        del provide_planning_service
         files = [word for one in launch_params_filepaths or () for word in ("--params-file", one)]
         words = [*sys.argv[1:], *(["--ros-args", *files] if files else [])]
         arguments = read_arguments(words, node_name, namespace=name_space or "/")
@@ -112,6 +111,8 @@ class MoveItPy:
         self._node = self._graph.create_node(arguments.name, namespace=arguments.namespace)
         self._context = self._made(self.parameters)
         offer_scene_topics(self._context)
+        if provide_planning_service:
+            offer_scene_answers(self._context)
         self._monitor = PlanningSceneMonitor(self._context)
 
     def get_robot_model(self) -> RobotModel:
@@ -149,14 +150,13 @@ class MoveItPy:
             robot_trajectory: of `PlanningComponent.plan`, or a message.
             more: the controllers; where the first word is a group's name, as in Humble, the
                 trajectory and `blocking`.
-            group_name: the trajectory knows its joints by itself.
+            group_name: without effect: the trajectory knows its joints by itself.
             blocking: wait for the end.
             controllers: names of the controllers to use, any when empty.
 
         Returns:
             How it ended, None where that is not waited for; the log says why when it is not well.
         """
-        del group_name
         if isinstance(robot_trajectory, str):
             robot_trajectory, *rest = more
             blocking = rest[0] if rest else blocking

@@ -86,7 +86,6 @@ class RobotState:
 
     def update(self, force: bool = False, category: str = "all") -> None:
         """Do nothing: poses follow positions at once."""
-        del force, category
 
     def get_joint_group_positions(self, joint_model_group_name: str) -> FloatArray:
         """Return the positions of a group, rad or m."""
@@ -189,6 +188,19 @@ class RobotTrajectory:
         return len(self._trajectory.times_s)
 
     def get_robot_trajectory_msg(self, joint_filter: list[str] | None = None) -> Any:
-        """Return the ``RobotTrajectory`` message."""
-        del joint_filter
-        return robot_trajectory(self._trajectory, frame=self.robot_model.model_frame)
+        """Return the ``RobotTrajectory`` message, of the named joints alone when some are named."""
+        made = robot_trajectory(self._trajectory, frame=self.robot_model.model_frame)
+        if joint_filter is not None:
+            _keep_joints(made.joint_trajectory, joint_filter)
+        return made
+
+
+def _keep_joints(trajectory: Any, names: list[str]) -> None:
+    """Leave only some joints in a ``JointTrajectory``, in its own order."""
+    kept = [place for place, name in enumerate(trajectory.joint_names) if name in names]
+    trajectory.joint_names = [trajectory.joint_names[place] for place in kept]
+    for point in trajectory.points:
+        for field in ("positions", "velocities", "accelerations", "effort"):
+            values = getattr(point, field)
+            if len(values):
+                setattr(point, field, [values[place] for place in kept])

@@ -36,6 +36,7 @@ class PlanningScene:
         name: of the scene.
         robot_model: the robot.
         scene: what motion plans in.
+        colors: ``ColorRGBA`` by object, of those that were given one here.
     """
 
     def __init__(self, robot_model: RobotModel, *, context: MoveGroupContext | None = None) -> None:
@@ -43,6 +44,7 @@ class PlanningScene:
         self.name = "(noname)"
         self.robot_model = robot_model
         self._context = context
+        self.colors: dict[str, Any] = {}
         self.scene = MotionScene.of(robot_model._robot)
         if context is not None:
             self.scene = context.monitor.scene
@@ -67,7 +69,7 @@ class PlanningScene:
     def planning_scene_message(self) -> Any:
         """The whole scene as ``moveit_msgs/PlanningScene``."""
         parts = Components.asked(0)
-        return scene_message(self._now(), parts, name=self.name, stamp_ns=0)
+        return scene_message(self._now(), parts, name=self.name, stamp_ns=0, colors=self.colors)
 
     def knows_frame_transform(self, frame_id: str) -> bool:
         """Return whether the scene has a link or object of this name."""
@@ -86,14 +88,16 @@ class PlanningScene:
         return self._frame_of(self._now(), frame_id).matrix()
 
     def apply_collision_object(self, collision_object_msg: Any, color_msg: Any = None) -> bool:
-        """Add, move or remove an object.
+        """Add, move or remove an object, with a colour where an ``ObjectColor`` is given.
 
         Raises:
             MoveGroupError: that cannot be done, with why.
         """
-        del color_msg
         own = convert(collision_object_msg, message_type("moveit_msgs/msg/CollisionObject"))
         self.scene = apply_object(self._now(), own, self._frame_of)
+        if color_msg is not None:
+            color = convert(color_msg, message_type("moveit_msgs/msg/ObjectColor"))
+            self.colors[own.id] = color.color
         return True
 
     def process_attached_collision_object(self, object: Any) -> bool:
@@ -221,7 +225,7 @@ class PlanningSceneMonitor:
         """Give the scene and take it back with what was changed in it."""
         handle = self._made()
         yield handle
-        self._context.monitor.replace(handle.scene)
+        self._context.monitor.replace(handle.scene, handle.colors)
 
     def _made(self) -> PlanningScene:
         return PlanningScene(RobotModel(self._context.robot), context=self._context)

@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
 from gazelle.compat.rclpy.endpoints import check_type
-from gazelle.compat.rclpy.qos import qos_profile_action_status_default
+from gazelle.compat.rclpy.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_services_default,
+)
 from gazelle.compat.rclpy.task import Future
 from gazelle.graph.actions import Ros2Status
 from gazelle.interfaces import message_type, service_type
@@ -21,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
 _POLL_S = 0.05
+_FEEDBACK_DEPTH = 10
 
 
 class ClientGoalHandle:
@@ -94,6 +99,9 @@ class ActionClient:
         action_type: such as ``example_interfaces.action.Fibonacci``.
         action_name: any legal name.
         callback_group: the node's own by default.
+        goal_service_qos_profile, result_service_qos_profile, cancel_service_qos_profile: told
+            once where one asks for less or more than reliable services.
+        feedback_sub_qos_profile, status_sub_qos_profile: of the two topics.
 
     Raises:
         AttributeError: the type is no action of ROS 2.
@@ -106,7 +114,11 @@ class ActionClient:
         action_name: str,
         *,
         callback_group: CallbackGroup | None = None,
-        **_qos: Any,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_sub_qos_profile: QoSProfile | int = _FEEDBACK_DEPTH,
+        status_sub_qos_profile: QoSProfile | int = qos_profile_action_status_default,
     ) -> None:
         check_type(action_type, "action")
         self._node = node
@@ -115,29 +127,33 @@ class ActionClient:
         self._feedback: dict[bytes, Callable[[Any], Any]] = {}
         self._handles: dict[bytes, ClientGoalHandle] = {}
         folder = f"{node.resolve_topic_name(action_name)}/_action"
-        cancel = service_type("action_msgs/srv/CancelGoal")
-        self._send = node.create_client(
-            action_type.SendGoal, f"{folder}/send_goal", callback_group=callback_group
-        )
-        self._cancel = node.create_client(
-            cancel, f"{folder}/cancel_goal", callback_group=callback_group
-        )
-        self._result = node.create_client(
-            action_type.GetResult, f"{folder}/get_result", callback_group=callback_group
+        self._send, self._cancel, self._result = (
+            node.create_client(
+                kind, f"{folder}/{name}", qos_profile=profile, callback_group=callback_group
+            )
+            for kind, name, profile in (
+                (action_type.SendGoal, "send_goal", goal_service_qos_profile),
+                (
+                    service_type("action_msgs/srv/CancelGoal"),
+                    "cancel_goal",
+                    cancel_service_qos_profile,
+                ),
+                (action_type.GetResult, "get_result", result_service_qos_profile),
+            )
         )
         self._topics = (
             node.create_subscription(
                 action_type.FeedbackMessage,
                 f"{folder}/feedback",
                 self._on_feedback,
-                10,
+                feedback_sub_qos_profile,
                 callback_group=callback_group,
             ),
             node.create_subscription(
                 message_type("action_msgs/msg/GoalStatusArray"),
                 f"{folder}/status",
                 self._on_status,
-                qos_profile_action_status_default,
+                status_sub_qos_profile,
                 callback_group=callback_group,
             ),
         )

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
 from gazelle.compat.rclpy.endpoints import check_type
+from gazelle.compat.rclpy.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_services_default,
+    tell_unusual_qos,
+)
 from gazelle.compat.rclpy.work import Once
+from gazelle.compat.telling import warn_once
 from gazelle.graph.actions import ActionServer as _Server
 from gazelle.graph.actions import GoalEvent, GoalStateError, Ros2Status, ServerGoal
 from gazelle.graph.actions.states import next_status, state_error
@@ -182,6 +189,9 @@ class ActionServer:
         goal_callback: takes a goal message, returns `GoalResponse`.
         handle_accepted_callback: takes an accepted goal's handle, and lets it `execute`.
         cancel_callback: takes a goal's handle, returns `CancelResponse`.
+        goal_service_qos_profile, result_service_qos_profile, cancel_service_qos_profile,
+            feedback_pub_qos_profile, status_pub_qos_profile: told once where one asks for
+            something else than an action's own profiles.
         result_timeout: how long results are kept, in seconds.
 
     Raises:
@@ -199,10 +209,23 @@ class ActionServer:
         goal_callback: Callback = default_goal_callback,
         handle_accepted_callback: Callback = default_handle_accepted_callback,
         cancel_callback: Callback = default_cancel_callback,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_pub_qos_profile: QoSProfile = qos_profile_services_default,
+        status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
         result_timeout: float = 900,
-        **_qos: Any,
     ) -> None:
         check_type(action_type, "action")
+        for profile in (
+            goal_service_qos_profile,
+            result_service_qos_profile,
+            cancel_service_qos_profile,
+            feedback_pub_qos_profile,
+        ):
+            tell_unusual_qos(f"action '{action_name}'", profile)
+        if status_pub_qos_profile != qos_profile_action_status_default:
+            warn_once(f"action '{action_name}': its status is latched, whatever QoS is asked for")
         self.action_type = action_type
         self.callback_group = callback_group or node.default_callback_group
         self._node = node

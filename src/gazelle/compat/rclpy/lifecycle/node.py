@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
-from gazelle.compat.rclpy.endpoints import check_type
 from gazelle.compat.rclpy.lifecycle.entities import LifecyclePublisher, ManagedEntity
 from gazelle.compat.rclpy.lifecycle.states import (
     STATES,
@@ -17,7 +16,7 @@ from gazelle.compat.rclpy.lifecycle.states import (
 )
 from gazelle.compat.rclpy.logging import get_logger
 from gazelle.compat.rclpy.node import Node
-from gazelle.compat.rclpy.qos import QoSProfile, as_profile
+from gazelle.compat.rclpy.qos import QoSProfile
 from gazelle.interfaces import message_type, service_type
 
 __all__ = ["LifecycleNode", "LifecycleNodeMixin"]
@@ -130,13 +129,24 @@ class LifecycleNodeMixin(ManagedEntity):
         self.__managed_entities.append(entity)
 
     def create_lifecycle_publisher(
-        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, **_options: Any
+        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, **options: Any
     ) -> LifecyclePublisher:
-        """Offer a topic on which messages go out only while the node is active."""
-        check_type(msg_type, "msg")
+        """Offer a topic on which messages go out only while the node is active.
+
+        Args:
+            msg_type: class of the messages.
+            topic: any legal name.
+            qos_profile: a profile, or the queue's depth.
+            options: the others of `Node.create_publisher`.
+
+        Raises:
+            TypeError: there is no such option.
+        """
         node = self.__node("LifecycleNodeMixin")
-        made = LifecyclePublisher(node, msg_type, topic, as_profile(qos_profile))
-        node.keep_entity(made)
+        made = node.create_publisher(
+            msg_type, topic, qos_profile, **options, publisher_class=LifecyclePublisher
+        )
+        assert isinstance(made, LifecyclePublisher)
         self.add_managed_entity(made)
         return made
 
