@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.interfaces.message import message_type
+from gazelle.interfaces import message_type
 
 __all__ = ["NS_PER_S", "ns_of", "seconds_of", "set_header", "set_stamp", "stamp_message"]
 
