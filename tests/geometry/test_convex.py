@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pytest
 
+from gazelle.folders import cache_folder
 from gazelle.geometry import (
     Mesh,
     box_mesh,
@@ -15,7 +16,6 @@ from gazelle.geometry import (
     polyline_mesh,
     sphere_mesh,
 )
-from gazelle.geometry.convex import cache_folder
 
 L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
 

@@ -9,7 +9,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from gazelle.launch.environment import ros_home
+from gazelle.folders import ros_home, ros_log_folder
 
 __all__ = ["main"]
 
@@ -38,7 +38,7 @@ def main(argv: list[str]) -> int:
         options = parser.parse_args(argv)
     except SystemExit as stop:
         return int(stop.code or 0)
-    folder = Path(os.environ.get("ROS_LOG_DIR") or ros_home(os.environ) / "log")
+    folder = ros_log_folder(os.environ)
     if not folder.is_dir():
         return 0
     if options.command == "check":

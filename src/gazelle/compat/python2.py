@@ -12,9 +12,10 @@ import hashlib
 import os
 import re
 import sys
-from pathlib import Path
 from types import CodeType
 from typing import Any
+
+from gazelle.folders import cache_folder
 
 __all__ = ["compile_source", "is_python2", "translated"]
 
@@ -128,7 +129,7 @@ def _uses_old_names(tree: ast.AST) -> bool:
 
 def _cached_translation(text: str) -> str:
     """Translate, or take the translation of the last time: it takes half a second."""
-    root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle" / "python2"
+    root = cache_folder() / "python2"
     key = hashlib.sha256(text.encode()).hexdigest()[:24]
     cached = root / f"{key}.py"
     if cached.is_file():

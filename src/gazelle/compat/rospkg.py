@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar, NamedTuple, Self, cast
 
 from gazelle.errors import NotFoundError
-from gazelle.launch.environment import ros_home
+from gazelle.folders import ros_home, ros_log_folder
 from gazelle.workspace import Workspace
 from gazelle.workspace.manifest import read_manifest
 
@@ -92,7 +92,8 @@ def get_test_results_dir(env: Environ = None) -> str:
 def get_log_dir(env: Environ = None) -> str:
     """Return ``ROS_LOG_DIR``, the folder ``log`` of ROS_HOME when it is not set."""
     environ = os.environ if env is None else env
-    return environ.get("ROS_LOG_DIR") or str(ros_home(environ) / "log")
+    # As it was written, with a slash at its end.
+    return environ.get("ROS_LOG_DIR") or str(ros_log_folder(environ))
 
 
 def on_ros_path(p: str, env: Environ = None) -> bool:

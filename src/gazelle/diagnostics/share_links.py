@@ -12,9 +12,9 @@ from pathlib import Path
 
 __all__ = ["LINKS_FOLDER", "SOURCE_LINK", "as_written", "written_file"]
 
-LINKS_FOLDER = "gazelle/installed"
+LINKS_FOLDER = "installed"
 SOURCE_LINK = "source"
-_MARK = f"/{LINKS_FOLDER}/"
+_MARK = f"/gazelle/{LINKS_FOLDER}/"
 _PATH = re.compile(
     rf"(?P<tree>/[^\s'\"<>|:,;()\[\]]*{_MARK}[0-9a-f]{{16}})/share/[^/\s'\"<>|:,;()\[\]]+"
     r"(?P<inside>(?:/[^/\s'\"<>|:,;()\[\]]+)*)"

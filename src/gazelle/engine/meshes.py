@@ -18,6 +18,7 @@ from gazelle.documents import read_limited
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
 from gazelle.engine.surface_pieces import LEAST_VOLUME_M3, connected_parts, surface_pieces
+from gazelle.folders import cache_folder
 from gazelle.geometry import (
     Mesh,
     MeshError,
@@ -30,7 +31,7 @@ from gazelle.geometry import (
     load_mesh,
     mesh_volume_m3,
 )
-from gazelle.geometry.array_cache import cache_folder, keep_arrays, kept_arrays
+from gazelle.geometry.array_cache import keep_arrays, kept_arrays
 from gazelle.geometry.loading import MOST_MESH_BYTES
 
 __all__ = [

@@ -13,13 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.documents.archives import ArchiveError, read_arrays
 
-__all__ = ["cache_folder", "keep_arrays", "keeps_arrays", "kept_arrays"]
-
-
-def cache_folder() -> Path:
-    """Return ``$XDG_CACHE_HOME/gazelle``, by default ``~/.cache/gazelle``."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "gazelle"
+__all__ = ["keep_arrays", "keeps_arrays", "kept_arrays"]
 
 
 def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:

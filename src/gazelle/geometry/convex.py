@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.geometry.array_cache import cache_folder, keep_arrays, kept_arrays
+from gazelle.folders import cache_folder
+from gazelle.geometry.array_cache import keep_arrays, kept_arrays
 from gazelle.geometry.building import part_from_soup
 from gazelle.geometry.mesh import Mesh, MeshPart
 from gazelle.geometry.shading import group_points

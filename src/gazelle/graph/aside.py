@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Protocol
 
+from gazelle.folders import ros_log_folder
+
 __all__ = ["aside_path", "write_aside"]
 
 
@@ -19,9 +21,9 @@ def aside_path(node: _Logging) -> Path:
     """Return a node's log file: the launch's, else ``NAME-PID.log`` where ROS keeps its logs."""
     if node.log_path:
         return Path(node.log_path)
-    home = os.environ.get("ROS_HOME") or Path.home() / ".ros"
-    folder = Path(os.environ.get("ROS_LOG_DIR") or Path(home) / "log")
-    return folder / f"{node.name.strip('/').replace('/', '-')}-{os.getpid()}.log"
+    return (
+        ros_log_folder(os.environ) / f"{node.name.strip('/').replace('/', '-')}-{os.getpid()}.log"
+    )
 
 
 def write_aside(node: _Logging, lines: Iterable[str]) -> str:

@@ -10,6 +10,7 @@ import struct
 from functools import cache
 from pathlib import Path
 
+from gazelle.folders import runtime_folder
 from gazelle.leftovers import own_prefix, sweep
 
 __all__ = ["ClockPage", "PageView", "Reading", "machine_name"]
@@ -26,7 +27,7 @@ _TRIES = 8
 _JUMP_BITS = 40
 _OPEN = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 # Its files are made under names that nobody can guess, and only where none is.
-_SHARED_MEMORY = "/dev/shm"  # noqa: S108
+_SHARED_MEMORY = Path("/dev/shm")  # noqa: S108
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
 
 
@@ -146,9 +147,8 @@ def _folders() -> list[Path]:
     # Only who publishes needs it, and all nodes come here.
     import tempfile
 
-    own = os.environ.get("XDG_RUNTIME_DIR", "")
-    wanted = (*((own,) if own else ()), _SHARED_MEMORY, tempfile.gettempdir())
-    return [Path(one) for one in wanted if Path(one).is_dir()]
+    wanted = (runtime_folder(), _SHARED_MEMORY, Path(tempfile.gettempdir()))
+    return [one for one in wanted if one is not None and one.is_dir()]
 
 
 @cache

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.errors import GraphError
+from gazelle.folders import state_folder
 
 __all__ = ["VARIABLE", "Secret", "secret_of_user"]
 
@@ -70,9 +71,8 @@ def secret_of_user() -> Secret:
 
 def _folders() -> Iterator[Path]:
     """Yield where the user's own secret is: the first place that can be written, for all alike."""
-    state = os.environ.get("XDG_STATE_HOME", "")
     with contextlib.suppress(RuntimeError):
-        yield (Path(state) if state else Path.home() / ".local" / "state") / "gazelle"
+        yield state_folder()
     # Containers run as users without a home.
     yield Path(tempfile.gettempdir()) / f"gazelle-{_user_number()}"
 

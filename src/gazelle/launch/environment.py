@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gazelle.folders import cache_folder
+
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace
 
@@ -19,7 +21,6 @@ __all__ = [
     "is_own_command",
     "node_environment",
     "ros1_variables",
-    "ros_home",
 ]
 
 # What makes several commands of one.
@@ -85,7 +86,7 @@ def command_folder() -> Path:
     import hashlib
 
     key = hashlib.sha256(f"{sys.executable}\0{__file__}".encode()).hexdigest()[:12]
-    folder = _cache_home() / "bin" / key
+    folder = cache_folder() / "bin" / key
     folder.mkdir(parents=True, exist_ok=True)
     for name in ROS_COMMANDS:
         script = folder / name
@@ -144,11 +145,6 @@ def ros1_variables(environ: Mapping[str, str]) -> dict[str, str]:
     return {name: environ.get(name, value) for name, value in variables.items()}
 
 
-def ros_home(environ: Mapping[str, str]) -> Path:
-    """Return ``ROS_HOME``, ``~/.ros`` when it is not set."""
-    return Path(environ.get("ROS_HOME") or Path.home() / ".ros")
-
-
 def _source_folders(workspace: Workspace) -> list[str]:
     folders = {str(item.path.parent) for item in workspace.user_packages}
     return sorted(folders)
@@ -157,7 +153,3 @@ def _source_folders(workspace: Workspace) -> list[str]:
 def _prepended(folder: Path, path: str) -> str:
     parts = [part for part in path.split(os.pathsep) if part and part != str(folder)]
     return os.pathsep.join([str(folder), *parts])
-
-
-def _cache_home() -> Path:
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle"

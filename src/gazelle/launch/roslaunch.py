@@ -21,12 +21,13 @@ from gazelle.description.text_place import (
 )
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GraphError, LaunchError
+from gazelle.folders import ros_home
 from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import Console, summary
-from gazelle.launch.environment import node_environment, ros_home
+from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.lockstep import (
     HeldStart,

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.launch.environment import ros_home
+from gazelle.folders import ros_log_folder
 from gazelle.log_files import LogStream
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def begin_log(console: Console, folder: Path) -> Iterator[None]:
 
 def _folder(run_id: str) -> Path:
     """Make ``~/.ros/log/RUN_ID`` and let ``latest`` point at it."""
-    root = Path(os.environ.get("ROS_LOG_DIR") or ros_home(os.environ) / "log")
+    root = ros_log_folder(os.environ)
     folder = root / run_id
     folder.mkdir(parents=True, exist_ok=True)
     link = root / "latest"

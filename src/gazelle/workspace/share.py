@@ -17,6 +17,7 @@ from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
 from gazelle.documents.names import exists
+from gazelle.folders import cache_folder
 
 __all__ = ["share_folder"]
 
@@ -91,11 +92,10 @@ def _linked(folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[s
 
 def _tops() -> Iterator[Path]:
     """Yield the folders for links: the cache, and one that can be written where it cannot."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    yield (Path(base) if base else Path.home() / ".cache") / LINKS_FOLDER
+    yield cache_folder() / LINKS_FOLDER
     import tempfile
 
-    yield Path(tempfile.gettempdir()) / f"user-{os.getuid()}" / LINKS_FOLDER
+    yield Path(tempfile.gettempdir()) / f"user-{os.getuid()}" / "gazelle" / LINKS_FOLDER
 
 
 def _make(

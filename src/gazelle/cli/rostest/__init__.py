@@ -10,8 +10,8 @@ from gazelle.cli.rostest.results import Case, print_summary, write_suite
 from gazelle.cli.rostest.running import TestRun
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
+from gazelle.folders import ros_home
 from gazelle.launch.config import LaunchConfig
-from gazelle.launch.environment import ros_home
 from gazelle.launch.xml1.loader import load_launch_files
 from gazelle.workspace import Workspace
 

@@ -15,9 +15,10 @@ from typing import Self
 
 from gazelle.cli.rostest.results import Case, missing_result, read_cases
 from gazelle.diagnostics import Diagnostics
+from gazelle.folders import ros_home
 from gazelle.graph import Graph
 from gazelle.launch.config import LaunchConfig, TestTag
-from gazelle.launch.environment import node_environment, ros_home
+from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
 from gazelle.launch.process import node_words
 from gazelle.parent import PARENT_VARIABLE

@@ -11,6 +11,7 @@ from typing import Any
 
 from gazelle.description.source_maps.record import SourceMap, digest_of
 from gazelle.diagnostics import SourceSpan
+from gazelle.folders import cache_folder
 
 __all__ = ["load_map", "save_map"]
 
@@ -47,8 +48,7 @@ def load_map(name: str) -> SourceMap | None:
 
 
 def _folder() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "gazelle" / "xacro_maps"
+    return cache_folder() / "xacro_maps"
 
 
 def _packed(source_map: SourceMap) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 from gazelle.documents.versions import refused_version
+from gazelle.folders import config_folder
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
@@ -24,8 +25,7 @@ _VERSION = 1
 
 def layout_folder(environ: Mapping[str, str] = os.environ) -> Path:
     """Return where layouts are kept."""
-    home = environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
-    return Path(home) / "gazelle" / "layouts"
+    return config_folder(environ) / "layouts"
 
 
 def list_layouts(_studio: Studio, _params: Params) -> list[str]:

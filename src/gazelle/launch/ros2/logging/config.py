@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gazelle.launch.environment import ros_home
+from gazelle.folders import ros_log_folder
 from gazelle.launch.ros2.logging import handlers
 
 __all__ = ["LaunchConfig"]
@@ -138,7 +138,7 @@ def _formatter(
 
 
 def _new_folder() -> Path:
-    base = Path(os.environ.get("ROS_LOG_DIR") or ros_home(os.environ) / "log").expanduser()
+    base = ros_log_folder(os.environ).expanduser()
     while True:
         now = datetime.datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
         folder = base / f"{now}-{socket.gethostname()}-{os.getpid()}"

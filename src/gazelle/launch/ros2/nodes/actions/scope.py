@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.launch.environment import ros_home
+from gazelle.folders import ros_log_folder
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.nodes.launch_graph import launch_node
@@ -221,6 +220,5 @@ class SetROSLogDir(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Set the folder."""
-        now = context.environment.get("ROS_LOG_DIR") or ros_home(context.environment) / "log"
         wanted = perform_substitutions(context, self.log_dir)
-        context.environment["ROS_LOG_DIR"] = str(Path(now) / wanted)
+        context.environment["ROS_LOG_DIR"] = str(ros_log_folder(context.environment) / wanted)
