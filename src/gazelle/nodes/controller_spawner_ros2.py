@@ -17,12 +17,12 @@ from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import ManagerClient
 from gazelle.nodes.parameters import start_node
+from gazelle.ros_arguments import split_arguments
 
 __all__ = [
     "LATE_S",
     "SpawnerParser",
     "manager_teller",
-    "own_words",
     "run",
     "run_unspawner",
     "spawn",
@@ -106,7 +106,7 @@ def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
     parser.add_argument("controller_names", nargs="+")
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
     parser.add_argument("--switch-timeout", type=float, default=5.0)
-    options = parser.parse_args(own_words(words))
+    options = parser.parse_args(split_arguments(words).own)
     client = ManagerClient(node, options.controller_manager, stop, generation=2)
     late = manager_teller(node, client, "switch_controller")
     if not client.wait("switch_controller", late=late, late_s=LATE_S):
@@ -131,7 +131,7 @@ def spawner_options(words: Sequence[str]) -> Namespace:
     Raises:
         LaunchError: they are wrong.
     """
-    return _spawner_parser().parse_args(own_words(words))
+    return _spawner_parser().parse_args(split_arguments(words).own)
 
 
 def _spawner_parser() -> SpawnerParser:
@@ -152,20 +152,6 @@ def _spawner_parser() -> SpawnerParser:
     add("--switch-asap", action=BooleanOptionalAction, default=False)
     add("--controller-ros-args", action="append", default=[])
     return parser
-
-
-def own_words(words: Sequence[str]) -> list[str]:
-    """Return the words that are not ROS's: those between ``--ros-args`` and ``--`` are."""
-    own: list[str] = []
-    ros = False
-    for word in words:
-        if word == "--ros-args":
-            ros = True
-        elif ros and word == "--":
-            ros = False
-        elif not ros:
-            own.append(word)
-    return own
 
 
 class _Spawner:

@@ -17,9 +17,9 @@ from gazelle.nodes.controller_spawner_ros2 import (
     LATE_S,
     SpawnerParser,
     manager_teller,
-    own_words,
 )
 from gazelle.nodes.parameters import start_node
+from gazelle.ros_arguments import split_arguments
 
 __all__ = ["run"]
 
@@ -54,7 +54,7 @@ def _options(words: Sequence[str]) -> Namespace:
     group = parser.add_mutually_exclusive_group(required=True)
     group.add_argument("--activate", action="store_true")
     group.add_argument("--configure", action="store_true")
-    return parser.parse_args(own_words(words))
+    return parser.parse_args(split_arguments(words).own)
 
 
 def _spawn(node: Node, client: ManagerClient, options: Namespace) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any, Literal, NamedTuple
 
+from gazelle.control.sources.trees import leaves
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.costmap.options import (
     InflationOptions,
@@ -26,7 +27,7 @@ from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.navigation.assembling import costmap_table, layer_table
-from gazelle.nodes.navigation.settings import flat, nested
+from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.navigation.table import Table
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
@@ -91,7 +92,7 @@ def _walk(
             if below is not None:
                 yield from _walk(below, value, f"{prefix}{key}.", generation)
                 continue
-        for name, leaf in flat({key: value}):
+        for name, leaf in leaves({key: value}):
             row = table.row_for(name)
             if row is not None and row.kind == "refused" and (leaf or name not in SWITCHES):
                 yield IdleParameter(f"{prefix}{name}", row.meaning)

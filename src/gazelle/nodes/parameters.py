@@ -6,13 +6,14 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from gazelle.control.sources.trees import leaves
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
-from gazelle.nodes.navigation.settings import flat, nested
+from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.ros2_console import print_ros2
 
 __all__ = [
@@ -104,7 +105,7 @@ def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
             node.clock.use(bool(changes[_SIM_TIME]))
         return ""
 
-    values = {name: value for name, value in flat(nested(given)) if value is not None}
+    values = {name: value for name, value in leaves(nested(given)) if value is not None}
     node_parameters(node, {_SIM_TIME: False, **values}, refused)
 
 

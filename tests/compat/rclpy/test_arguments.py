@@ -48,6 +48,11 @@ def test_parameters_of_files_and_words_in_their_order(tmp_path: Path) -> None:
     assert found.parameters("/m") == {"a": 1, "b.c": 3.5}
 
 
+def test_a_log_files_name_is_no_argument_of_the_programs() -> None:
+    found = parse_ros_arguments(["--ros-args", "--log-file-name", "mine", "-r", "a:=b"])
+    assert (found.rest, found.remappings("n")) == ([], {"a": "b"})
+
+
 def test_values_are_yaml() -> None:
     words = ["--ros-args", "-p", "a:=true", "-p", "b:='1'", "-p", "c:={d: {e: 1}}"]
     values = parse_ros_arguments(words).parameters("/n")

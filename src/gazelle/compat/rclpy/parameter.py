@@ -126,6 +126,7 @@ def parameter_dict_from_yaml_file(
         RuntimeError: nothing is said about the nodes.
         UserFileError: the file has errors.
     """
+    from gazelle.control.sources.trees import leaves
     from gazelle.control.sources.yaml_file import read_parameter_file
     from gazelle.diagnostics import Diagnostics
 
@@ -137,18 +138,8 @@ def parameter_dict_from_yaml_file(
     for section in sections:
         is_wild = "*" in section.node
         if use_wildcard if is_wild else wanted is None or section.node in wanted:
-            found |= {f"{namespace}{name}": value for name, value in _flat(section.values)}
+            found |= {f"{namespace}{name}": value for name, value in leaves(section.values)}
     if not found:
         nodes = ", ".join(section.node for section in sections) or "no nodes"
         raise RuntimeError(f"Param file does not contain any valid parameters (it has {nodes})")
     return {name: Parameter(name, value=value).to_parameter_msg() for name, value in found.items()}
-
-
-def _flat(values: dict[str, Any], prefix: str = "") -> list[tuple[str, Any]]:
-    rows: list[tuple[str, Any]] = []
-    for name, value in values.items():
-        if isinstance(value, dict):
-            rows += _flat(value, f"{prefix}{name}{PARAMETER_SEPARATOR_STRING}")
-        else:
-            rows.append((f"{prefix}{name}", value))
-    return rows

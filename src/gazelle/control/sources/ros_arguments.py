@@ -6,16 +6,20 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import yaml
-
-from gazelle.documents.yaml import load_yaml
+from gazelle.ros_arguments import (
+    PARAM,
+    PARAMS_FILE,
+    REMAP,
+    RosArgumentError,
+    RosWord,
+    read_words,
+    rule_of,
+    yaml_value,
+)
 
 __all__ = ["RosArguments", "read_ros_arguments"]
 
-_REMAP_FLAGS = frozenset({"-r", "--remap"})
-_FILE_FLAGS = frozenset({"--params-file"})
-_VALUE_FLAGS = frozenset({"-p", "--param"})
-_MARKS = frozenset({"--ros-args", "--"})
+_END = "--"
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,31 +48,20 @@ def read_ros_arguments(words: Iterable[str]) -> RosArguments:
     files: list[str] = []
     values: dict[str, Any] = {}
     strange: list[str] = []
-    flag = ""
-    for word in (part for text in words for part in text.split()):
-        if flag in _FILE_FLAGS:
-            files.append(word)
-        elif ":=" in word and flag in _VALUE_FLAGS:
-            name, value = _rule(word)
-            values[name] = _value(value)
-        elif ":=" in word:
-            rules.append(_rule(word))
-        elif word in _REMAP_FLAGS | _FILE_FLAGS | _VALUE_FLAGS:
-            flag = word
+    parts = (part for text in words for part in text.split() if part != _END)
+    for word in read_words(parts):
+        found = word if word.option else RosWord(REMAP, word.written, "")
+        if found.option == PARAMS_FILE and found.value is not None:
+            files.append(found.value)
             continue
-        elif word not in _MARKS:
-            strange.append(word)
-        flag = ""
+        try:
+            _, name, value = rule_of(found)
+        except RosArgumentError:
+            name = ""
+        if found.option == REMAP and name:
+            rules.append((name, value))
+        elif found.option == PARAM and name:
+            values[name] = yaml_value(value) if value else ""
+        else:
+            strange += [part for part in (found.written, found.value) if part]
     return RosArguments(tuple(rules), tuple(files), values, tuple(strange))
-
-
-def _value(text: str) -> Any:
-    try:
-        return load_yaml(text) if text else ""
-    except yaml.YAMLError:
-        return text
-
-
-def _rule(word: str) -> tuple[str, str]:
-    name, _, value = word.partition(":=")
-    return name.rpartition(":")[2], value

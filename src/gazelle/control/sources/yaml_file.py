@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents.yaml import (
     RCL,
@@ -24,7 +25,12 @@ from gazelle.documents.yaml import (
     value_of,
 )
 
-__all__ = ["NodeSection", "read_parameter_file", "read_parameter_text"]
+__all__ = [
+    "NodeSection",
+    "read_parameter_file",
+    "read_parameter_text",
+    "read_parameters_of",
+]
 
 _MARK = "ros__parameters"
 
@@ -89,6 +95,25 @@ def _report(problem: YamlProblem, diagnostics: Diagnostics) -> None:
         begin = problem.context_span
         message += f" ({problem.context}, which begins at {begin.line}:{begin.column})"
     diagnostics.report("control.parameter-file", message, span)
+
+
+def read_parameters_of(
+    full_name: str, files: Iterable[Path], diagnostics: Diagnostics
+) -> dict[str, Any]:
+    """Return what files say for one node, by names with dots; later ones count.
+
+    Args:
+        full_name: the node's global name.
+        files: see `read_parameter_file`.
+        diagnostics: receives what is wrong.
+    """
+    return {
+        name: value
+        for file in files
+        for section in read_parameter_file(file, diagnostics)
+        if section.matches(full_name)
+        for name, value in leaves(section.values)
+    }
 
 
 class _Reader:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.navigation.settings import flat, nested
+from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import parameter_tree, start_node
 
 __all__ = ["GoalParameters", "are_numbers", "start"]
@@ -35,7 +36,7 @@ class GoalParameters:
 
     def __init__(self, given: Mapping[str, Any], defaults: Mapping[str, Any]) -> None:
         """Put what was given over the defaults."""
-        values = dict(flat(given))
+        values = dict(leaves(given))
         for name, default in defaults.items():
             _check_type(name, values.get(name, default), type(default))
         self.tree = nested({**defaults, **values})
@@ -61,7 +62,7 @@ class GoalParameters:
             *groups: the same, of subtrees.
         """
         heads = {name.partition(".")[0] for name in (*self.goal_names, *groups, *_EVERYWHERE)}
-        for name in dict(flat(self.tree)):
+        for name in dict(leaves(self.tree)):
             head = name.partition(".")[0]
             if name not in known and head not in heads:
                 hint = did_you_mean(head, (*known, *self.goal_names))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, TypeVar
 
+from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.nodes.navigation.table import Row, Table
 
-__all__ = ["Settings", "flat", "nested"]
+__all__ = ["Settings", "nested"]
 
 _T = TypeVar("_T")
 _MISSING = object()
@@ -43,15 +44,6 @@ def nested(values: Mapping[str, Any]) -> dict[str, Any]:
         else:
             branch[last] = value
     return tree
-
-
-def flat(tree: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every leaf by its name with dots."""
-    for key, value in tree.items():
-        if isinstance(value, Mapping):
-            yield from flat(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", value
 
 
 class Settings:
@@ -182,7 +174,7 @@ class Settings:
         Args:
             *others: names that somebody else reads, of subtrees too.
         """
-        for key, value in flat(self.tree):
+        for key, value in leaves(self.tree):
             word = key.partition(".")[0]
             if word in others or word in _EVERYWHERE:
                 continue

@@ -22,6 +22,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -29,7 +30,7 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.navigation.settings import Settings, flat, nested
+from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.table import Row, Table
 from gazelle.nodes.parameters import parameter_tree, start_node
 
@@ -201,12 +202,12 @@ class _Teleop:
     def offer_parameters(self) -> None:
         """Let ``ros2 param set`` change buttons, axes and scales."""
         defaults = nested({row.key: row.default for row in _ROWS})
-        offer_parameters(self._node, nested({**dict(flat(defaults)), **dict(flat(self._tree))}),
+        offer_parameters(self._node, nested({**dict(leaves(defaults)), **dict(leaves(self._tree))}),
                          self._change)  # fmt: skip
 
     def _change(self, changes: dict[str, Any]) -> str:
         found = Diagnostics()
-        tree = nested({**dict(flat(self._tree)), **changes})
+        tree = nested({**dict(leaves(self._tree)), **changes})
         driving = read_driving(tree, self._node.name, found, is_ros2=True)
         if len(found):
             return next(iter(found)).message

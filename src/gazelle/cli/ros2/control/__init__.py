@@ -10,6 +10,7 @@ from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError, joined
 from gazelle.errors import GraphError
 from gazelle.nodes.controller_manager_client import ManagerClient
+from gazelle.ros_arguments import split_arguments
 
 __all__ = ["main"]
 
@@ -24,7 +25,7 @@ def main(argv: list[str]) -> int:
     from gazelle.cli.ros2.control import chains, listing, verbs
 
     parser = _parser()
-    options = parser.parse_args(_own_words(argv))
+    options = parser.parse_args(split_arguments(argv).own)
     if not options.verb:
         parser.print_help()
         return 0
@@ -50,10 +51,6 @@ def _refuse_ros1(client: ManagerClient) -> None:
             f"{client.name} is a controller manager of ROS 1; use: controller_manager list | load "
             "| start | stop …"
         )
-
-
-def _own_words(argv: list[str]) -> list[str]:
-    return argv[: argv.index("--ros-args")] if "--ros-args" in argv else argv
 
 
 def _parser() -> argparse.ArgumentParser:
