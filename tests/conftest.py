@@ -94,9 +94,6 @@ def own_definitions() -> Iterator[None]:
     loaded: Callable[[str], Any] = sys.modules.get
     if interfaces := loaded("gazelle.interfaces"):
         interfaces.default_types().reset()
-    for name in ("gazelle.bag.types", "gazelle.bag.migration"):
-        if (module := loaded(name)) and module._folders:
-            module._folders.pop().cleanup()
 
 
 @pytest.fixture(scope="session")

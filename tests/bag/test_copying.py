@@ -12,6 +12,7 @@ from gazelle.bag import (
     Connection,
     Encoding,
     Storage,
+    bag_types,
     create_bag,
     learn_definitions,
     message_class,
@@ -19,7 +20,7 @@ from gazelle.bag import (
 )
 from gazelle.bag.copying import copy_bag
 from gazelle.diagnostics import Diagnostics
-from gazelle.interfaces import from_ros1
+from gazelle.interfaces import exists, from_ros1, ros1_message_type
 
 
 @pytest.mark.parametrize("middle", ["b.mcap", "b.db3"])
@@ -60,3 +61,22 @@ def test_a_bag_defines_the_types_that_nothing_else_does() -> None:
     found = from_ros1(message_class(one), b"\2\0\0\0\7\0\0\0\x09\0\0\0")
     assert [part.size for part in found.parts] == [7, 9]
     assert learn_definitions([replace(one, md5sum="2" * 32)]) == ("bag_only_msgs/Whole",)
+
+
+def test_what_a_bag_defines_is_its_own() -> None:
+    text = "int32 size\n"
+    one = Connection(0, "/own", "bag_only_msgs/Own", Encoding.ROS1, text, "1" * 32)
+    types, differing = bag_types([one])
+    assert differing == () and not exists("bag_only_msgs/Own")
+    assert from_ros1(message_class(one, types), b"\7\0\0\0").size == 7
+    other = replace(one, definition="int16 size\n", md5sum="2" * 32)
+    assert from_ros1(message_class(other, bag_types([other]).store), b"\7\0").size == 7
+    assert from_ros1(message_class(one, types), b"\7\0\0\0").size == 7
+
+
+def test_a_bag_keeps_the_classes_of_what_it_defines_as_everybody_does() -> None:
+    one = Connection(0, "/own", "std_msgs/Own", Encoding.ROS1, "int32 size\n", "1" * 32)
+    types = bag_types([one]).store
+    assert types.exists("std_msgs/Own")
+    scan = "sensor_msgs/LaserScan"
+    assert types.ros1_message_type(scan) is ros1_message_type(scan)

@@ -15,6 +15,8 @@ from gazelle.bag.records import (
     Summary,
 )
 from gazelle.bag.types import (
+    BagTypes,
+    bag_types,
     cdr_connection,
     converter,
     learn_definitions,
@@ -28,12 +30,14 @@ __all__ = [
     "BagError",
     "BagMessage",
     "BagReader",
+    "BagTypes",
     "BagWriter",
     "Connection",
     "Encoding",
     "Pack",
     "Storage",
     "Summary",
+    "bag_types",
     "cdr_connection",
     "converter",
     "create_bag",

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.bag.qos import offered_qos
 from gazelle.bag.records import BagMessage, BagReader, BagWriter, Connection, Encoding
 from gazelle.bag.types import (
+    bag_types,
     cdr_connection,
     converter,
-    learn_definitions,
     ros1_connection,
     ros1_name_of,
     wire_name_of,
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import GazelleError
+from gazelle.interfaces import TypeStore
 
 __all__ = ["Copied", "connection_for", "copy_bag"]
 
@@ -49,8 +51,9 @@ def copy_bag(
         progress: called with every message of the source.
     """
     routes: dict[int, tuple[Connection, _Convert] | None] = {}
+    types = None
     if any(one.encoding is not target.encoding for one in source.connections):
-        learn_definitions(source.connections)
+        types = bag_types(source.connections).store
     written = left_out = 0
     for message in source.messages():
         if progress is not None:
@@ -60,7 +63,7 @@ def copy_bag(
             left_out += 1
             continue
         if one.id not in routes:
-            routes[one.id] = _route(source, one, target, diagnostics)
+            routes[one.id] = _route(source.path, one, target, types, diagnostics)
         route = routes[one.id]
         if route is None:
             left_out += 1
@@ -70,8 +73,15 @@ def copy_bag(
     return Copied(written, left_out)
 
 
-def connection_for(one: Connection, encoding: Encoding) -> Connection:
+def connection_for(
+    one: Connection, encoding: Encoding, types: TypeStore | None = None
+) -> Connection:
     """Return a connection as a bag of an encoding has it.
+
+    Args:
+        one: the connection.
+        encoding: of the bag.
+        types: knows the type; the process's own by default.
 
     Raises:
         NotFoundError: nothing defines the type.
@@ -81,18 +91,25 @@ def connection_for(one: Connection, encoding: Encoding) -> Connection:
     if encoding is Encoding.ROS1:
         latching = one.latching or "durability: 1" in one.qos or "transient_local" in one.qos
         name = ros1_name_of(one)
-        return ros1_connection(one.topic, name, callerid=one.callerid, latching=latching)
+        return ros1_connection(
+            one.topic, name, callerid=one.callerid, latching=latching, types=types
+        )
     qos = offered_qos(latched=one.latching)
-    return replace(cdr_connection(one.topic, wire_name_of(one), qos=qos), callerid=one.callerid)
+    made = cdr_connection(one.topic, wire_name_of(one), qos=qos, types=types)
+    return replace(made, callerid=one.callerid)
 
 
 def _route(
-    source: BagReader, one: Connection, target: BagWriter, diagnostics: Diagnostics
+    source: Path,
+    one: Connection,
+    target: BagWriter,
+    types: TypeStore | None,
+    diagnostics: Diagnostics,
 ) -> tuple[Connection, _Convert] | None:
     try:
-        convert = converter(one, target.encoding)
-        return target.add(connection_for(one, target.encoding)), convert
+        convert = converter(one, target.encoding, types)
+        return target.add(connection_for(one, target.encoding, types)), convert
     except GazelleError as error:
         text = f"topic {one.topic} ({one.type_name}) is left out: {error}"
-        diagnostics.report("bag.not-converted", text, SourceSpan(str(source.path)))
+        diagnostics.report("bag.not-converted", text, SourceSpan(str(source)))
         return None

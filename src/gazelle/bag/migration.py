@@ -7,9 +7,7 @@ fields, in whatever order, with values of the same kind, and no constant has cha
 from __future__ import annotations
 
 import hashlib
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from gazelle.bag.records import BagError, Connection
@@ -19,7 +17,8 @@ from gazelle.interfaces import (
     Definition,
     Field,
     Generation,
-    add_package,
+    TypeStore,
+    default_types,
     definition,
     from_ros1,
     md5sum,
@@ -87,7 +86,7 @@ def migration_of(one: Connection) -> Migration | None:
     found = tuple(changes.values())
     if any(change.problems for change in found):
         return Migration(found, None)
-    view, carry = ros1_message_type(bag.known_as(full)), bag.carry(full)
+    view, carry = bag.store().ros1_message_type(full), bag.carry(full)
     return Migration(found, lambda data: to_ros1(carry(from_ros1(view, data))))
 
 
@@ -130,26 +129,14 @@ class _BagTypes:
             if item.type.is_message and item.type.base in self._types:
                 self.compare(item.type.base, changes)
 
-    def known_as(self, name: str) -> str:
-        """Return the name under which this process reads the bag's form of a type."""
-        if not self._is_changed(name):
-            return name
-        package, _, bare = name.split("/")
-        alias = f"{package}__{self._root_sum[:12]}"
-        folder = _folder() / alias
-        if not (folder / "msg" / f"{bare}.msg").exists():
-            source = self._types[name]
-            fields = tuple(
-                item._replace(type=item.type._replace(base=self.known_as(item.type.base)))
-                if item.type.is_message
-                else item
-                for item in source.fields
-            )
-            text = definition_text(source.constants, fields, Generation.ROS1)
-            (folder / "msg").mkdir(parents=True, exist_ok=True)
-            (folder / "msg" / f"{bare}.msg").write_text(text + "\n", encoding="utf-8")
-            add_package(alias, folder, Generation.ROS1)
-        return f"{alias}/msg/{bare}"
+    def store(self) -> TypeStore:
+        """Return a store that reads the bag's form of those that have changed."""
+        store = TypeStore(below=default_types())
+        for name, source in self._types.items():
+            if self._is_changed(name):
+                text = definition_text(source.constants, source.fields, Generation.ROS1)
+                store.add_text(name, Generation.ROS1, text + "\n")
+        return store
 
     def carry(self, name: str) -> _Carry:
         """Return the function from the bag's form of a message to this machine's."""
@@ -196,12 +183,3 @@ def _difference(theirs: Field, mine: Field) -> str:
         return ""
     kinds = (item.type.text(Generation.ROS1) for item in (theirs, mine))
     return f"field '{mine.name}' was {next(kinds)} and is {next(kinds)}"
-
-
-_folders: list[tempfile.TemporaryDirectory[str]] = []
-
-
-def _folder() -> Path:
-    if not _folders:
-        _folders.append(tempfile.TemporaryDirectory(prefix="gazelle_bag_forms_"))
-    return Path(_folders[0].name)

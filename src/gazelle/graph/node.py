@@ -138,7 +138,8 @@ class Node:
         """
         message_class = wire.resolve_type(message_type)
         told = qos or Qos(reliable, latch, queue_size)
-        entity = self._entity(Kind.PUBLISHER, topic, wire.type_name_of(message_class), qos=told)
+        name = wire.type_name_of(message_class)
+        entity = self._entity(Kind.PUBLISHER, topic, name, message_class, qos=told)
         made = Publisher(
             self.graph,
             entity,
@@ -181,7 +182,7 @@ class Node:
         any_type = announced or ANY_TYPE
         type_name = any_type if message_class is None else wire.type_name_of(message_class)
         told = qos or Qos(depth=queue_size)
-        entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, qos=told)
+        entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, message_class, qos=told)
         return self._keep(
             Subscription(
                 self.graph,
@@ -294,7 +295,15 @@ class Node:
         self._token.undeclare()
         self.graph.forget(self)
 
-    def _entity(self, kind: Kind, name: str, type_name: str, *, qos: Qos = DEFAULT_QOS) -> Entity:
+    def _entity(
+        self,
+        kind: Kind,
+        name: str,
+        type_name: str,
+        message_class: Any = None,
+        *,
+        qos: Qos = DEFAULT_QOS,
+    ) -> Entity:
         if self._closed and not self.outlives:
             raise GraphError(f"node {self.name} is shut down; it cannot create {name}")
         return Entity(
@@ -305,7 +314,7 @@ class Node:
             self.name,
             self.resolve_name(name),
             type_name,
-            NO_HASH if type_name == ANY_TYPE else wire.hash_of(type_name),
+            NO_HASH if type_name == ANY_TYPE else wire.hash_of(type_name, message_class),
             qos,
         )
 

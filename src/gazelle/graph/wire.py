@@ -6,7 +6,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph.keys import NO_HASH
-from gazelle.interfaces import default_types, from_cdr, message_type, to_cdr, type_hash, wire_type
+from gazelle.interfaces import TypeStore, from_cdr, message_type, to_cdr, types_of, wire_type
 
 __all__ = [
     "convert",
@@ -60,14 +60,20 @@ def resolve_type(type_or_name: Any) -> Any:
     return type_or_name
 
 
-def hash_of(type_name: str) -> str:
-    """Return the RIHS01 hash of a type, a fixed word where the type is not known here."""
-    return default_types().remembered(("hash", type_name), lambda: _hash(type_name))
+def hash_of(type_name: str, message_class: Any = None) -> str:
+    """Return the RIHS01 hash of a type, a fixed word where the type is not known.
+
+    Args:
+        type_name: under which it travels.
+        message_class: is asked what the type means; the process by default.
+    """
+    types = types_of(message_class)
+    return types.remembered(("hash", type_name), lambda: _hash(types, type_name))
 
 
-def _hash(type_name: str) -> str:
+def _hash(types: TypeStore, type_name: str) -> str:
     try:
-        return type_hash(type_name)
+        return types.type_hash(type_name)
     except GazelleError:
         return NO_HASH
 

@@ -16,7 +16,7 @@ from gazelle.interfaces.naming import ros1_type_of, wire_type
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 from gazelle.interfaces.services import ActionType, Ros1Service, ServiceType
-from gazelle.interfaces.store import TypeStore, default_types
+from gazelle.interfaces.store import TypeStore, default_types, types_of
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify
@@ -72,6 +72,7 @@ __all__ = [
     "to_ros1",
     "type_description",
     "type_hash",
+    "types_of",
     "wire_type",
 ]
 

@@ -120,6 +120,12 @@ class Library:
                 self._spoken_of.clear()
                 self._changes += 1
 
+    def defines(self, package: str, name: str) -> bool:
+        """Return whether what was added here, not below, says what a message is."""
+        if package in self._packages:
+            return True
+        return any((package, name, one) in self._texts for one in Generation)
+
     def adds_to(self, package: str) -> bool:
         """Return whether something was added here, not below, under a package's name."""
         return package in self._packages or package in self._spoken_of

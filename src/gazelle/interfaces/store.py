@@ -30,7 +30,7 @@ from gazelle.interfaces.services import (
     ros2_service,
 )
 
-__all__ = ["TypeStore", "default_types"]
+__all__ = ["TypeStore", "default_types", "types_of"]
 
 _T = TypeVar("_T")
 # What others name is remembered too: there is no end of names.
@@ -406,7 +406,8 @@ class TypeStore:
         left, seen = [full], {full}
         while left:
             name = left.pop()
-            if self._library.adds_to(split_name(name)[0]):
+            package, _, bare = split_name(name)
+            if self._library.defines(package, bare):
                 return False
             fields = self.definition(name, generation).fields
             new = {item.type.base for item in fields if item.type.is_message} - seen
@@ -454,6 +455,12 @@ _DEFAULT = TypeStore()
 def default_types() -> TypeStore:
     """Return the process's store, which everybody uses who names none."""
     return _DEFAULT
+
+
+def types_of(message: object) -> TypeStore:
+    """Return the store that a message or its class is of, the process's where it is of none."""
+    found = getattr(message, "_types", None)
+    return found if isinstance(found, TypeStore) else _DEFAULT
 
 
 @lru_cache(maxsize=64)

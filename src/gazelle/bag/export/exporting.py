@@ -11,12 +11,13 @@ from typing import Any
 from gazelle.bag.export.pictures import IMAGE_TYPES, picture
 from gazelle.bag.export.rows import columns_of, reader_of, row_of
 from gazelle.bag.records import BagError, BagReader, Connection
-from gazelle.bag.types import learn_definitions
+from gazelle.bag.types import bag_types
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import GazelleError
 
 __all__ = ["FORMATS", "export_bag"]
 
+_Read = Callable[[bytes], Any]
 _EXTRA = "pip install 'gazelle-sim[bags]'"
 
 
@@ -42,14 +43,14 @@ def export_bag(
     Raises:
         BagError: a topic is not there, no topic fits, or a library is missing.
     """
-    learn_definitions(bag.connections)
+    types = bag_types(bag.connections).store
     chosen = _chosen(bag, set(topics), images=form in ("png", "mp4"))
     folder.mkdir(parents=True, exist_ok=True)
     files: list[Path] = []
     for topic, one in chosen.items():
         stem = folder / topic.strip("/").replace("/", "_")
         try:
-            files += _WRITERS[form](bag, one, stem, rate_hz)
+            files += _WRITERS[form](bag, one, reader_of(one, types), stem, rate_hz)
         except BagError:
             raise
         except GazelleError as error:
@@ -76,8 +77,9 @@ def _chosen(bag: BagReader, topics: set[str], *, images: bool) -> dict[str, Conn
     return found
 
 
-def _rows(bag: BagReader, one: Connection) -> tuple[list[str], Iterable[dict[str, Any]]]:
-    read = reader_of(one)
+def _rows(
+    bag: BagReader, one: Connection, read: _Read
+) -> tuple[list[str], Iterable[dict[str, Any]]]:
 
     def wanted(other: Connection) -> bool:
         return other.topic == one.topic
@@ -86,8 +88,8 @@ def _rows(bag: BagReader, one: Connection) -> tuple[list[str], Iterable[dict[str
     return columns, (row_of(item.stamp_ns, read(item.data)) for item in bag.messages(wanted))
 
 
-def _csv(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> list[Path]:
-    columns, rows = _rows(bag, one)
+def _csv(bag: BagReader, one: Connection, read: _Read, stem: Path, _rate_hz: float) -> list[Path]:
+    columns, rows = _rows(bag, one, read)
     path = stem.with_name(f"{stem.name}.csv")
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, columns, restval="")
@@ -96,13 +98,15 @@ def _csv(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> list[P
     return [path]
 
 
-def _parquet(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> list[Path]:
+def _parquet(
+    bag: BagReader, one: Connection, read: _Read, stem: Path, _rate_hz: float
+) -> list[Path]:
     try:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
         raise BagError(f"Parquet files need pyarrow; {_EXTRA}") from None
-    columns, rows = _rows(bag, one)
+    columns, rows = _rows(bag, one, read)
     held = list(rows)
     table = pyarrow.table({name: [row.get(name) for row in held] for name in columns})
     path = stem.with_name(f"{stem.name}.parquet")
@@ -110,10 +114,10 @@ def _parquet(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> li
     return [path]
 
 
-def _png(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> list[Path]:
+def _png(bag: BagReader, one: Connection, read: _Read, stem: Path, _rate_hz: float) -> list[Path]:
     from PIL import Image
 
-    read, files = reader_of(one), []
+    files = []
     stem.mkdir(parents=True, exist_ok=True)
     for item in bag.messages(lambda other: other.topic == one.topic):
         seconds, rest = divmod(item.stamp_ns, 1_000_000_000)
@@ -122,12 +126,12 @@ def _png(bag: BagReader, one: Connection, stem: Path, _rate_hz: float) -> list[P
     return files
 
 
-def _mp4(bag: BagReader, one: Connection, stem: Path, rate_hz: float) -> list[Path]:
+def _mp4(bag: BagReader, one: Connection, read: _Read, stem: Path, rate_hz: float) -> list[Path]:
     try:
         import imageio_ffmpeg
     except ImportError:
         raise BagError(f"MP4 files need imageio-ffmpeg; {_EXTRA}") from None
-    read, path = reader_of(one), stem.with_name(f"{stem.name}.mp4")
+    path = stem.with_name(f"{stem.name}.mp4")
     items = bag.messages(lambda other: other.topic == one.topic)
     stamps = [item.stamp_ns for item in bag.messages(lambda other: other.topic == one.topic)]
     frames = (picture(read(item.data)) for item in items)
@@ -153,7 +157,7 @@ def _median_rate_hz(stamps: list[int]) -> float:
     return 1e9 / median(gaps) if gaps else 1.0
 
 
-_Writer = Callable[[BagReader, Connection, Path, float], list[Path]]
+_Writer = Callable[[BagReader, Connection, _Read, Path, float], list[Path]]
 _WRITERS: dict[str, _Writer] = {"csv": _csv, "parquet": _parquet, "png": _png, "mp4": _mp4}
 FORMATS = tuple(_WRITERS)
 """What bags can be exported to."""

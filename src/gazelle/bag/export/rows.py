@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.bag.records import BagMessage, Connection, Encoding
 from gazelle.bag.types import message_class
-from gazelle.interfaces import Duration, Time, from_cdr, from_ros1
+from gazelle.interfaces import Duration, Time, TypeStore, from_cdr, from_ros1
 from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["columns_of", "reader_of", "row_of"]
@@ -18,13 +18,17 @@ TIME = "time_s"
 _LONGEST_ARRAY = 64
 
 
-def reader_of(connection: Connection) -> Callable[[bytes], Any]:
+def reader_of(connection: Connection, types: TypeStore) -> Callable[[bytes], Any]:
     """Return the function that reads a connection's messages.
+
+    Args:
+        connection: of a bag.
+        types: of the bag.
 
     Raises:
         NotFoundError: nothing defines the type.
     """
-    kind = message_class(connection)
+    kind = message_class(connection, types)
     if connection.encoding is Encoding.ROS1:
         return lambda data: from_ros1(kind, data)
     return lambda data: from_cdr(kind, data)

@@ -10,12 +10,12 @@ from fnmatch import fnmatchcase
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
-from gazelle.bag import BagError, Encoding, learn_definitions, open_bag, ros1_name_of
+from gazelle.bag import BagError, Encoding, bag_types, open_bag, ros1_name_of
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import pose_line
 from gazelle.graph.world import world_names
-from gazelle.interfaces import from_cdr, from_ros1, ros1_message_type
+from gazelle.interfaces import from_cdr, from_ros1
 from gazelle.interfaces.poses import pose_of
 
 __all__ = ["LINK_STATES", "MODEL_STATES", "STATE_TOPICS", "Filter", "state_texts"]
@@ -66,7 +66,7 @@ def state_texts(file: str, wanted: Filter, rate_hz: float = 0.0) -> Iterator[str
     except BagError as error:
         raise GzError(str(error)) from None
     tell_of_unindexed(bag)
-    learn_definitions(bag.connections)
+    types = bag_types(bag.connections).store
     topics = {one.topic for one in bag.connections}
     if topics.isdisjoint(world_names(MODEL_STATES)):
         raise GzError(f"there is no {MODEL_STATES} in '{file}'; gz log -d 1 records such bags")
@@ -75,7 +75,7 @@ def state_texts(file: str, wanted: Filter, rate_hz: float = 0.0) -> Iterator[str
     wanted_topics = {name for topic in STATE_TOPICS for name in world_names(topic)}
     for one, stamp_ns, data in bag.messages(lambda item: item.topic in wanted_topics):
         read = from_ros1 if one.encoding is Encoding.ROS1 else from_cdr
-        bodies = _bodies(read(ros1_message_type(ros1_name_of(one)), data))
+        bodies = _bodies(read(types.ros1_message_type(ros1_name_of(one)), data))
         if one.topic in world_names(LINK_STATES):
             links = bodies
         elif stamp_ns >= next_ns:

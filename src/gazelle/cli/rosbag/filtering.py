@@ -13,8 +13,8 @@ from gazelle.bag import (
     BagMessage,
     Connection,
     Encoding,
+    bag_types,
     create_bag,
-    learn_definitions,
     open_bag,
     ros1_name_of,
     storage_of,
@@ -25,7 +25,7 @@ from gazelle.cli.rosbag.progress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GazelleError
-from gazelle.interfaces import AnyMsg, Time, from_cdr, from_ros1, ros1_message_type
+from gazelle.interfaces import AnyMsg, Time, TypeStore, default_types, from_cdr, from_ros1
 
 __all__ = ["run"]
 
@@ -60,7 +60,7 @@ def run(words: list[str]) -> int:
 
 def _filter(source_path: str, target_path: str, wanted: _Filter) -> int:
     source = open_bag(source_path)
-    learn_definitions(source.connections)
+    wanted.types = bag_types(source.connections).store
     total = sum(pack.uncompressed for pack in source.summary.packs.values())
     target = create_bag(target_path, storage_of(target_path) or source.storage)
     meter, done, diagnostics = ProgressMeter(target_path, total), [0], Diagnostics()
@@ -81,9 +81,14 @@ def _filter(source_path: str, target_path: str, wanted: _Filter) -> int:
 
 
 class _Filter:
-    """Reads a message only where the expression speaks of it."""
+    """Reads a message only where the expression speaks of it.
+
+    Attributes:
+        types: of the bag; set before messages come.
+    """
 
     def __init__(self, text: str, shown: str | None) -> None:
+        self.types = default_types()
         self._code = _compiled(text)
         self._shown = _compiled(shown) if shown else None
         self._text = text
@@ -104,7 +109,7 @@ class _Filter:
     def _read(self, message: BagMessage) -> Any:
         one = message.connection
         if one.id not in self._readers:
-            self._readers[one.id] = _reader(one)
+            self._readers[one.id] = _reader(one, self.types)
         return self._readers[one.id](message.data)
 
     def _value(self, code: CodeType, names: dict[str, Any]) -> Any:
@@ -116,9 +121,9 @@ class _Filter:
             raise ToolError(f"'{self._text}' on {names['topic']}: {kind}: {error}") from None
 
 
-def _reader(one: Connection) -> Callable[[bytes], Any]:
+def _reader(one: Connection, types: TypeStore) -> Callable[[bytes], Any]:
     try:
-        view = ros1_message_type(ros1_name_of(one))
+        view = types.ros1_message_type(ros1_name_of(one))
     except GazelleError:
         return lambda _data: AnyMsg()
     if one.encoding is Encoding.ROS1:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag import Connection, converter, learn_definitions, open_bag, wire_name_of
+from gazelle.bag import Connection, bag_types, converter, open_bag, wire_name_of
 from gazelle.bag.records import BagReader, Encoding
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.graph.tf import TransformBuffer
-from gazelle.interfaces import from_cdr, message_type
+from gazelle.interfaces import from_cdr
 from gazelle.interfaces.poses import pose_of, pose_of_transform
 from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.logs import LogRecord
@@ -45,7 +45,6 @@ def read_bag_log(
         BagError: the file is no bag.
     """
     bag = open_bag(path)
-    learn_definitions(bag.connections)
     scans = _scan_topic(bag, topic, path, diagnostics)
     if not scans:
         return
@@ -53,7 +52,7 @@ def read_bag_log(
     odom, base = odom.removeprefix("/"), base.removeprefix("/") or _base_of(bag)
     problems: list[str] = []
     queue = ScanQueue(buffer, (odom, base), problems.append, size=200)
-    readers = _Readers()
+    readers = _Readers(bag)
     for message in bag.messages(lambda one: _is_wanted(one, scans)):
         record = readers.read(message.connection, message.data)
         if message.connection.topic == scans:
@@ -74,14 +73,16 @@ def read_bag_log(
 class _Readers:
     """Functions that read messages, one per connection."""
 
-    def __init__(self) -> None:
+    def __init__(self, bag: BagReader) -> None:
+        self._types = bag_types(bag.connections).store
         self._known: dict[int, tuple[Any, Any]] = {}
 
     def read(self, connection: Connection, data: bytes) -> Any:
         if connection.id not in self._known:
             name = wire_name_of(connection).replace(_OLD_TF, _TF)
             self._known[connection.id] = (
-                converter(connection, Encoding.CDR), message_type(name)
+                converter(connection, Encoding.CDR, self._types),
+                self._types.message_type(name),
             )  # fmt: skip
         as_cdr, kind = self._known[connection.id]
         return from_cdr(kind, as_cdr(data))
@@ -113,7 +114,7 @@ def _scan_topic(bag: BagReader, topic: str, path: Path, diagnostics: Diagnostics
 
 def _base_of(bag: BagReader) -> str:
     """Return the robot's frame by the first transforms and odometry of the bag."""
-    readers, seen = _Readers(), set[str]()
+    readers, seen = _Readers(bag), set[str]()
     kinds = (_ODOMETRY, _TF, _OLD_TF)
     for count, message in enumerate(bag.messages(lambda one: wire_name_of(one) in kinds)):
         record = readers.read(message.connection, message.data)

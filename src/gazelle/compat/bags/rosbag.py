@@ -15,8 +15,8 @@ from gazelle.bag import (
     BagWriter,
     Connection,
     Encoding,
+    bag_types,
     converter,
-    learn_definitions,
     open_bag,
     ros1_connection,
     ros1_name_of,
@@ -25,7 +25,7 @@ from gazelle.bag.ros1 import Compression as Packing
 from gazelle.bag.ros1 import Ros1Writer
 from gazelle.compat.rospy.rostime import Time
 from gazelle.diagnostics import did_you_mean
-from gazelle.interfaces import from_ros1, md5sum, ros1_message_type, to_ros1
+from gazelle.interfaces import TypeStore, default_types, from_ros1, to_ros1, types_of
 
 __all__ = [
     "Bag",
@@ -143,6 +143,7 @@ class Bag:
         self._reader: BagReader | None = None
         self._writer: BagWriter | None = None
         self._known: dict[tuple[str, str, str], Connection] = {}
+        self._types = default_types()
         self._closed = False
         if mode == "r":
             self._open_reader()
@@ -190,10 +191,10 @@ class Bag:
         wanted = self._chooser(topics, connection_filter)
         start_ns = None if start_time is None else int(start_time.to_nsec())
         end_ns = None if end_time is None else int(end_time.to_nsec())
-        readers: dict[int, Callable[[bytes], Any]] = {}
+        make, readers = _raw_reader if raw else _reader, dict[int, Callable[[bytes], Any]]()
         for connection, stamp_ns, data in reader.messages(wanted, start_ns, end_ns):
             if connection.id not in readers:
-                readers[connection.id] = _raw_reader(connection) if raw else _reader(connection)
+                readers[connection.id] = make(connection, self._types)
             message = readers[connection.id](data)
             stamp = Time(nsecs=stamp_ns)
             if return_connection_header:
@@ -230,8 +231,9 @@ class Bag:
             raise ValueError("topic is invalid" if not topic else "msg is invalid")
         stamp_ns = _now_ns() if t is None else int(t.to_nsec())
         name, data = (msg[0], bytes(msg[1])) if raw else (_name_of(msg), to_ros1(_as_ros1(msg)))
+        types = types_of(msg[4] if raw and len(msg) > 4 else msg)
         header = {key: _text(value) for key, value in (connection_header or {}).items()}
-        connection = self._connection(topic, name, header)
+        connection = self._connection(topic, name, header, types)
         self._writer.write(connection, stamp_ns, data)
 
     def flush(self) -> None:
@@ -284,7 +286,7 @@ class Bag:
     ) -> TypesAndTopicsTuple:
         """Return all types, and topics with counts and frequencies."""
         types = {
-            ros1_name_of(one): one.md5sum or md5sum(ros1_name_of(one))
+            ros1_name_of(one): one.md5sum or self._types.md5sum(ros1_name_of(one))
             for one in self._for_reading().connections
         }
         return TypesAndTopicsTuple(types, self._topics(topic_filters))
@@ -334,12 +336,14 @@ class Bag:
             raise ROSBagException("Bag contains no message")
         return int(getattr(summary, name))
 
-    def _connection(self, topic: str, name: str, header: dict[str, str]) -> Connection:
+    def _connection(
+        self, topic: str, name: str, header: dict[str, str], types: TypeStore
+    ) -> Connection:
         assert self._writer is not None
         key = (topic, name, header.get("callerid", ""))
         if key not in self._known:
             made = ros1_connection(
-                topic, name, callerid=key[2], latching=header.get("latching") == "1"
+                topic, name, callerid=key[2], latching=header.get("latching") == "1", types=types
             )
             self._known[key] = self._writer.add(made)
         return self._known[key]
@@ -349,7 +353,7 @@ class Bag:
             raise FileNotFoundError(2, "No such file or directory", self.filename)
         try:
             self._reader = open_bag(self._path)
-            differing = learn_definitions(self._reader.connections)
+            self._types, differing = bag_types(self._reader.connections)
         except BagError as error:
             raise ROSBagFormatException(str(error)) from error
         for name in differing:
@@ -360,7 +364,7 @@ class Bag:
         options = {"compression": Packing(compression), "chunk_bytes": chunk_bytes}
         try:
             writer = Ros1Writer(self._path, append=append, **options)  # type: ignore[arg-type]
-            learn_definitions(writer.connections)
+            self._types = bag_types(writer.connections).store
         except BagError as error:
             raise ROSBagException(str(error)) from error
         self._writer = writer
@@ -378,16 +382,16 @@ class Bag:
             raise ValueError("I/O operation on closed bag")
 
 
-def _reader(connection: Connection) -> Callable[[bytes], Any]:
-    view: Any = ros1_message_type(ros1_name_of(connection))
-    convert = converter(connection, Encoding.ROS1)
+def _reader(connection: Connection, types: TypeStore) -> Callable[[bytes], Any]:
+    view: Any = types.ros1_message_type(ros1_name_of(connection))
+    convert = converter(connection, Encoding.ROS1, types)
     return lambda data: from_ros1(view, convert(data))
 
 
-def _raw_reader(connection: Connection) -> Callable[[bytes], Any]:
+def _raw_reader(connection: Connection, types: TypeStore) -> Callable[[bytes], Any]:
     name = ros1_name_of(connection)
-    view, digest = ros1_message_type(name), connection.md5sum or md5sum(name)
-    convert = converter(connection, Encoding.ROS1)
+    view, digest = types.ros1_message_type(name), connection.md5sum or types.md5sum(name)
+    convert = converter(connection, Encoding.ROS1, types)
     return lambda data: (name, convert(data), digest, (0, 0), view)
 
 

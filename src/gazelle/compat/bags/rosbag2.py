@@ -185,6 +185,7 @@ class SequentialReader:
         """
         try:
             self._reader = open_bag(uri)
+            # It hands out bytes and names only: whoever reads them asks the process for the type.
             learn_definitions(self._reader.connections)
         except BagError as error:
             text = f"No storage could be initialized from the inputs.\n  {error}"
