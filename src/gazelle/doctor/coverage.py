@@ -100,13 +100,13 @@ def _done(plugin: PluginTag, wrong: dict[SourceSpan | None, str]) -> str:
     for name in looked_up(plugin):
         table = _tables_by_name().get(name)
         if table is not None:
-            return table.family
+            return table.parameters.family
     return "your Python"
 
 
 @cache
 def _tables_by_name() -> dict[str, PluginTable]:
-    return {plain_name(name): table for table in all_tables() for name in table.filenames}
+    return {plain_name(name): table for table in all_tables() for name in table.parameters.types}
 
 
 def _place(span: SourceSpan | None) -> str:

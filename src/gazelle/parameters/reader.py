@@ -32,6 +32,7 @@ class ParameterReader:
         source: what was given.
         owner: whose they are, for messages.
         diagnostics: receives what is wrong, where it is read.
+        generation: of ROS; spellings and defaults of the other do not count. 0 for both.
     """
 
     def __init__(
@@ -40,7 +41,10 @@ class ParameterReader:
         source: ParameterSource,
         owner: ParameterOwner,
         diagnostics: Diagnostics,
+        *,
+        generation: int = 0,
     ) -> None:
+        self.generation = generation
         self.table = table
         self.source = source
         self.owner = owner
@@ -78,7 +82,7 @@ class ParameterReader:
     def number(self, key: str, default: float | None = None) -> float:
         """Return a number within the row's limits; `default` in place of the table's."""
         value = self._given(key)
-        fallback = float(self._default(key, default, 0.0))
+        fallback = float(self.default(key, default, 0.0))
         if value is MISSING:
             return fallback
         number = number_of(value)
@@ -94,14 +98,14 @@ class ParameterReader:
         """Return a whole number within the row's limits."""
         value = self.number(key, default)
         if not math.isfinite(value) or value != int(value):
-            fallback = self._default(key, default, 0)
+            fallback = self.default(key, default, 0)
             return int(self._bad(key, value, "a whole number", fallback))
         return int(value)
 
     def flag(self, key: str, default: bool | None = None) -> bool:
         """Return a truth value; ROS' ``true``/``false`` as text and 0/1 are understood."""
         value = self._given(key)
-        fallback = bool(self._default(key, default, False))
+        fallback = bool(self.default(key, default, False))
         if value is MISSING:
             return fallback
         found = flag_of(value)
@@ -110,7 +114,7 @@ class ParameterReader:
     def text(self, key: str, default: str | None = None) -> str:
         """Return a text; `default` in place of the table's."""
         value = self._given(key)
-        fallback = str(self._default(key, default, ""))
+        fallback = str(self.default(key, default, ""))
         if value is MISSING:
             return fallback
         if isinstance(value, list | dict):
@@ -121,7 +125,7 @@ class ParameterReader:
         """Return texts: a list, or a text, which for ``words`` is parted at its spaces."""
         value = self._given(key)
         if value is MISSING:
-            value = self._default(key, None, ())
+            value = self.default(key, None, ())
         if isinstance(value, str):
             row = self.table.row_for(key)
             return tuple(value.split()) if row is not None and row.kind == "words" else (value,)
@@ -132,7 +136,7 @@ class ParameterReader:
     def numbers(self, key: str) -> tuple[float, ...]:
         """Return a list of numbers; a single one is a list of one."""
         value = self._given(key)
-        default = tuple(self._default(key, None, ()))
+        default = tuple(self.default(key, None, ()))
         if value is MISSING:
             return default
         found = [
@@ -146,7 +150,7 @@ class ParameterReader:
         """Return three numbers."""
         found = self.numbers(key)
         if len(found) != 3:
-            default = tuple(self._default(key, None, (0.0, 0.0, 0.0)))
+            default = tuple(self.default(key, None, (0.0, 0.0, 0.0)))
             found = self._bad(key, list(found), "three numbers", default)
         x, y, z = found
         return (x, y, z)
@@ -242,21 +246,29 @@ class ParameterReader:
         words = {"name": self.full_name(name), "value": shortened(value), "why": why}
         self.report("parameter.idle", self.owner.idle.format(**words), key=name)
 
-    def _given(self, key: str) -> Any:
+    def spellings(self, key: str) -> tuple[str, ...]:
+        """Return the names under which a parameter may have been given."""
         # A key of a pattern's row (gains.joint_1.p) has no aliases of its own.
-        found = self.source.find(key)
-        row = self.table.exact_row(key) if found is MISSING else None
-        for name in () if row is None else row.names:
-            found = self.source.find(name)
-            if found is not MISSING:
-                return found
-        return found
+        row = self.table.exact_row(key)
+        return (key,) if row is None else row.spellings(self.generation)
 
-    def _default(self, key: str, default: Any, otherwise: Any) -> Any:
+    def default(self, key: str, default: Any, otherwise: Any) -> Any:
+        """Return the value of an absent parameter.
+
+        Args:
+            key: its name.
+            default: takes the place of the table's, unless None.
+            otherwise: what it is where the table has none.
+        """
         if default is not None:
             return default
         row = self.table.row_for(key)
-        return otherwise if row is None or row.default is None else row.default
+        found = None if row is None else row.default_in(self.generation)
+        return otherwise if found is None else found
+
+    def _given(self, key: str) -> Any:
+        found = map(self.source.find, self.spellings(key))
+        return next((value for value in found if value is not MISSING), MISSING)
 
     def _limited(self, key: str, value: float, fallback: float) -> float:
         row = self.table.row_for(key)

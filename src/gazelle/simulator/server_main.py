@@ -299,4 +299,4 @@ def _show(node: Any, found: Iterable[Diagnostic], *, verbose: bool = True) -> No
 
 def _names_gz_systems(world: World) -> bool:
     names = (plain_name(plugin.filename) for plugin in world.plugins)
-    return any(name in GZ_SYSTEMS.filenames for name in names)
+    return any(name in GZ_SYSTEMS.parameters.types for name in names)

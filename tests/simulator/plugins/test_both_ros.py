@@ -128,7 +128,7 @@ def test_the_start_decides_what_a_plug_in_is_called(row: Row, ros_version: int) 
 
 
 def test_every_plug_in_of_both_is_in_the_table() -> None:
-    both = {table.family for table in all_tables() if table.in_both_ros}
+    both = {table.parameters.family for table in all_tables() if table.in_both_ros}
     assert both == {row.family for row in ROWS}
 
 

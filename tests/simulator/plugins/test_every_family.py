@@ -12,7 +12,7 @@ from gazelle.simulator import Simulation
 from gazelle.simulator.plugins.registry import all_tables
 
 ROWS = (*family_drives.ROWS, *family_sensors.ROWS, *family_worlds.ROWS)
-NAMES = {table.family: table.filenames for table in all_tables()}
+NAMES = {table.parameters.family: table.parameters.types for table in all_tables()}
 
 
 def cases() -> list[object]:

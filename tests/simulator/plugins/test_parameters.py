@@ -5,29 +5,32 @@ import pytest
 from gazelle.description.model import PluginTag
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 
 TABLE = PluginTable(
-    family="test",
-    summary="A table.",
-    filenames=("test",),
-    parameters=(
-        Parameter("topicName", "text", "odom", "a topic", "", ("topic_name",)),
-        Parameter("updateRate", "number", 50.0, "a rate", "Hz"),
-        Parameter("publishTf", "flag", True, "a switch"),
-        Parameter("xyz", "vector", (0.0, 0.0, 1.0), "a place", "m"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
+    ParameterTable(
+        "test",
+        "A table.",
+        ("test",),
+        (
+            Parameter("topicName", "text", "odom", "a topic", "", aliases=("topic_name",)),
+            Parameter("updateRate", "number", 50.0, "a rate", "Hz"),
+            Parameter("publishTf", "flag", True, "a switch"),
+            Parameter("xyz", "vector", (0.0, 0.0, 1.0), "a place", "m"),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
     ),
 )
 
 
-def reader(inner: str) -> tuple[ParameterReader, Diagnostics]:
+def reader(inner: str) -> tuple[PluginReader, Diagnostics]:
     diagnostics = Diagnostics()
     text = f"<plugin name='p' filename='libtest.so'>{inner}</plugin>"
     tag = parse_xml(text, "robot.urdf", diagnostics)
     assert tag is not None
-    return ParameterReader(PluginTag("p", "libtest.so", tag), TABLE, diagnostics), diagnostics
+    return PluginReader(PluginTag("p", "libtest.so", tag), TABLE, diagnostics), diagnostics
 
 
 def test_absent_keys_have_the_tables_defaults() -> None:

@@ -56,8 +56,8 @@ def test_every_name_of_a_family_is_known(filename: str) -> None:
 
 def test_every_key_of_a_table_has_a_unique_name() -> None:
     for table in all_tables():
-        names = [name for row in table.parameters for name in (row.key, *row.aliases)]
-        assert len(names) == len(set(names)), table.family
+        names = [name for row in table.parameters.rows for name in row.names]
+        assert len(names) == len(set(names)), table.parameters.family
 
 
 def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Simulation]) -> None:
@@ -193,7 +193,7 @@ def test_a_sensor_kind_that_is_not_simulated_is_reported(load: Callable[..., Sim
     assert "sensor 'r::l::s' is of type 'logical_camera', which is not simulated" in found.message
 
 
-@pytest.mark.parametrize("filename", NAMED_TABLE.filenames)
+@pytest.mark.parametrize("filename", NAMED_TABLE.parameters.types)
 def test_a_plug_in_known_by_name_says_what_does_not_happen(
     load: Callable[..., Simulation], filename: str
 ) -> None:
@@ -204,7 +204,7 @@ def test_a_plug_in_known_by_name_says_what_does_not_happen(
     assert not sim.diagnostics.by_code("plugin.unknown")
 
 
-@pytest.mark.parametrize("filename", NOTHING_TABLE.filenames)
+@pytest.mark.parametrize("filename", NOTHING_TABLE.parameters.types)
 def test_a_library_that_does_nothing_is_a_remark(
     load: Callable[..., Simulation], filename: str
 ) -> None:

@@ -17,7 +17,7 @@ from gazelle.simulator.plugins.body_odometry import (
 )
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.scheduler import period_in_steps
 
@@ -61,7 +61,7 @@ class _Car:
     """One running car."""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, names: dict[str, str]
+        self, context: PluginContext, parameters: PluginReader, names: dict[str, str]
     ) -> None:
         self._context = context
         self._engine = context.host.engine
@@ -99,7 +99,7 @@ class _Car:
         self._track_m = float(np.linalg.norm(left - right))
         self._wheel_base_m = float(np.linalg.norm((left + right - rear_left - rear_right) / 2))
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
         # Twist and TwistStamped are both taken.
         resources.subscription(
@@ -129,7 +129,7 @@ class _Car:
         if parameters.flag("publish_wheel_tf"):
             self._tf = resources.publisher("/tf", "tf2_msgs/TFMessage")
 
-    def _start(self, parameters: ParameterReader) -> None:
+    def _start(self, parameters: PluginReader) -> None:
         resources, step_ns = self._context.resources, self._engine.step_ns
         period = period_in_steps(parameters.number("update_rate"), step_ns)
         self._steps = max(1.0, float(period))
@@ -211,7 +211,7 @@ class _Car:
             joint.release()
 
 
-def _pid(context: PluginContext, parameters: ParameterReader, name: str) -> GazeboPid:
+def _pid(context: PluginContext, parameters: PluginReader, name: str) -> GazeboPid:
     p, i, d = parameters.vector(f"{name}_pid_gain")
     words = parameters.text(f"{name}_i_range").split()
     try:

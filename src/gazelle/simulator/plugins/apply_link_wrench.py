@@ -8,8 +8,9 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import nearest_names
 from gazelle.engine.wrenches import TimedWrench
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]
 
@@ -20,30 +21,34 @@ _ZERO = (0.0, 0.0, 0.0)
 _MODEL = 2
 
 TABLE = PluginTable(
-    family="gz-sim apply link wrench",
-    summary="Applies wrenches to links, for one step or until they are cleared.",
-    filenames=(
-        "gz-sim-apply-link-wrench-system",
-        "ignition-gazebo-apply-link-wrench-system",
-        "gz::sim::systems::ApplyLinkWrench",
-        "ignition::gazebo::systems::ApplyLinkWrench",
+    ParameterTable(
+        "gz-sim apply link wrench",
+        "Applies wrenches to links, for one step or until they are cleared.",
+        (
+            "gz-sim-apply-link-wrench-system",
+            "ignition-gazebo-apply-link-wrench-system",
+            "gz::sim::systems::ApplyLinkWrench",
+            "ignition::gazebo::systems::ApplyLinkWrench",
+        ),
+        (
+            Parameter("topic", "text", "/world/{world}/wrench", "wrenches for one step"),
+            Parameter("topic_persistent", "text", "/world/{world}/wrench/persistent", "for ever"),
+            Parameter("topic_clear", "text", "/world/{world}/wrench/clear", "ends those"),
+            Parameter(
+                "persistent", "group", "", "a wrench from the start: entity_name, entity_type…"
+            ),
+            Parameter("verbose", "refused", "", "Gazebo's logging"),
+        ),
+    ),
+    topics=(
+        Topic("{topic}", "ros_gz_interfaces/msg/EntityWrench", kind="listens"),
+        Topic("{topic_persistent}", "ros_gz_interfaces/msg/EntityWrench", kind="listens"),
+        Topic("{topic_clear}", "ros_gz_interfaces/msg/Entity", kind="listens"),
     ),
     behaviour=(
         "Wrenches are in the world's frame and act at the centre of mass of the link, or of a"
         " model's canonical link.",
         "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to.",
-    ),
-    topics=(
-        Topic("{topic}", "ros_gz_interfaces/msg/EntityWrench", "", "", publishes=False),
-        Topic("{topic_persistent}", "ros_gz_interfaces/msg/EntityWrench", "", "", publishes=False),
-        Topic("{topic_clear}", "ros_gz_interfaces/msg/Entity", "", "", publishes=False),
-    ),
-    parameters=(
-        Parameter("topic", "text", "/world/{world}/wrench", "wrenches for one step"),
-        Parameter("topic_persistent", "text", "/world/{world}/wrench/persistent", "for ever"),
-        Parameter("topic_clear", "text", "/world/{world}/wrench/clear", "ends those"),
-        Parameter("persistent", "group", "", "a wrench from the start: entity_name, entity_type…"),
-        Parameter("verbose", "none", "", "Gazebo's logging"),
     ),
 )
 

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.laser import lidar_place, start_scans
 from gazelle.simulator.plugins.noise import gaussian
 from gazelle.simulator.plugins.stream import prefixed_frame
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:
     from gazelle.sensors import LidarRecord
@@ -19,24 +20,31 @@ if TYPE_CHECKING:
 __all__ = ["TABLE", "load"]
 
 TABLE = PluginTable(
-    family="block_laser",
-    summary="Publishes the scans of the ray sensor around it as a cloud of points.",
-    filenames=("gazebo_ros_block_laser",),
+    ParameterTable(
+        "block_laser",
+        "Publishes the scans of the ray sensor around it as a cloud of points.",
+        ("gazebo_ros_block_laser",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("topicName", "text", "/world", "topic"),
+            Parameter("frameName", "text", "/world", "frame of the points"),
+            Parameter("gaussianNoise", "number", 0.0, "sigma of coordinates and intensities", "m"),
+            Parameter("updateRate", "refused", "", "the sensor's rate governs"),
+            Parameter("hokuyoMinIntensity", "refused", "", "no release of the plug-in uses it"),
+            Parameter("alwaysOn", "refused", "", "scans are computed while somebody subscribes"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/PointCloud",
+            rate="sensor's `update_rate`",
+            frame="`frameName`",
+        ),
+    ),
     behaviour=(
         "Every ray gives a point; those that meet nothing lie at infinity, as in Gazebo.",
         "The one channel has the intensities.",
-    ),
-    topics=(
-        Topic("{topicName}", "sensor_msgs/msg/PointCloud", "sensor's `update_rate`", "`frameName`"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("topicName", "text", "/world", "topic"),
-        Parameter("frameName", "text", "/world", "frame of the points"),
-        Parameter("gaussianNoise", "number", 0.0, "sigma of coordinates and intensities", "m"),
-        Parameter("updateRate", "none", "", "the sensor's rate governs"),
-        Parameter("hokuyoMinIntensity", "none", "", "no release of the plug-in uses it"),
-        Parameter("alwaysOn", "none", "", "scans are computed while somebody subscribes"),
     ),
 )
 

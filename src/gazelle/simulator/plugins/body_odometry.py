@@ -17,7 +17,7 @@ from gazelle.simulator.messages import (
     twist_message,
 )
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 
 __all__ = [
     "UNMEASURED",
@@ -126,7 +126,7 @@ def planar_covariance(x: float, y: float, yaw: float) -> Covariance:
     return covariance
 
 
-def frame_prefix(context: PluginContext, parameters: ParameterReader) -> str:
+def frame_prefix(context: PluginContext, parameters: PluginReader) -> str:
     """Return what ``tf_prefix`` puts before frames, ending in a slash, or nothing."""
     prefix = context.tf_prefix(context.namespace(parameters)).strip("/")
     return f"{prefix}/" if prefix else ""

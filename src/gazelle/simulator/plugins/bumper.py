@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.description.model import ContactSpec
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.stream import (
@@ -17,7 +18,7 @@ from gazelle.simulator.plugins.stream import (
     sensor_period,
     sensor_place,
 )
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:
     from gazelle.engine import Contact, Engine
@@ -28,9 +29,36 @@ __all__ = ["TABLE", "gz_contacts_message", "load", "transport_contacts_message"]
 Wrenches = list[tuple[Any, Any]]
 
 TABLE = PluginTable(
-    family="bumper",
-    summary="Publishes what touches the collisions that the contact sensor around it watches.",
-    filenames=("gazebo_ros_bumper",),
+    ParameterTable(
+        "bumper",
+        "Publishes what touches the collisions that the contact sensor around it watches.",
+        ("gazebo_ros_bumper",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter(
+                "bumperTopicName", "text", "bumper_states", "topic (ROS 1)", generations=(1,)
+            ),
+            Parameter(
+                "frameName",
+                "text",
+                "world",
+                "`header.frame_id` and nothing else",
+                "",
+                aliases=("frame_name",),
+            ),
+            Parameter("alwaysOn", "refused", "", "contacts are read while somebody subscribes"),
+            Parameter("updateRate", "refused", "", "the sensor's rate governs"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{bumperTopicName}",
+            "gazebo_msgs/msg/ContactsState",
+            rate="sensor's `update_rate`",
+            frame="`frameName`",
+            ros2="bumper_states",
+        ),
+    ),
     behaviour=(
         "Every reading is published, with no states when nothing touches. There is one state per"
         " pair of collisions, the watched one first.",
@@ -38,24 +66,6 @@ TABLE = PluginTable(
         " wrenches act on the watched link, in its own axes and about its centre of mass.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic(
-            "{bumperTopicName}",
-            "gazebo_msgs/msg/ContactsState",
-            "sensor's `update_rate`",
-            "`frameName`",
-            ros2="bumper_states",
-        ),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter("bumperTopicName", "text", "bumper_states", "topic (ROS 1)", only=1),
-        Parameter(
-            "frameName", "text", "world", "`header.frame_id` and nothing else", "", ("frame_name",)
-        ),
-        Parameter("alwaysOn", "none", "", "contacts are read while somebody subscribes"),
-        Parameter("updateRate", "none", "", "the sensor's rate governs"),
-    ),
 )
 
 

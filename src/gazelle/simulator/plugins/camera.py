@@ -10,7 +10,7 @@ from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_n
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth, cut_depth
 from gazelle.simulator.plugins.image_transport import add_transports
 from gazelle.simulator.plugins.multicamera import start_multicamera_ros2
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.sensor_set import camera_members
 
 __all__ = ["load", "load_triggered"]
@@ -43,7 +43,7 @@ def load_triggered(context: PluginContext) -> None:
 
 
 def _start_ros1(
-    context: PluginContext, parameters: ParameterReader, place: SensorPlace
+    context: PluginContext, parameters: PluginReader, place: SensorPlace
 ) -> CameraStream:
     spec = place.sensor.spec
     assert isinstance(spec, CameraSpec)
@@ -66,7 +66,7 @@ def _start_ros1(
     return stream
 
 
-def _start_ros2(context: PluginContext, parameters: ParameterReader, place: SensorPlace) -> None:
+def _start_ros2(context: PluginContext, parameters: PluginReader, place: SensorPlace) -> None:
     spec = place.sensor.spec
     assert isinstance(spec, CameraSpec)
     frame = parameters.text("frameName", place.link_name.split("::")[-1])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import CameraSpec
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 
 __all__ = ["Calibration", "camera_info_message", "image_message", "read_calibration"]
 
@@ -41,7 +41,7 @@ class Calibration:
 
 
 def read_calibration(
-    context: PluginContext, parameters: ParameterReader, spec: CameraSpec, frame: str
+    context: PluginContext, parameters: PluginReader, spec: CameraSpec, frame: str
 ) -> Calibration:
     """Read the calibration keys (GazeboRosCameraUtils): 0 means computed from the sensor."""
     computed = spec.width_px / (2 * math.tan(spec.horizontal_fov_rad / 2))
@@ -98,7 +98,7 @@ def image_message(
 
 
 def _distortion(
-    parameters: ParameterReader, spec: CameraSpec
+    parameters: PluginReader, spec: CameraSpec
 ) -> tuple[float, float, float, float, float]:
     if spec.distortion is not None and parameters.flag("autoDistortion"):
         lens = spec.distortion

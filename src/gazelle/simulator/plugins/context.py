@@ -14,7 +14,7 @@ from gazelle.graph.backlog import MOST_WAITING, Backlog
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
 from gazelle.simulator.messages import message_class, service_class
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.ports import NodePort, PublisherPort
 from gazelle.simulator.scheduler import (
@@ -276,16 +276,16 @@ class PluginContext:
         """Whose plug-in it is, in words: ``model 'm'`` or ``world 'w'``."""
         return f"{'world' if self.is_of_world else 'model'} '{self.model.name}'"
 
-    def reader(self, table: PluginTable) -> ParameterReader:
+    def reader(self, table: PluginTable) -> PluginReader:
         """Return the reader of this plug-in's keys."""
         host = self.host
-        return ParameterReader(self.plugin, table, host.diagnostics, host.ros_version)
+        return PluginReader(self.plugin, table, host.diagnostics, host.ros_version)
 
     def report(self, code: str, message: str, *, fix: str = "") -> None:
         """Report something about this plug-in at its place."""
         self.host.diagnostics.report(code, message, self.plugin.span, fix=fix)
 
-    def namespace(self, parameters: ParameterReader) -> str:
+    def namespace(self, parameters: PluginReader) -> str:
         """Return the namespace of the plug-in's topics, absolute.
 
         What a robot is spawned into goes before ``<ros>``'s namespace, as ROS 2's factory writes
@@ -300,7 +300,7 @@ class PluginContext:
         name = parameters.text("robotNamespace", self.default_namespace)
         return join_names("/", name)
 
-    def topic(self, parameters: ParameterReader, name: str, *within: str) -> str:
+    def topic(self, parameters: PluginReader, name: str, *within: str) -> str:
         """Return the absolute name of a topic of this plug-in.
 
         ROS 2 remappings of the ``<ros>`` block apply; ``~/x`` is below the plug-in's name.

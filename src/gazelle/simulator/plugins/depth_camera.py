@@ -20,7 +20,7 @@ from gazelle.simulator.plugins.image_encoding import (
     encode_pixels,
     encoding_name,
 )
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -108,12 +108,12 @@ def add_depth(
     stream.add(cloud_topic, "sensor_msgs/PointCloud2", cloud, rgb=True, depth=True)
 
 
-def _near(parameters: ParameterReader) -> float:
+def _near(parameters: PluginReader) -> float:
     return parameters.number("pointCloudCutoff")
 
 
 def _start(
-    context: PluginContext, parameters: ParameterReader, place: SensorPlace, limits: DepthLimits
+    context: PluginContext, parameters: PluginReader, place: SensorPlace, limits: DepthLimits
 ) -> None:
     spec = place.sensor.spec
     assert isinstance(spec, CameraSpec)

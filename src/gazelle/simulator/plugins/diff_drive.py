@@ -18,7 +18,7 @@ from gazelle.simulator.messages import (
 )
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.diff_drive_table import TABLE
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_checks import check_drive, exchange_wheels
 from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, WheelRamp, wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
@@ -59,7 +59,7 @@ class _Drive:
     """One running drive."""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, wheels: list[tuple[str, str]]
+        self, context: PluginContext, parameters: PluginReader, wheels: list[tuple[str, str]]
     ) -> None:
         self._context = context
         self._engine = context.host.engine
@@ -85,7 +85,7 @@ class _Drive:
         self._offer(parameters)
         self._start(parameters)
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
         namespace = context.namespace(parameters)
         prefix = context.tf_prefix(namespace) or (
@@ -116,7 +116,7 @@ class _Drive:
             topic = join_names(namespace, parameters.ros.remapped("joint_states"))
             self._joint_publisher = resources.publisher(topic, "sensor_msgs/JointState")
 
-    def _start(self, parameters: ParameterReader) -> None:
+    def _start(self, parameters: PluginReader) -> None:
         step_ns = self._engine.step_ns
         period = period_in_steps(parameters.number("updateRate"), step_ns)
         self._period_s = float(period * step_ns) * 1e-9
@@ -243,7 +243,7 @@ class _Drive:
                 joint.release()
 
 
-def _covariance(parameters: ParameterReader) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _covariance(parameters: PluginReader) -> np.ndarray[Any, np.dtype[np.float64]]:
     covariance = np.zeros(36)
     covariance[[14, 21, 28]] = _UNMEASURED
     covariance[0] = parameters.number("covariance_x")
@@ -252,7 +252,7 @@ def _covariance(parameters: ParameterReader) -> np.ndarray[Any, np.dtype[np.floa
     return covariance
 
 
-def _odometry_source(context: PluginContext, parameters: ParameterReader) -> str:
+def _odometry_source(context: PluginContext, parameters: PluginReader) -> str:
     """Gazebo compares with the words encoder and world; ROS 2 with 0 and 1; else it is world."""
     word = parameters.text("odometrySource")
     source = _SOURCES.get(word.lower())

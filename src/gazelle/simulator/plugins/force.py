@@ -7,9 +7,10 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.engine.wrenches import TimedWrench
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]
 
@@ -19,30 +20,25 @@ _FRAMES = ("world", "link")
 _ZERO = (0.0, 0.0, 0.0)
 
 TABLE = PluginTable(
-    family="force",
-    summary="Applies the last wrench of a topic to a link, until the next one.",
-    filenames=("gazebo_ros_force",),
+    ParameterTable(
+        "force",
+        "Applies the last wrench of a topic to a link, until the next one.",
+        ("gazebo_ros_force",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("bodyName", "text", "", "the link", "", aliases=("link_name",)),
+            Parameter("topicName", "text", "gazebo_ros_force", "commands", generations=(1,)),
+            Parameter("force_frame", "text", "world", "world or link (ROS 2)", generations=(2,)),
+        ),
+    ),
+    topics=(
+        Topic("{topicName}", "geometry_msgs/msg/Wrench", kind="listens", ros2="gazebo_ros_force"),
+    ),
     behaviour=(
         "The force acts at the centre of mass, in the world's frame; ROS 2 knows"
         " `force_frame` link, which turns it with the link.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic(
-            "{topicName}",
-            "geometry_msgs/msg/Wrench",
-            "",
-            "",
-            publishes=False,
-            ros2="gazebo_ros_force",
-        ),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter("bodyName", "text", "", "the link", "", ("link_name",)),
-        Parameter("topicName", "text", "gazebo_ros_force", "commands", only=1),
-        Parameter("force_frame", "text", "world", "world or link (ROS 2)", only=2),
-    ),
 )
 
 
@@ -63,7 +59,7 @@ class _Force:
     """One running plug-in."""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, link: str, *, turns: bool
+        self, context: PluginContext, parameters: PluginReader, link: str, *, turns: bool
     ) -> None:
         self._engine = context.host.engine
         self._link = self._engine.link(link)

@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ForceTorqueSpec
 from gazelle.geometry import IDENTITY_POSE, cross, inertia_matrix
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.joint_loads import joint_load
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import publish_at
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import measured_period_in_steps
 
 if TYPE_CHECKING:
@@ -28,9 +29,39 @@ __all__ = ["F3D_TABLE", "TABLE", "load", "load_f3d", "wrench_message"]
 Array = NDArray[np.float64]
 
 TABLE = PluginTable(
-    family="ft_sensor",
-    summary="A model plug-in that measures what a joint carries, or (ROS 2) all force on a link.",
-    filenames=("gazebo_ros_ft_sensor",),
+    ParameterTable(
+        "ft_sensor",
+        "A model plug-in that measures what a joint carries, or (ROS 2) all force on a link.",
+        ("gazebo_ros_ft_sensor",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("jointName", "text", "", "the joint", "", aliases=("joint_name",)),
+            Parameter("topicName", "text", "", "topic (ROS 1), must be given", generations=(1,)),
+            Parameter(
+                "body_name", "text", "", "the link, instead of a joint (ROS 2)", generations=(2,)
+            ),
+            Parameter("frame_name", "text", "world", "`header.frame_id` with `body_name`"),
+            Parameter(
+                "gaussianNoise",
+                "number",
+                0.0,
+                "sigma of every component",
+                "N, N·m",
+                aliases=("gaussian_noise",),
+            ),
+            Parameter("updateRate", "number", 0.0, "publish rate", "Hz", aliases=("update_rate",)),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "geometry_msgs/msg/WrenchStamped",
+            rate="`updateRate`",
+            frame="child link",
+            ros2="wrench",
+        ),
+    ),
     behaviour=(
         "The wrench is what the child exerts on the parent, in the child link's axes, the torque"
         " about the joint's origin: a hanging mass reads (0, 0, -m g).",
@@ -39,50 +70,32 @@ TABLE = PluginTable(
         "Rates are measured from the last message, so the period is whole steps.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic(
-            "{topicName}",
-            "geometry_msgs/msg/WrenchStamped",
-            "`updateRate`",
-            "child link",
-            ros2="wrench",
-        ),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter("jointName", "text", "", "the joint", "", ("joint_name",)),
-        Parameter("topicName", "text", "", "topic (ROS 1), must be given", only=1),
-        Parameter("body_name", "text", "", "the link, instead of a joint (ROS 2)", only=2),
-        Parameter("frame_name", "text", "world", "`header.frame_id` with `body_name`"),
-        Parameter(
-            "gaussianNoise",
-            "number",
-            0.0,
-            "sigma of every component",
-            "N, N·m",
-            ("gaussian_noise",),
-        ),
-        Parameter("updateRate", "number", 0.0, "publish rate", "Hz", ("update_rate",)),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-    ),
 )
 
 F3D_TABLE = PluginTable(
-    family="f3d",
-    summary="A model plug-in that publishes all force on a link.",
-    filenames=("gazebo_ros_f3d",),
+    ParameterTable(
+        "f3d",
+        "A model plug-in that publishes all force on a link.",
+        ("gazebo_ros_f3d",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("bodyName", "text", "", "the link"),
+            Parameter("topicName", "text", "", "topic, must be given"),
+            Parameter(
+                "frameName", "text", "world", "`header.frame_id` and nothing else, as in Gazebo"
+            ),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+            Parameter("updateRate", "refused", "", "no release of this plug-in reads it"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}", "geometry_msgs/msg/WrenchStamped", rate="every step", frame="`frameName`"
+        ),
+    ),
     behaviour=(
         "Force is mass times acceleration of the centre of mass, torque the rate of change of the"
         " spin, world frame: zero at rest, the weight in free fall.",
-    ),
-    topics=(Topic("{topicName}", "geometry_msgs/msg/WrenchStamped", "every step", "`frameName`"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("bodyName", "text", "", "the link"),
-        Parameter("topicName", "text", "", "topic, must be given"),
-        Parameter("frameName", "text", "world", "`header.frame_id` and nothing else, as in Gazebo"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-        Parameter("updateRate", "none", "", "no release of this plug-in reads it"),
     ),
 )
 
@@ -144,7 +157,7 @@ def _report_no_topic(context: PluginContext) -> None:
 
 def _start(
     context: PluginContext,
-    parameters: ParameterReader,
+    parameters: PluginReader,
     topic: str,
     frame: str,
     read: Callable[[], WrenchRecord],
@@ -160,7 +173,7 @@ def _start(
     publish_at(context, topic, "geometry_msgs/WrenchStamped", period, build)
 
 
-def _child_frame(context: PluginContext, parameters: ParameterReader, joint_name: str) -> str:
+def _child_frame(context: PluginContext, parameters: PluginReader, joint_name: str) -> str:
     joint = context.model.joint(joint_name.split("::", 1)[1])
     assert joint is not None
     prefix = context.tf_prefix(context.namespace(parameters)).strip("/")

@@ -10,17 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import GpsSpec
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import (
     once_per_step,
     publish_at,
     sensor_period,
     sensor_place,
 )
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 if TYPE_CHECKING:
@@ -34,9 +35,26 @@ _SERVICE_GPS = 1
 _RATE_HZ = 4.0
 
 TABLE = PluginTable(
-    family="gps_sensor",
-    summary="The ROS 2 plug-in of gps sensors.",
-    filenames=("gazebo_ros_gps_sensor",),
+    ParameterTable(
+        "gps_sensor",
+        "The ROS 2 plug-in of gps sensors.",
+        ("gazebo_ros_gps_sensor",),
+        (Parameter("frame_name", "text", "", "frame; the link's name when empty"),),
+    ),
+    topics=(
+        Topic(
+            "~/out",
+            "sensor_msgs/msg/NavSatFix",
+            rate="sensor's `update_rate`",
+            frame="`frame_name`",
+        ),
+        Topic(
+            "~/vel",
+            "geometry_msgs/msg/Vector3Stamped (east, north, up)",
+            rate="sensor's `update_rate`",
+            frame="`frame_name`",
+        ),
+    ),
     behaviour=(
         "The world's `<spherical_coordinates>` place it on the WGS 84 ellipsoid, exactly, not on a"
         " flat Earth.",
@@ -45,57 +63,52 @@ TABLE = PluginTable(
         " of gz-sim worlds take it as SDF describes it.",
         "Noise is in metres; the covariance has its variances.",
     ),
-    topics=(
-        Topic("~/out", "sensor_msgs/msg/NavSatFix", "sensor's `update_rate`", "`frame_name`"),
-        Topic(
-            "~/vel",
-            "geometry_msgs/msg/Vector3Stamped (east, north, up)",
-            "sensor's `update_rate`",
-            "`frame_name`",
-        ),
-    ),
-    parameters=(Parameter("frame_name", "text", "", "frame; the link's name when empty"),),
 )
 
 HECTOR_TABLE = PluginTable(
-    family="hector gps",
-    summary="The GPS of hector_gazebo_plugins, a model plug-in.",
-    filenames=("hector_gazebo_ros_gps",),
+    ParameterTable(
+        "hector gps",
+        "The GPS of hector_gazebo_plugins, a model plug-in.",
+        ("hector_gazebo_ros_gps",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topics"),
+            Parameter("bodyName", "text", "", "the link; the model's first when absent"),
+            Parameter("frameId", "text", "/world", "frame of the data", "", aliases=("frameName",)),
+            Parameter("topicName", "text", "fix", "topic of fixes"),
+            Parameter("velocityTopicName", "text", "fix_velocity", "topic of velocities"),
+            Parameter("updateRate", "number", _RATE_HZ, "publish rate", "Hz"),
+            Parameter("referenceLatitude", "number", 49.9, "of the world's origin", "deg"),
+            Parameter("referenceLongitude", "number", 8.9, "of the world's origin", "deg"),
+            Parameter("referenceHeading", "number", 0.0, "compass heading of x", "deg"),
+            Parameter("referenceAltitude", "number", 0.0, "of the world's origin", "m"),
+            Parameter(
+                "useWorldSphericalCoordinates",
+                "flag",
+                False,
+                "take the reference from the world, where none of the keys above says otherwise",
+            ),
+            Parameter("status", "number", 0.0, "`status.status`"),
+            Parameter("service", "number", 0.0, "`status.service`"),
+            *error_parameters("m"),
+            *error_parameters("m/s", prefix="velocity"),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
+    topics=(
+        Topic("{topicName}", "sensor_msgs/msg/NavSatFix", rate="`updateRate`", frame="`frameId`"),
+        Topic(
+            "{velocityTopicName}",
+            "geometry_msgs/msg/Vector3Stamped",
+            rate="`updateRate`",
+            frame="`frameId`",
+        ),
+    ),
     behaviour=(
         "Degrees come from the radii of curvature at the reference, as in the original.",
         "Headings are a compass's: 0 means that x points north, 90 east.",
         "The velocity is north, west, up.",
         "An error of the velocity moves the position's drift along.",
         "`set_reference_geopose` and dynamic_reconfigure are not offered.",
-    ),
-    topics=(
-        Topic("{topicName}", "sensor_msgs/msg/NavSatFix", "`updateRate`", "`frameId`"),
-        Topic(
-            "{velocityTopicName}", "geometry_msgs/msg/Vector3Stamped", "`updateRate`", "`frameId`"
-        ),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topics"),
-        Parameter("bodyName", "text", "", "the link; the model's first when absent"),
-        Parameter("frameId", "text", "/world", "frame of the data", "", ("frameName",)),
-        Parameter("topicName", "text", "fix", "topic of fixes"),
-        Parameter("velocityTopicName", "text", "fix_velocity", "topic of velocities"),
-        Parameter("updateRate", "number", _RATE_HZ, "publish rate", "Hz"),
-        Parameter("referenceLatitude", "number", 49.9, "of the world's origin", "deg"),
-        Parameter("referenceLongitude", "number", 8.9, "of the world's origin", "deg"),
-        Parameter("referenceHeading", "number", 0.0, "compass heading of x", "deg"),
-        Parameter("referenceAltitude", "number", 0.0, "of the world's origin", "m"),
-        Parameter(
-            "useWorldSphericalCoordinates",
-            "flag",
-            False,
-            "take the reference from the world, where none of the keys above says otherwise",
-        ),
-        Parameter("status", "number", 0.0, "`status.status`"),
-        Parameter("service", "number", 0.0, "`status.service`"),
-        *error_parameters("m"),
-        *error_parameters("m/s", prefix="velocity"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
     ),
 )
 
@@ -111,7 +124,7 @@ def load(context: PluginContext) -> None:
 
 
 def _publish_sensor(
-    context: PluginContext, parameters: ParameterReader, place: SensorPlace, frame: str
+    context: PluginContext, parameters: PluginReader, place: SensorPlace, frame: str
 ) -> None:
     measurements, spec = context.host.sensors.measurements, place.sensor.spec
     assert isinstance(spec, GpsSpec)
@@ -166,9 +179,7 @@ def load_hector(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _reference(
-    context: PluginContext, parameters: ParameterReader
-) -> tuple[GeodeticPosition, float]:
+def _reference(context: PluginContext, parameters: PluginReader) -> tuple[GeodeticPosition, float]:
     from gazelle.sensors import GeodeticPosition
 
     latitude, longitude, altitude, heading = (
@@ -187,7 +198,7 @@ def _reference(
 
 def _start_hector(
     context: PluginContext,
-    parameters: ParameterReader,
+    parameters: PluginReader,
     link_name: str,
     reference: GeodeticPosition,
     heading_rad: float,

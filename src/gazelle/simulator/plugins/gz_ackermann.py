@@ -17,7 +17,7 @@ from gazelle.simulator.messages import (
 from gazelle.simulator.plugins.ackermann import steering_angles
 from gazelle.simulator.plugins.ackermann_table import GZ_TABLE
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]
@@ -50,7 +50,7 @@ class _GzCar:
     """One running car."""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, names: dict[str, list[str]]
+        self, context: PluginContext, parameters: PluginReader, names: dict[str, list[str]]
     ) -> None:
         self._context = context
         self._engine = context.host.engine
@@ -69,7 +69,7 @@ class _GzCar:
         self._last_roll = self._roll()
         self._offer(parameters)
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
         model, name = context.model, context.plugin.name
 

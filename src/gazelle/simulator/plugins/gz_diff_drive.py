@@ -14,7 +14,7 @@ from gazelle.simulator.messages import (
 )
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.diff_drive_table import GZ_TABLE
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_checks import check_drive
 from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
@@ -63,7 +63,7 @@ class _GzDrive:
     def __init__(
         self,
         context: PluginContext,
-        parameters: ParameterReader,
+        parameters: PluginReader,
         names: tuple[list[str], list[str]],
     ) -> None:
         self._context = context
@@ -83,7 +83,7 @@ class _GzDrive:
         self._offer(parameters)
         self._start(parameters)
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         model, resources = self._context.model, self._context.resources
 
         def named(key: str) -> str:
@@ -100,7 +100,7 @@ class _GzDrive:
         self._odom_publisher = resources.publisher(odom_topic, "nav_msgs/Odometry")
         self._tf_publisher = resources.publisher(join_names("/", tf_topic), "tf2_msgs/TFMessage")
 
-    def _start(self, parameters: ParameterReader) -> None:
+    def _start(self, parameters: PluginReader) -> None:
         step_ns, resources = self._engine.step_ns, self._context.resources
         period = period_in_steps(parameters.number("odom_publish_frequency"), step_ns)
         self._publish_period_s = float(period * step_ns) * 1e-9
@@ -157,7 +157,7 @@ class _GzDrive:
             joint.release()
 
 
-def _limiter(parameters: ParameterReader, speed: str, rate: str) -> _Limiter:
+def _limiter(parameters: PluginReader, speed: str, rate: str) -> _Limiter:
     return _Limiter(
         parameters.number(f"min_{speed}"),
         parameters.number(f"max_{speed}"),

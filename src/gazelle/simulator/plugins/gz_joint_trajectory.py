@@ -14,7 +14,7 @@ from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.gz_joints_table import TRAJECTORY_TABLE
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 
 __all__ = ["TRAJECTORY_TABLE", "load"]
 
@@ -98,7 +98,7 @@ class _Controller:
     """One running plug-in."""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, joints: list[JointHandle]
+        self, context: PluginContext, parameters: PluginReader, joints: list[JointHandle]
     ) -> None:
         self._context = context
         self._engine = context.host.engine
@@ -162,7 +162,7 @@ class _Controller:
             one.joint.release()
 
 
-def _joints(context: PluginContext, parameters: ParameterReader) -> list[JointHandle]:
+def _joints(context: PluginContext, parameters: PluginReader) -> list[JointHandle]:
     """Return the joints it names, or all, that turn about or slide along a single axis."""
     wanted = parameters.texts("joint_name")
     if wanted:
@@ -173,12 +173,12 @@ def _joints(context: PluginContext, parameters: ParameterReader) -> list[JointHa
     return [one for one in handles if one.type in _SINGLE_AXIS and one.is_driveable]
 
 
-def _pids(parameters: ParameterReader, kind: str, count: int) -> list[GazeboPid]:
+def _pids(parameters: PluginReader, kind: str, count: int) -> list[GazeboPid]:
     columns = [_each(parameters, f"{kind}_{gain}", count) for gain in _GAINS]
     return [GazeboPid(*row) for row in zip(*columns, strict=True)]
 
 
-def _each(parameters: ParameterReader, key: str, count: int) -> list[float]:
+def _each(parameters: PluginReader, key: str, count: int) -> list[float]:
     """Return a number for each joint, in the order of the elements; the rest have the default."""
     given = parameters.numbers(key)[:count]
     return [*given, *[parameters.default_number(key)] * (count - len(given))]

@@ -11,7 +11,7 @@ from gazelle.engine import JointHandle
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.gz_joints_table import FORCE_TABLE, POSITION_TABLE, VELOCITY_TABLE
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = [
@@ -45,7 +45,7 @@ class _JointSystem:
     topic = ""
 
     def __init__(
-        self, context: PluginContext, parameters: ParameterReader, joints: list[JointHandle]
+        self, context: PluginContext, parameters: PluginReader, joints: list[JointHandle]
     ) -> None:
         self._step_s = context.host.engine.step_ns * 1e-9
         self._joints = joints
@@ -58,7 +58,7 @@ class _JointSystem:
         resources.on_reset(self._reset)
         resources.on_close(self._release)
 
-    def _read(self, parameters: ParameterReader) -> float:
+    def _read(self, parameters: PluginReader) -> float:
         """Read the keys and return the command at the start."""
         return 0.0
 
@@ -84,7 +84,7 @@ class _Force(_JointSystem):
 class _Velocity(_JointSystem):
     topic = "cmd_vel"
 
-    def _read(self, parameters: ParameterReader) -> float:
+    def _read(self, parameters: PluginReader) -> float:
         self._by_force = parameters.flag("use_force_commands")
         self._coasts = parameters.flag("disable_braking")
         self._pids = [_pid(parameters) for _ in self._joints]
@@ -108,7 +108,7 @@ class _Velocity(_JointSystem):
 
 
 class _Position(_JointSystem):
-    def _read(self, parameters: ParameterReader) -> float:
+    def _read(self, parameters: PluginReader) -> float:
         self.topic = f"{int(parameters.number('joint_index'))}/cmd_pos"
         self._by_velocity = parameters.flag("use_velocity_commands")
         self._fastest = parameters.number("cmd_max") if parameters.has("cmd_max") else math.inf
@@ -150,7 +150,7 @@ def _joints(context: PluginContext, wanted: Sequence[str]) -> list[JointHandle]:
 
 
 def _topic(
-    context: PluginContext, parameters: ParameterReader, default: str, joint: JointHandle
+    context: PluginContext, parameters: PluginReader, default: str, joint: JointHandle
 ) -> str:
     model = f"/model/{context.model.name}"
     for key, prefix in (("topic", "/"), ("sub_topic", model)):
@@ -159,6 +159,6 @@ def _topic(
     return join_names(model, "joint", joint.joint.name, default)
 
 
-def _pid(parameters: ParameterReader) -> GazeboPid:
+def _pid(parameters: PluginReader) -> GazeboPid:
     keys = ("p_gain", "i_gain", "d_gain", "i_max", "i_min", "cmd_max", "cmd_min", "cmd_offset")
     return GazeboPid(*(parameters.number(key) for key in keys))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["FORCE_TABLE", "POSITION_TABLE", "TRAJECTORY_TABLE", "VELOCITY_TABLE"]
 
@@ -10,8 +11,8 @@ _SAME_TOPICS = (
     "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to."
 )
 _ACTUATORS = (
-    Parameter("use_actuator_msg", "none", "", "there is no actuators message in ROS"),
-    Parameter("actuator_number", "none", "", "there is no actuators message in ROS"),
+    Parameter("use_actuator_msg", "refused", "", "there is no actuators message in ROS"),
+    Parameter("actuator_number", "refused", "", "there is no actuators message in ROS"),
 )
 _TOPICS = (
     Parameter("topic", "text", "", "commands, by default below the joint"),
@@ -42,62 +43,65 @@ def _gains(p: float, i: float, d: float) -> tuple[Parameter, ...]:
 
 
 FORCE_TABLE = PluginTable(
-    family="gz-sim apply joint force",
-    summary="Applies the last effort of a topic to a joint.",
-    filenames=_names("apply-joint-force", "ApplyJointForce"),
+    ParameterTable(
+        "gz-sim apply joint force",
+        "Applies the last effort of a topic to a joint.",
+        _names("apply-joint-force", "ApplyJointForce"),
+        (Parameter("joint_name", "text", "", "the joint"),),
+    ),
+    topics=(Topic("/model/M/joint/J/cmd_force", "std_msgs/msg/Float64", kind="listens"),),
     behaviour=(_SAME_TOPICS,),
-    topics=(Topic("/model/M/joint/J/cmd_force", "std_msgs/msg/Float64", "", "", publishes=False),),
-    parameters=(Parameter("joint_name", "text", "", "the joint"),),
 )
 
 VELOCITY_TABLE = PluginTable(
-    family="gz-sim joint controller",
-    summary="Drives joints at the velocity of a topic, outright or by a PID.",
-    filenames=_names("joint-controller", "JointController"),
+    ParameterTable(
+        "gz-sim joint controller",
+        "Drives joints at the velocity of a topic, outright or by a PID.",
+        _names("joint-controller", "JointController"),
+        (
+            Parameter("joint_name", "text", "", "a joint, repeatable"),
+            Parameter("initial_velocity", "number", 0.0, "at the start", "rad/s, m/s"),
+            Parameter("use_force_commands", "flag", False, "use the PID"),
+            Parameter("disable_braking", "flag", False, "the PID never slows the joint down"),
+            *_gains(1.0, 0.0, 0.0),
+            *_TOPICS,
+            *_ACTUATORS,
+        ),
+    ),
+    topics=(Topic("/model/M/joint/J/cmd_vel", "std_msgs/msg/Float64", kind="listens"),),
     behaviour=(
         "Without `use_force_commands` the velocity is reached within a step, with as much effort"
         " as the joint's limit allows.",
         "The PID is Gazebo's own (`gz::math::PID`) and runs at every step.",
         _SAME_TOPICS,
     ),
-    topics=(Topic("/model/M/joint/J/cmd_vel", "std_msgs/msg/Float64", "", "", publishes=False),),
-    parameters=(
-        Parameter("joint_name", "text", "", "a joint, repeatable"),
-        Parameter("initial_velocity", "number", 0.0, "at the start", "rad/s, m/s"),
-        Parameter("use_force_commands", "flag", False, "use the PID"),
-        Parameter("disable_braking", "flag", False, "the PID never slows the joint down"),
-        *_gains(1.0, 0.0, 0.0),
-        *_TOPICS,
-        *_ACTUATORS,
-    ),
 )
 
 POSITION_TABLE = PluginTable(
-    family="gz-sim joint position controller",
-    summary="Drives joints to the position of a topic by a PID, or by velocity.",
-    filenames=_names("joint-position-controller", "JointPositionController"),
+    ParameterTable(
+        "gz-sim joint position controller",
+        "Drives joints to the position of a topic by a PID, or by velocity.",
+        _names("joint-position-controller", "JointPositionController"),
+        (
+            Parameter("joint_name", "text", "", "a joint, repeatable"),
+            Parameter("joint_index", "number", 0.0, "part of the topic's name; axis 0 is driven"),
+            Parameter("initial_position", "number", 0.0, "at the start", "rad, m"),
+            Parameter("use_velocity_commands", "flag", False, "go there by velocity"),
+            *_gains(1.0, 0.1, 0.01),
+            *_TOPICS,
+            *_ACTUATORS,
+        ),
+    ),
+    topics=(
+        Topic("/model/M/joint/J/{joint_index}/cmd_pos", "std_msgs/msg/Float64", kind="listens"),
+    ),
     behaviour=(
         "With `use_velocity_commands` the joint goes to the position within a step, at most at"
         " `cmd_max` where it is given.",
         "The PID is Gazebo's own (`gz::math::PID`) and runs at every step.",
         _SAME_TOPICS,
     ),
-    topics=(
-        Topic(
-            "/model/M/joint/J/{joint_index}/cmd_pos", "std_msgs/msg/Float64", "", "",
-            publishes=False,
-        ),
-    ),
-    parameters=(
-        Parameter("joint_name", "text", "", "a joint, repeatable"),
-        Parameter("joint_index", "number", 0.0, "part of the topic's name; axis 0 is driven"),
-        Parameter("initial_position", "number", 0.0, "at the start", "rad, m"),
-        Parameter("use_velocity_commands", "flag", False, "go there by velocity"),
-        *_gains(1.0, 0.1, 0.01),
-        *_TOPICS,
-        *_ACTUATORS,
-    ),
-)  # fmt: skip
+)
 
 
 def _gains_of(kind: str) -> tuple[Parameter, ...]:
@@ -118,9 +122,27 @@ def _gains_of(kind: str) -> tuple[Parameter, ...]:
 
 
 TRAJECTORY_TABLE = PluginTable(
-    family="gz-sim joint trajectory controller",
-    summary="Takes joints to the points of a trajectory by PIDs of position and velocity.",
-    filenames=_names("joint-trajectory-controller", "JointTrajectoryController"),
+    ParameterTable(
+        "gz-sim joint trajectory controller",
+        "Takes joints to the points of a trajectory by PIDs of position and velocity.",
+        _names("joint-trajectory-controller", "JointTrajectoryController"),
+        (
+            Parameter("topic", "text", "", "trajectories, by default /model/M/joint_trajectory"),
+            Parameter(
+                "joint_name", "text", "", "a joint, repeatable; by default all with one axis"
+            ),
+            Parameter("initial_position", "number", 0.0, "at the start; one a joint", "rad, m"),
+            Parameter(
+                "use_header_start_time", "flag", False, "time counts from the message's stamp"
+            ),
+            *_gains_of("position"),
+            *_gains_of("velocity"),
+        ),
+    ),
+    topics=(
+        Topic("{topic}", "trajectory_msgs/msg/JointTrajectory", kind="listens"),
+        Topic("{topic}_progress", "std_msgs/msg/Float32", rate="each point that is aimed at"),
+    ),
     behaviour=(
         "A point is aimed at, without interpolation, from the `time_from_start` of the one before"
         " it on; what it does not give (positions, velocities, effort) stays as it was."
@@ -129,17 +151,5 @@ TRAJECTORY_TABLE = PluginTable(
         " is the first joint's, and so on; a pair of bounds whose lower one is above the upper"
         " one bounds nothing.",
         _SAME_TOPICS,
-    ),
-    topics=(
-        Topic("{topic}", "trajectory_msgs/msg/JointTrajectory", "", "", publishes=False),
-        Topic("{topic}_progress", "std_msgs/msg/Float32", "each point that is aimed at"),
-    ),
-    parameters=(
-        Parameter("topic", "text", "", "trajectories, by default /model/M/joint_trajectory"),
-        Parameter("joint_name", "text", "", "a joint, repeatable; by default all with one axis"),
-        Parameter("initial_position", "number", 0.0, "at the start; one a joint", "rad, m"),
-        Parameter("use_header_start_time", "flag", False, "time counts from the message's stamp"),
-        *_gains_of("position"),
-        *_gains_of("velocity"),
     ),
 )

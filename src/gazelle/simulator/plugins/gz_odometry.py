@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.description.model import JointType, Model
 from gazelle.geometry import Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import (
     header,
     message_class,
@@ -19,93 +20,115 @@ from gazelle.simulator.messages import (
 )
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import once_per_step, publish_at
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_STATE, period_in_steps
 
 __all__ = ["POSE_TABLE", "TABLE", "load", "load_poses"]
 
 TABLE = PluginTable(
-    family="gz-sim odometry_publisher",
-    summary="The true pose and velocity of a model, as odometry and tf.",
-    filenames=(
-        "gz-sim-odometry-publisher-system",
-        "ignition-gazebo-odometry-publisher-system",
-        "gz::sim::systems::OdometryPublisher",
-        "ignition::gazebo::systems::OdometryPublisher",
+    ParameterTable(
+        "gz-sim odometry_publisher",
+        "The true pose and velocity of a model, as odometry and tf.",
+        (
+            "gz-sim-odometry-publisher-system",
+            "ignition-gazebo-odometry-publisher-system",
+            "gz::sim::systems::OdometryPublisher",
+            "ignition::gazebo::systems::OdometryPublisher",
+        ),
+        (
+            Parameter("odom_topic", "text", "/model/{model}/odometry", "topic"),
+            Parameter(
+                "odom_covariance_topic",
+                "text",
+                "/model/{model}/odometry_with_covariance",
+                "topic with the noise's variance",
+            ),
+            Parameter("tf_topic", "text", "/model/{model}/pose", "topic of the transform"),
+            Parameter("odom_frame", "text", "{model}/odom", "frame"),
+            Parameter("robot_base_frame", "text", "{model}/base_footprint", "child frame"),
+            Parameter("odom_publish_frequency", "number", 50.0, "publish rate", "Hz"),
+            Parameter("dimensions", "number", 2.0, "2 or 3"),
+            Parameter("xyz_offset", "vector", (0.0, 0.0, 0.0), "of the frame on the model", "m"),
+            Parameter("rpy_offset", "vector", (0.0, 0.0, 0.0), "of the frame on the model", "rad"),
+            Parameter("gaussian_noise", "number", 0.0, "sigma of the velocities", "m/s, rad/s"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{odom_topic}",
+            "nav_msgs/msg/Odometry",
+            rate="`odom_publish_frequency`",
+            frame="`odom_frame`",
+        ),
+        Topic(
+            "{odom_covariance_topic}",
+            "nav_msgs/msg/Odometry",
+            rate="`odom_publish_frequency`",
+            frame="`odom_frame`",
+        ),
+        Topic(
+            "{tf_topic}",
+            "tf2_msgs/msg/TFMessage",
+            rate="`odom_publish_frequency`",
+            frame="`odom_frame`",
+        ),
     ),
     behaviour=(
         "The pose is the model's in the world, not from where it started, as in gz-sim.",
         "Velocities are those of the moment in the body's axes; gz-sim averages ten steps. With"
         " two dimensions height, roll and pitch rates and climbing are left out.",
     ),
-    topics=(
-        Topic("{odom_topic}", "nav_msgs/msg/Odometry", "`odom_publish_frequency`", "`odom_frame`"),
-        Topic(
-            "{odom_covariance_topic}",
-            "nav_msgs/msg/Odometry",
-            "`odom_publish_frequency`",
-            "`odom_frame`",
-        ),
-        Topic("{tf_topic}", "tf2_msgs/msg/TFMessage", "`odom_publish_frequency`", "`odom_frame`"),
-    ),
-    parameters=(
-        Parameter("odom_topic", "text", "/model/{model}/odometry", "topic"),
-        Parameter(
-            "odom_covariance_topic",
-            "text",
-            "/model/{model}/odometry_with_covariance",
-            "topic with the noise's variance",
-        ),
-        Parameter("tf_topic", "text", "/model/{model}/pose", "topic of the transform"),
-        Parameter("odom_frame", "text", "{model}/odom", "frame"),
-        Parameter("robot_base_frame", "text", "{model}/base_footprint", "child frame"),
-        Parameter("odom_publish_frequency", "number", 50.0, "publish rate", "Hz"),
-        Parameter("dimensions", "number", 2.0, "2 or 3"),
-        Parameter("xyz_offset", "vector", (0.0, 0.0, 0.0), "of the frame on the model", "m"),
-        Parameter("rpy_offset", "vector", (0.0, 0.0, 0.0), "of the frame on the model", "rad"),
-        Parameter("gaussian_noise", "number", 0.0, "sigma of the velocities", "m/s, rad/s"),
-    ),
 )
 
 POSE_TABLE = PluginTable(
-    family="gz-sim pose_publisher",
-    summary="Poses of a model's links, as transforms.",
-    filenames=(
-        "gz-sim-pose-publisher-system",
-        "ignition-gazebo-pose-publisher-system",
-        "gz::sim::systems::PosePublisher",
-        "ignition::gazebo::systems::PosePublisher",
-    ),
-    behaviour=(
-        "Every pose is relative to its parent: links to the model, the model to the world, sensors"
-        " to their link. Frames are `model/link`, as ros_gz_bridge writes them.",
-        "With `static_publisher`, links that no joint moves are published on `…/pose_static`.",
+    ParameterTable(
+        "gz-sim pose_publisher",
+        "Poses of a model's links, as transforms.",
+        (
+            "gz-sim-pose-publisher-system",
+            "ignition-gazebo-pose-publisher-system",
+            "gz::sim::systems::PosePublisher",
+            "ignition::gazebo::systems::PosePublisher",
+        ),
+        (
+            Parameter("topic", "text", "/model/{model}/pose", "topic"),
+            Parameter("publish_link_pose", "flag", True, "poses of links"),
+            Parameter("publish_model_pose", "flag", False, "pose of the model"),
+            Parameter("publish_nested_model_pose", "flag", False, "means the model's pose, too"),
+            Parameter("publish_sensor_pose", "flag", False, "poses of sensors"),
+            Parameter("use_pose_vector_msg", "flag", False, "all in one message"),
+            Parameter(
+                "update_frequency", "number", -1.0, "publish rate, each step if not > 0", "Hz"
+            ),
+            Parameter("static_publisher", "flag", False, "fixed poses on a topic of their own"),
+            Parameter(
+                "static_update_frequency",
+                "number",
+                -1.0,
+                "its rate; as the other when absent",
+                "Hz",
+            ),
+            Parameter("publish_visual_pose", "refused", "", "poses of visuals are not published"),
+            Parameter(
+                "publish_collision_pose", "refused", "", "poses of collisions are not published"
+            ),
+        ),
     ),
     topics=(
         Topic(
             "{topic}, {topic}_static",
             "tf2_msgs/msg/TFMessage with `use_pose_vector_msg`, else"
             " geometry_msgs/msg/TransformStamped one by one",
-            "`update_frequency`",
-            "parent",
+            rate="`update_frequency`",
+            frame="parent",
         ),
     ),
-    parameters=(
-        Parameter("topic", "text", "/model/{model}/pose", "topic"),
-        Parameter("publish_link_pose", "flag", True, "poses of links"),
-        Parameter("publish_model_pose", "flag", False, "pose of the model"),
-        Parameter("publish_nested_model_pose", "flag", False, "means the model's pose, too"),
-        Parameter("publish_sensor_pose", "flag", False, "poses of sensors"),
-        Parameter("use_pose_vector_msg", "flag", False, "all in one message"),
-        Parameter("update_frequency", "number", -1.0, "publish rate, each step if not > 0", "Hz"),
-        Parameter("static_publisher", "flag", False, "fixed poses on a topic of their own"),
-        Parameter(
-            "static_update_frequency", "number", -1.0, "its rate; as the other when absent", "Hz"
-        ),
-        Parameter("publish_visual_pose", "none", "", "poses of visuals are not published"),
-        Parameter("publish_collision_pose", "none", "", "poses of collisions are not published"),
+    behaviour=(
+        "Every pose is relative to its parent: links to the model, the model to the world, sensors"
+        " to their link. Frames are `model/link`, as ros_gz_bridge writes them.",
+        "With `static_publisher`, links that no joint moves are published on `…/pose_static`.",
     ),
 )
 _Row = tuple[str, str, Callable[[], Pose]]
@@ -123,7 +146,7 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start(context: PluginContext, parameters: ParameterReader, *, is_flat: bool) -> None:
+def _start(context: PluginContext, parameters: PluginReader, *, is_flat: bool) -> None:
     frame, child = (_named(context, parameters, key) for key in ("odom_frame", "robot_base_frame"))
     noise = gaussian(context, parameters.number("gaussian_noise"))
     variance = parameters.number("gaussian_noise") ** 2
@@ -223,7 +246,7 @@ def _publish(
         )
 
 
-def _rows(context: PluginContext, parameters: ParameterReader) -> list[_Row]:
+def _rows(context: PluginContext, parameters: PluginReader) -> list[_Row]:
     """Return parent frame, child frame and what reads the pose, as the keys ask for."""
     engine, model = context.host.engine, context.model
     rows: list[_Row] = []
@@ -264,5 +287,5 @@ def _moving_links(model: Model) -> set[str]:
     return {f"{model.name}/{end}".replace("::", "/") for end in ends - {model.canonical_link}}
 
 
-def _named(context: PluginContext, parameters: ParameterReader, key: str) -> str:
+def _named(context: PluginContext, parameters: PluginReader, key: str) -> str:
     return parameters.text(key).replace("{model}", context.model.name)

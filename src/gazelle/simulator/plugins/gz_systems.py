@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from gazelle.parameters import ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["BUILT_IN", "SERVER_TABLE", "TABLE", "load"]
 
@@ -24,11 +25,31 @@ BUILT_IN = (
 )
 
 TABLE = PluginTable(
-    family="gz-sim systems",
-    summary="Systems a gz-sim world names and Gazelle always has.",
-    filenames=(
-        *(f"gz-sim-{name}-system" for name in BUILT_IN),
-        *(f"ignition-gazebo-{name}-system" for name in BUILT_IN),
+    ParameterTable(
+        "gz-sim systems",
+        "Systems a gz-sim world names and Gazelle always has.",
+        (
+            *(f"gz-sim-{name}-system" for name in BUILT_IN),
+            *(f"ignition-gazebo-{name}-system" for name in BUILT_IN),
+        ),
+    ),
+    topics=(
+        Topic("{topic}, {topic}/points", "LaserScan and PointCloud2 of lidars", rate="sensor's"),
+        Topic("{topic}, camera_info beside it", "Image and CameraInfo of cameras", rate="sensor's"),
+        Topic(
+            "{topic}/image, /depth_image, /points, /camera_info",
+            "of RGB-D cameras",
+            rate="sensor's",
+        ),
+        Topic("{topic}", "sensor_msgs/msg/Imu", rate="sensor's"),
+        Topic(
+            "{contact/topic}", "ros_gz_interfaces/msg/Contacts", rate="every step with a contact"
+        ),
+        Topic("{topic} (…/forcetorque)", "geometry_msgs/msg/WrenchStamped", rate="sensor's"),
+        Topic("{topic} (…/navsat)", "sensor_msgs/msg/NavSatFix", rate="sensor's"),
+        Topic("{topic} (…/magnetometer)", "sensor_msgs/msg/MagneticField", rate="sensor's"),
+        Topic("{topic} (…/altimeter)", "ros_gz_interfaces/msg/Altimeter", rate="sensor's"),
+        Topic("{topic} (…/air_pressure)", "sensor_msgs/msg/FluidPressure", rate="sensor's"),
     ),
     behaviour=(
         "Their parameters have no effect; a notice says so once.",
@@ -36,29 +57,19 @@ TABLE = PluginTable(
         " `<topic>`, by default `/world/W/model/M/link/L/sensor/S/…`, as the ROS types that"
         " `ros_gz_bridge` maps them to.",
     ),
-    topics=(
-        Topic("{topic}, {topic}/points", "LaserScan and PointCloud2 of lidars", "sensor's"),
-        Topic("{topic}, camera_info beside it", "Image and CameraInfo of cameras", "sensor's"),
-        Topic("{topic}/image, /depth_image, /points, /camera_info", "of RGB-D cameras", "sensor's"),
-        Topic("{topic}", "sensor_msgs/msg/Imu", "sensor's"),
-        Topic("{contact/topic}", "ros_gz_interfaces/msg/Contacts", "every step with a contact"),
-        Topic("{topic} (…/forcetorque)", "geometry_msgs/msg/WrenchStamped", "sensor's"),
-        Topic("{topic} (…/navsat)", "sensor_msgs/msg/NavSatFix", "sensor's"),
-        Topic("{topic} (…/magnetometer)", "sensor_msgs/msg/MagneticField", "sensor's"),
-        Topic("{topic} (…/altimeter)", "ros_gz_interfaces/msg/Altimeter", "sensor's"),
-        Topic("{topic} (…/air_pressure)", "sensor_msgs/msg/FluidPressure", "sensor's"),
-    ),
 )
 
 SERVER_TABLE = PluginTable(
-    family="gazebo_ros server plug-ins",
-    summary="ROS 1's services and topics under /gazebo; ROS 2's of each plug-in that is named.",
-    filenames=(
-        "gazebo_ros_api_plugin",
-        "gazebo_ros_paths_plugin",
-        "gazebo_ros_init",
-        "gazebo_ros_factory",
-        "gazebo_ros_force_system",
+    ParameterTable(
+        "gazebo_ros server plug-ins",
+        "ROS 1's services and topics under /gazebo; ROS 2's of each plug-in that is named.",
+        (
+            "gazebo_ros_api_plugin",
+            "gazebo_ros_paths_plugin",
+            "gazebo_ros_init",
+            "gazebo_ros_factory",
+            "gazebo_ros_force_system",
+        ),
     ),
 )
 

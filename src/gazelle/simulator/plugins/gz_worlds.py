@@ -19,4 +19,4 @@ def is_gz_world(world: World) -> bool:
     if any(plain_name(plugin.filename).startswith(_SYSTEMS) for plugin in world.plugins):
         return True
     plugins = (plugin for model in world.models for plugin in model.plugins)
-    return any(plain_name(plugin.filename) in GZ_SYSTEMS.filenames for plugin in plugins)
+    return any(plain_name(plugin.filename) in GZ_SYSTEMS.parameters.types for plugin in plugins)

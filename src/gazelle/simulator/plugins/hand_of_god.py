@@ -9,10 +9,11 @@ import numpy as np
 
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import pose_of_transform
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import message_class, transform_stamped
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]
 
@@ -20,9 +21,30 @@ _ROOT = "world"
 _DEEPEST = 100
 
 TABLE = PluginTable(
-    family="hand_of_god",
-    summary="Pulls a link to where the frame `{frame}_desired` is in tf, as a spring and damper.",
-    filenames=("gazebo_ros_hand_of_god",),
+    ParameterTable(
+        "hand_of_god",
+        "Pulls a link to where the frame `{frame}_desired` is in tf, as a spring and damper.",
+        ("gazebo_ros_hand_of_god",),
+        (
+            Parameter("robotNamespace", "refused", "", "tf is global"),
+            Parameter("linkName", "text", "", "the link", "", aliases=("link_name",)),
+            Parameter(
+                "frameId",
+                "text",
+                "hog",
+                "first part of both frames",
+                "",
+                aliases=("frame_id",),
+                ros2_default=_ROOT,
+            ),
+            Parameter("kl", "number", 200.0, "stiffness", "N/m"),
+            Parameter("ka", "number", 200.0, "turning stiffness", "N·m/rad"),
+        ),
+    ),
+    topics=(
+        Topic("/tf, /tf_static", "tf2_msgs/msg/TFMessage", kind="listens"),
+        Topic("/tf", "tf2_msgs/msg/TFMessage", rate="every step", frame="`world`"),
+    ),
     behaviour=(
         "Force kl · Δx − cl · v and torque ka · Δφ − ca · ω at every step, critically damped:"
         " cl = 2 √(kl m), ca = 2 √(ka Ixx).",
@@ -31,25 +53,6 @@ TABLE = PluginTable(
         " known, directly or over others, from `world`.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic("/tf, /tf_static", "tf2_msgs/msg/TFMessage", "", "", publishes=False),
-        Topic("/tf", "tf2_msgs/msg/TFMessage", "every step", "`world`"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "none", "", "tf is global"),
-        Parameter("linkName", "text", "", "the link", "", ("link_name",)),
-        Parameter(
-            "frameId",
-            "text",
-            "hog",
-            "first part of both frames",
-            "",
-            ("frame_id",),
-            ros2_default=_ROOT,
-        ),
-        Parameter("kl", "number", 200.0, "stiffness", "N/m"),
-        Parameter("ka", "number", 200.0, "turning stiffness", "N·m/rad"),
-    ),
 )
 
 
@@ -91,7 +94,7 @@ class _Frames:
 class _Hand:
     """One running plug-in."""
 
-    def __init__(self, context: PluginContext, parameters: ParameterReader, link: str) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader, link: str) -> None:
         self._engine = context.host.engine
         self._link = self._engine.link(link)
         default = _ROOT if parameters.is_ros2() else "hog"

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.parameters import Parameter
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter
+from gazelle.simulator.plugins.parameters import PluginReader
 
 if TYPE_CHECKING:
     from gazelle.sensors import DriftModel
@@ -48,7 +48,7 @@ def error_parameters(
 
 
 def read_model(
-    parameters: ParameterReader, *, axes: int = 3, prefix: str = "", gaussian_noise: float = 0.0
+    parameters: PluginReader, *, axes: int = 3, prefix: str = "", gaussian_noise: float = 0.0
 ) -> DriftModel:
     """Read the keys of `error_parameters`; a `gaussian_noise` other than 0 replaces theirs."""
     from gazelle.sensors import DriftModel

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
 from gazelle.geometry import Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.imu import GRAVITY, OFFSETS, offset_pose, publish_readings
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 if TYPE_CHECKING:
@@ -25,41 +26,43 @@ __all__ = ["TABLE", "load"]
 Array = NDArray[np.float64]
 
 TABLE = PluginTable(
-    family="hector imu",
-    summary="The IMU of hector_gazebo_plugins.",
-    filenames=("hector_gazebo_ros_imu",),
+    ParameterTable(
+        "hector imu",
+        "The IMU of hector_gazebo_plugins.",
+        ("hector_gazebo_ros_imu",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("bodyName", "text", "", "the link; the model's first when absent"),
+            Parameter("frameId", "text", "", "frame of the data", "", aliases=("frameName",)),
+            Parameter("topicName", "text", "imu", "topic"),
+            Parameter("serviceName", "text", "", "calibration; `{topicName}/calibrate` when empty"),
+            Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
+            Parameter("gaussianNoise", "number", 0.0, "sigma of all, unless 0", "m/s², rad/s"),
+            *error_parameters("m/s²", prefix="accel"),
+            *error_parameters("rad/s", prefix="rate"),
+            *error_parameters("rad", axes=1, prefix="yaw"),
+            *OFFSETS,
+            Parameter("biasTopicName", "refused", "", "the bias topic is not offered"),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+            Parameter("headingDrift", "refused", "", "no release of the plug-in reads it"),
+            Parameter("headingGaussianNoise", "refused", "", "no release of the plug-in reads it"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/Imu",
+            rate="`updateRate`, 0 is every step",
+            frame="`frameId`, else `bodyName`",
+        ),
+    ),
+    services=(Topic("{serviceName}", "std_srvs/srv/Empty", kind="service"),),
     behaviour=(
         GRAVITY,
         "Accelerations and rates have scale, offset, drift and noise each; offset and drift of the"
         " acceleration tilt the orientation, those of the yaw turn it, as a real filter's do.",
         "The calibration service sets the rates' drift to zero.",
         "Not offered: the bias topic, `set_accel_bias`, `set_rate_bias` and dynamic_reconfigure.",
-    ),
-    topics=(
-        Topic(
-            "{topicName}",
-            "sensor_msgs/msg/Imu",
-            "`updateRate`, 0 is every step",
-            "`frameId`, else `bodyName`",
-        ),
-    ),
-    services=(Service("{serviceName}", "std_srvs/srv/Empty"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("bodyName", "text", "", "the link; the model's first when absent"),
-        Parameter("frameId", "text", "", "frame of the data", "", ("frameName",)),
-        Parameter("topicName", "text", "imu", "topic"),
-        Parameter("serviceName", "text", "", "calibration; `{topicName}/calibrate` when empty"),
-        Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
-        Parameter("gaussianNoise", "number", 0.0, "sigma of all, unless 0", "m/s², rad/s"),
-        *error_parameters("m/s²", prefix="accel"),
-        *error_parameters("rad/s", prefix="rate"),
-        *error_parameters("rad", axes=1, prefix="yaw"),
-        *OFFSETS,
-        Parameter("biasTopicName", "none", "", "the bias topic is not offered"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-        Parameter("headingDrift", "none", "", "no release of the plug-in reads it"),
-        Parameter("headingGaussianNoise", "none", "", "no release of the plug-in reads it"),
     ),
 )
 
@@ -74,7 +77,7 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start(context: PluginContext, parameters: ParameterReader, link_name: str) -> None:
+def _start(context: PluginContext, parameters: PluginReader, link_name: str) -> None:
     common = parameters.number("gaussianNoise")
     models = [
         read_model(parameters, prefix="accel", gaussian_noise=common),

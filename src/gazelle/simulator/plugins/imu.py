@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec, Noise
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import (
     header,
     message_class,
     vector_message,
 )
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR, measured_period_in_steps, period_in_steps
 
 if TYPE_CHECKING:
@@ -39,75 +40,96 @@ Sigmas = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 _NO_SIGMAS: Sigmas = (np.zeros(3), np.zeros(3), np.zeros(3))
 
 OFFSETS = (
-    Parameter("xyzOffset", "vector", (0.0, 0.0, 0.0), "mounting position", "m", ("xyzOffsets",)),
-    Parameter("rpyOffset", "vector", (0.0, 0.0, 0.0), "mounting turn", "rad", ("rpyOffsets",)),
+    Parameter(
+        "xyzOffset", "vector", (0.0, 0.0, 0.0), "mounting position", "m", aliases=("xyzOffsets",)
+    ),
+    Parameter(
+        "rpyOffset", "vector", (0.0, 0.0, 0.0), "mounting turn", "rad", aliases=("rpyOffsets",)
+    ),
 )
 GRAVITY = "At rest the acceleration reads +g along the upward axis, as a real IMU's does."
 
 TABLE = PluginTable(
-    family="imu",
-    summary="A model plug-in that measures the motion of a link.",
-    filenames=("gazebo_ros_imu",),
-    behaviour=(GRAVITY,),
+    ParameterTable(
+        "imu",
+        "A model plug-in that measures the motion of a link.",
+        ("gazebo_ros_imu",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("bodyName", "text", "", "the link"),
+            Parameter("frameName", "text", "", "frame of the data"),
+            Parameter("topicName", "text", "/default_imu", "topic"),
+            Parameter("serviceName", "text", "/default_imu", "calibration service, does nothing"),
+            Parameter(
+                "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
+            ),
+            Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
+            *OFFSETS,
+            Parameter("imu", "refused", "", "no release of this plug-in reads it"),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
     topics=(
         Topic(
             "{topicName}",
             "sensor_msgs/msg/Imu",
-            "`updateRate`, 0 is every step",
-            "`frameName`, else `bodyName`",
+            rate="`updateRate`, 0 is every step",
+            frame="`frameName`, else `bodyName`",
         ),
     ),
-    services=(Service("{serviceName}", "std_srvs/srv/Empty"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("bodyName", "text", "", "the link"),
-        Parameter("frameName", "text", "", "frame of the data"),
-        Parameter("topicName", "text", "/default_imu", "topic"),
-        Parameter("serviceName", "text", "/default_imu", "calibration service, does nothing"),
-        Parameter(
-            "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
-        ),
-        Parameter("updateRate", "number", 0.0, "publish rate", "Hz"),
-        *OFFSETS,
-        Parameter("imu", "none", "", "no release of this plug-in reads it"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-    ),
+    services=(Topic("{serviceName}", "std_srvs/srv/Empty", kind="service"),),
+    behaviour=(GRAVITY,),
 )
 
 SENSOR_TABLE = PluginTable(
-    family="imu_sensor",
-    summary="Publishes the readings of the imu sensor it stands in.",
-    filenames=("gazebo_ros_imu_sensor",),
-    behaviour=(GRAVITY,),
-    in_both_ros=True,
+    ParameterTable(
+        "imu_sensor",
+        "Publishes the readings of the imu sensor it stands in.",
+        ("gazebo_ros_imu_sensor",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("topicName", "text", "imu_data", "topic (ROS 1)", generations=(1,)),
+            Parameter("frameName", "text", "", "frame of the data", "", aliases=("frame_name",)),
+            Parameter(
+                "bodyName",
+                "text",
+                "",
+                "frame of the data when frameName is absent",
+                generations=(1,),
+            ),
+            Parameter(
+                "updateRateHZ",
+                "number",
+                0.0,
+                "publish rate, 0 for the sensor's",
+                "Hz",
+                generations=(1,),
+            ),
+            Parameter(
+                "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
+            ),
+            Parameter(
+                "initialOrientationAsReference",
+                "flag",
+                False,
+                "orientations refer to the first one, not to the world",
+                "",
+                aliases=("initial_orientation_as_reference",),
+            ),
+            *OFFSETS,
+        ),
+    ),
     topics=(
         Topic(
             "{topicName}",
             "sensor_msgs/msg/Imu",
-            "`updateRateHZ`, else the sensor's",
-            "`frameName`, else the link",
+            rate="`updateRateHZ`, else the sensor's",
+            frame="`frameName`, else the link",
             ros2="~/out",
         ),
     ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter("topicName", "text", "imu_data", "topic (ROS 1)", only=1),
-        Parameter("frameName", "text", "", "frame of the data", "", ("frame_name",)),
-        Parameter("bodyName", "text", "", "frame of the data when frameName is absent", only=1),
-        Parameter("updateRateHZ", "number", 0.0, "publish rate, 0 for the sensor's", "Hz", only=1),
-        Parameter(
-            "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"
-        ),
-        Parameter(
-            "initialOrientationAsReference",
-            "flag",
-            False,
-            "orientations refer to the first one, not to the world",
-            "",
-            ("initial_orientation_as_reference",),
-        ),
-        *OFFSETS,
-    ),
+    behaviour=(GRAVITY,),
+    in_both_ros=True,
 )
 
 
@@ -163,7 +185,7 @@ def load_sensor(context: PluginContext) -> None:
 
 
 def _start_own(
-    context: PluginContext, parameters: ParameterReader, link_name: str, frame: str, spec: ImuSpec
+    context: PluginContext, parameters: PluginReader, link_name: str, frame: str, spec: ImuSpec
 ) -> None:
     host, offset = context.host, offset_pose(parameters)
     topic = context.topic(parameters, parameters.text("topicName"))
@@ -226,7 +248,7 @@ def imu_message(time_ns: int, frame: str, record: ImuRecord, sigmas: Sigmas = _N
     )
 
 
-def offset_pose(parameters: ParameterReader) -> Pose:
+def offset_pose(parameters: PluginReader) -> Pose:
     """Return where the IMU sits on its link, of ``xyzOffset`` and ``rpyOffset``."""
     xyz, rpy = parameters.vector("xyzOffset"), parameters.vector("rpyOffset")
     return Pose.from_xyz_rpy(xyz, rpy) if any((*xyz, *rpy)) else IDENTITY_POSE

@@ -9,10 +9,11 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
 from gazelle.interfaces.stamps import ns_of
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import pose_from_message
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]
@@ -20,33 +21,53 @@ __all__ = ["TABLE", "load"]
 _WORLDS = frozenset({"world", "map", "/map"})
 
 TABLE = PluginTable(
-    family="joint_pose_trajectory",
-    summary="Puts joints to the positions of a trajectory's points, without any controller.",
-    filenames=("gazebo_ros_joint_pose_trajectory",),
+    ParameterTable(
+        "joint_pose_trajectory",
+        "Puts joints to the positions of a trajectory's points, without any controller.",
+        ("gazebo_ros_joint_pose_trajectory",),
+        (
+            Parameter(
+                "robotNamespace", "text", "", "namespace of topic and service", generations=(1,)
+            ),
+            Parameter(
+                "topicName", "text", "set_joint_trajectory", "trajectories", generations=(1,)
+            ),
+            Parameter(
+                "serviceName",
+                "text",
+                "set_joint_trajectory",
+                "the same as a service",
+                generations=(1,),
+            ),
+            Parameter(
+                "updateRate",
+                "number",
+                0.0,
+                "how often points are looked for; 100 in ROS 2",
+                "Hz",
+                aliases=("update_rate",),
+            ),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "trajectory_msgs/msg/JointTrajectory",
+            kind="listens",
+            ros2="set_joint_trajectory",
+        ),
+    ),
+    services=(
+        Topic("{serviceName} (ROS 1)", "gazebo_msgs/srv/SetJointTrajectory", kind="service"),
+    ),
     behaviour=(
         "A point is taken at once when its turn comes; the next one follows after its"
         " `time_from_start` (counted from the point before, as Gazebo does).",
         "The model, or the link that `header.frame_id` names, stays where it is while joints jump;"
         " afterwards they are free.",
     ),
-    topics=(
-        Topic(
-            "{topicName}", "trajectory_msgs/msg/JointTrajectory", "", "", publishes=False,
-            ros2="set_joint_trajectory",
-        ),
-    ),
     in_both_ros=True,
-    services=(Service("{serviceName} (ROS 1)", "gazebo_msgs/srv/SetJointTrajectory"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of topic and service", only=1),
-        Parameter("topicName", "text", "set_joint_trajectory", "trajectories", only=1),
-        Parameter("serviceName", "text", "set_joint_trajectory", "the same as a service", only=1),
-        Parameter(
-            "updateRate", "number", 0.0, "how often points are looked for; 100 in ROS 2", "Hz",
-            ("update_rate",),
-        ),
-    ),
-)  # fmt: skip
+)
 
 
 def load(context: PluginContext) -> None:
@@ -70,7 +91,7 @@ class _Course:
 class _Trajectories:
     """One running plug-in."""
 
-    def __init__(self, context: PluginContext, parameters: ParameterReader) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader) -> None:
         self._context = context
         self._engine = context.host.engine
         self._course: _Course | None = None
@@ -84,9 +105,11 @@ class _Trajectories:
         rate = parameters.number("updateRate", default)
         period = period_in_steps(rate, self._engine.step_ns) if rate > 0 else Fraction(1)
         resources.task(
-            f"{context.plugin.name} points", period, self._update,
+            f"{context.plugin.name} points",
+            period,
+            self._update,
             wanted=lambda: self._course is not None,
-        )  # fmt: skip
+        )
         resources.on_reset(self._stop)
 
     def _take(self, message: Any) -> None:

@@ -7,50 +7,59 @@ import re
 import numpy as np
 
 from gazelle.description.model import JointType
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GZ_TABLE", "TABLE", "load", "load_gz"]
 
 TABLE = PluginTable(
-    family="joint_state_publisher",
-    summary="Publishes the positions and velocities of joints.",
-    filenames=("gazebo_ros_joint_state_publisher",),
+    ParameterTable(
+        "joint_state_publisher",
+        "Publishes the positions and velocities of joints.",
+        ("gazebo_ros_joint_state_publisher",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter(
+                "jointName",
+                "text",
+                "",
+                "joints, separated by commas or repeated; all joints when empty",
+                "",
+                aliases=("joint_name",),
+            ),
+            Parameter(
+                "updateRate", "number", 100.0, "publish rate", "Hz", aliases=("update_rate",)
+            ),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
+    topics=(
+        Topic("joint_states", "sensor_msgs/msg/JointState", rate="`updateRate`", frame="none"),
+    ),
     behaviour=("The effort field stays empty, as in the ROS 1 plug-in.",),
     in_both_ros=True,
-    topics=(Topic("joint_states", "sensor_msgs/msg/JointState", "`updateRate`", "none"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter(
-            "jointName",
-            "text",
-            "",
-            "joints, separated by commas or repeated; all joints when empty",
-            "",
-            ("joint_name",),
-        ),
-        Parameter("updateRate", "number", 100.0, "publish rate", "Hz", ("update_rate",)),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-    ),
 )
 
 GZ_TABLE = PluginTable(
-    family="gz-sim joint_state_publisher",
-    summary="The gz-sim system: all joints of the model at every step, as ROS joint states.",
-    filenames=(
-        "gz-sim-joint-state-publisher-system",
-        "ignition-gazebo-joint-state-publisher-system",
-        "gz::sim::systems::JointStatePublisher",
-        "ignition::gazebo::systems::JointStatePublisher",
+    ParameterTable(
+        "gz-sim joint_state_publisher",
+        "The gz-sim system: all joints of the model at every step, as ROS joint states.",
+        (
+            "gz-sim-joint-state-publisher-system",
+            "ignition-gazebo-joint-state-publisher-system",
+            "gz::sim::systems::JointStatePublisher",
+            "ignition::gazebo::systems::JointStatePublisher",
+        ),
+        (
+            Parameter("topic", "text", "/world/{world}/model/{model}/joint_state", "topic"),
+            Parameter("joint_name", "text", "", "joints, repeatable; all joints when absent"),
+            Parameter("update_rate", "number", 0.0, "publish rate, 0 for every step", "Hz"),
+        ),
     ),
-    topics=(Topic("{topic}", "sensor_msgs/msg/JointState", "every step", "none"),),
-    parameters=(
-        Parameter("topic", "text", "/world/{world}/model/{model}/joint_state", "topic"),
-        Parameter("joint_name", "text", "", "joints, repeatable; all joints when absent"),
-        Parameter("update_rate", "number", 0.0, "publish rate, 0 for every step", "Hz"),
-    ),
+    topics=(Topic("{topic}", "sensor_msgs/msg/JointState", rate="every step", frame="none"),),
 )
 
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from gazelle.description.model import LidarSpec
 from gazelle.diagnostics import did_you_mean
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import prefixed_frame
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
 if TYPE_CHECKING:
@@ -31,41 +32,50 @@ __all__ = [
 ]
 
 TABLE = PluginTable(
-    family="laser",
-    summary="Publishes the scans of the ray sensor it stands in.",
-    filenames=("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
+    ParameterTable(
+        "laser",
+        "Publishes the scans of the ray sensor it stands in.",
+        ("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("topicName", "text", "/world", "topic"),
+            Parameter("frameName", "text", "/world", "frame of the scan"),
+            Parameter("gaussianNoise", "refused", "", "the sensor's <noise> is used"),
+            Parameter("alwaysOn", "refused", "", "scans are computed while somebody subscribes"),
+            Parameter("updateRate", "refused", "", "the sensor's rate governs"),
+            Parameter("hokuyoMinIntensity", "refused", "", "no release of the plug-in reads it"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/LaserScan",
+            rate="sensor's `update_rate`",
+            frame="`frameName`",
+        ),
+    ),
     behaviour=(
         "The sensor's `update_rate` governs; 5.5 Hz on 1 ms steps is a period of 182 ms, as in"
         " Gazebo. Those of `gpu_ray` sensors, which Gazebo renders, are exact on average.",
         "Beyond the range is `inf`; `time_increment` and `scan_time` are 0, as in Gazebo.",
         "`ray` sensors see collisions, `gpu_ray` sensors visuals.",
     ),
-    topics=(
-        Topic("{topicName}", "sensor_msgs/msg/LaserScan", "sensor's `update_rate`", "`frameName`"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("topicName", "text", "/world", "topic"),
-        Parameter("frameName", "text", "/world", "frame of the scan"),
-        Parameter("gaussianNoise", "none", "", "the sensor's <noise> is used"),
-        Parameter("alwaysOn", "none", "", "scans are computed while somebody subscribes"),
-        Parameter("updateRate", "none", "", "the sensor's rate governs"),
-        Parameter("hokuyoMinIntensity", "none", "", "no release of the plug-in reads it"),
-    ),
 )
 
 ROS2_TABLE = PluginTable(
-    family="ray_sensor",
-    summary="The ROS 2 plug-in of ray sensors, with a choice of message.",
-    filenames=("gazebo_ros_ray_sensor",),
-    behaviour=("The topic is `~/out`, below the plug-in's name, unless it is remapped.",),
-    topics=(Topic("~/out", "{output_type}", "sensor's `update_rate`", "`frame_name`"),),
-    parameters=(
-        Parameter("output_type", "text", "sensor_msgs/PointCloud2", "message type"),
-        Parameter("frame_name", "text", "", "frame; the link's name when empty"),
-        Parameter("min_intensity", "number", 0.0, "points below are left out of clouds"),
-        Parameter("radiation_type", "text", "infrared", "of Range: ultrasound or infrared"),
+    ParameterTable(
+        "ray_sensor",
+        "The ROS 2 plug-in of ray sensors, with a choice of message.",
+        ("gazebo_ros_ray_sensor",),
+        (
+            Parameter("output_type", "text", "sensor_msgs/PointCloud2", "message type"),
+            Parameter("frame_name", "text", "", "frame; the link's name when empty"),
+            Parameter("min_intensity", "number", 0.0, "points below are left out of clouds"),
+            Parameter("radiation_type", "text", "infrared", "of Range: ultrasound or infrared"),
+        ),
     ),
+    topics=(Topic("~/out", "{output_type}", rate="sensor's `update_rate`", frame="`frame_name`"),),
+    behaviour=("The topic is `~/out`, below the plug-in's name, unless it is remapped.",),
 )
 _OUTPUTS = ("LaserScan", "PointCloud", "PointCloud2", "Range")
 
@@ -130,7 +140,7 @@ def start_scans(
     )
 
 
-def _output_kind(context: PluginContext, parameters: ParameterReader) -> str:
+def _output_kind(context: PluginContext, parameters: PluginReader) -> str:
     word = parameters.text("output_type").rsplit("/", 1)[-1]
     if word in _OUTPUTS:
         return word

@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import publish_at
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["BARO_TABLE", "TABLE", "load", "load_baro"]
@@ -20,58 +21,72 @@ __all__ = ["BARO_TABLE", "TABLE", "load", "load_baro"]
 _COMMON = (
     Parameter("robotNamespace", "text", "", "namespace of the topic"),
     Parameter("bodyName", "text", "", "the link; the model's first when absent"),
-    Parameter("frameId", "text", "", "frame of the data; the link when empty", "", ("frameName",)),
+    Parameter(
+        "frameId", "text", "", "frame of the data; the link when empty", "", aliases=("frameName",)
+    ),
     Parameter("updateRate", "number", 0.0, "publish rate, 0 is every step", "Hz"),
-    Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
+    Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
 )
 
 TABLE = PluginTable(
-    family="hector magnetic",
-    summary="The magnetometer of hector_gazebo_plugins, a model plug-in.",
-    filenames=("hector_gazebo_ros_magnetic",),
+    ParameterTable(
+        "hector magnetic",
+        "The magnetometer of hector_gazebo_plugins, a model plug-in.",
+        ("hector_gazebo_ros_magnetic",),
+        (
+            *_COMMON,
+            Parameter("topicName", "text", "magnetic", "topic"),
+            Parameter("magnitude", "number", 1.0, "of the field, any unit"),
+            Parameter("referenceHeading", "number", 0.0, "compass heading of the world's x", "deg"),
+            Parameter("declination", "number", 0.0, "of magnetic north, from true north", "deg"),
+            Parameter("inclination", "number", 60.0, "of the field below the horizon", "deg"),
+            Parameter("useMagneticFieldMsgs", "flag", False, "publish MagneticField"),
+            Parameter(
+                "useWorldSphericalCoordinates", "flag", False, "take the heading from the world"
+            ),
+            *error_parameters("as magnitude"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}",
+            "geometry_msgs/msg/Vector3Stamped or sensor_msgs/msg/MagneticField",
+            rate="`updateRate`",
+            frame="`frameId`",
+        ),
+    ),
     behaviour=(
         "The field is the plug-in's own, not the world's: of the given magnitude, pointing to"
         " magnetic north and down by the inclination, turned into the link's frame.",
         "Headings are a compass's: `referenceHeading` 0 means that the world's x points north.",
         "dynamic_reconfigure is not offered.",
     ),
-    topics=(
-        Topic(
-            "{topicName}",
-            "geometry_msgs/msg/Vector3Stamped or sensor_msgs/msg/MagneticField",
-            "`updateRate`",
-            "`frameId`",
-        ),
-    ),
-    parameters=(
-        *_COMMON,
-        Parameter("topicName", "text", "magnetic", "topic"),
-        Parameter("magnitude", "number", 1.0, "of the field, any unit"),
-        Parameter("referenceHeading", "number", 0.0, "compass heading of the world's x", "deg"),
-        Parameter("declination", "number", 0.0, "of magnetic north, from true north", "deg"),
-        Parameter("inclination", "number", 60.0, "of the field below the horizon", "deg"),
-        Parameter("useMagneticFieldMsgs", "flag", False, "publish MagneticField"),
-        Parameter("useWorldSphericalCoordinates", "flag", False, "take the heading from the world"),
-        *error_parameters("as magnitude"),
-    ),
 )
 
 BARO_TABLE = PluginTable(
-    family="hector baro",
-    summary="The barometer of hector_quadrotor_gazebo_plugins, a model plug-in.",
-    filenames=("hector_gazebo_ros_baro",),
+    ParameterTable(
+        "hector baro",
+        "The barometer of hector_quadrotor_gazebo_plugins, a model plug-in.",
+        ("hector_gazebo_ros_baro",),
+        (
+            *_COMMON,
+            Parameter("topicName", "text", "pressure_height", "topic of the height"),
+            *error_parameters("m", axes=1),
+            Parameter(
+                "altimeterTopicName", "refused", "", "hector_uav_msgs/Altimeter is not published"
+            ),
+            Parameter("elevation", "refused", "", "only hector_uav_msgs/Altimeter has it"),
+            Parameter("qnh", "refused", "", "only hector_uav_msgs/Altimeter has it"),
+        ),
+    ),
+    topics=(
+        Topic(
+            "{topicName}", "geometry_msgs/msg/PointStamped", rate="`updateRate`", frame="`frameId`"
+        ),
+    ),
     behaviour=(
         "The height above the world's origin is in `point.z`.",
         "hector_uav_msgs/Altimeter is not published: ROS itself does not know that type.",
-    ),
-    topics=(Topic("{topicName}", "geometry_msgs/msg/PointStamped", "`updateRate`", "`frameId`"),),
-    parameters=(
-        *_COMMON,
-        Parameter("topicName", "text", "pressure_height", "topic of the height"),
-        *error_parameters("m", axes=1),
-        Parameter("altimeterTopicName", "none", "", "hector_uav_msgs/Altimeter is not published"),
-        Parameter("elevation", "none", "", "only hector_uav_msgs/Altimeter has it"),
-        Parameter("qnh", "none", "", "only hector_uav_msgs/Altimeter has it"),
     ),
 )
 
@@ -108,7 +123,7 @@ def load_baro(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start(context: PluginContext, parameters: ParameterReader, link_name: str) -> None:
+def _start(context: PluginContext, parameters: PluginReader, link_name: str) -> None:
     link = context.host.engine.link(link_name)
     field = _field(context, parameters)
     source = ErrorSource(context, read_model(parameters), "field")
@@ -126,7 +141,7 @@ def _start(context: PluginContext, parameters: ParameterReader, link_name: str) 
     publish_at(context, topic, type_name, _period(context, parameters), build)
 
 
-def _field(context: PluginContext, parameters: ParameterReader) -> tuple[float, float, float]:
+def _field(context: PluginContext, parameters: PluginReader) -> tuple[float, float, float]:
     """Return the field in the world, whose x points to the reference heading (x, y, up)."""
     heading_deg = parameters.number("referenceHeading")
     origin = context.host.engine.world.spherical_coordinates
@@ -139,10 +154,10 @@ def _field(context: PluginContext, parameters: ParameterReader) -> tuple[float, 
     return (flat * math.cos(angle), flat * math.sin(angle), -size * math.sin(dip))
 
 
-def _link_name(context: PluginContext, parameters: ParameterReader) -> str | None:
+def _link_name(context: PluginContext, parameters: PluginReader) -> str | None:
     first = context.model.links[0].name if context.model.links else ""
     return context.link_name(parameters.text("bodyName") or first)
 
 
-def _period(context: PluginContext, parameters: ParameterReader) -> Any:
+def _period(context: PluginContext, parameters: PluginReader) -> Any:
     return period_in_steps(parameters.number("updateRate"), context.host.engine.step_ns)

@@ -8,36 +8,43 @@ from __future__ import annotations
 from fractions import Fraction
 
 from gazelle.engine import JointHandle
+from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import Parameter, PluginTable
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]
 
 TABLE = PluginTable(
-    family="mimic_joint",
-    summary="Keeps a joint at a multiple of another joint's position.",
-    filenames=(
-        "roboticsgroup_upatras_gazebo_mimic_joint_plugin",
-        "roboticsgroup_gazebo_mimic_joint_plugin",
-        "gazebo_mimic_joint_plugin",
+    ParameterTable(
+        "mimic_joint",
+        "Keeps a joint at a multiple of another joint's position.",
+        (
+            "roboticsgroup_upatras_gazebo_mimic_joint_plugin",
+            "roboticsgroup_gazebo_mimic_joint_plugin",
+            "gazebo_mimic_joint_plugin",
+        ),
+        (
+            Parameter("joint", "text", "", "the joint that is followed"),
+            Parameter("mimicJoint", "text", "", "the joint that follows"),
+            Parameter("multiplier", "number", 1.0, "of the position"),
+            Parameter("offset", "number", 0.0, "added to it", "rad, m"),
+            Parameter(
+                "sensitiveness", "number", 0.0, "smaller deviations are left as they are", "rad, m"
+            ),
+            Parameter(
+                "hasPID", "refused", "", "the joint is put into place, no effort is computed"
+            ),
+            Parameter(
+                "maxEffort", "refused", "", "the joint is put into place, no effort is computed"
+            ),
+            Parameter("robotNamespace", "refused", "", "where Gazebo reads the gains of `hasPID`"),
+        ),
     ),
     behaviour=(
         "A joint that has `<mimic>` in its URDF follows by that, within the physics: then the"
         " plug-in has nothing to do.",
         "Other joints are put to multiplier · position + offset at every step, as Gazebo does"
         " without `hasPID`; with it they are as well, for a PID would only come near.",
-    ),
-    parameters=(
-        Parameter("joint", "text", "", "the joint that is followed"),
-        Parameter("mimicJoint", "text", "", "the joint that follows"),
-        Parameter("multiplier", "number", 1.0, "of the position"),
-        Parameter("offset", "number", 0.0, "added to it", "rad, m"),
-        Parameter(
-            "sensitiveness", "number", 0.0, "smaller deviations are left as they are", "rad, m"
-        ),
-        Parameter("hasPID", "none", "", "the joint is put into place, no effort is computed"),
-        Parameter("maxEffort", "none", "", "the joint is put into place, no effort is computed"),
-        Parameter("robotNamespace", "none", "", "where Gazebo reads the gains of `hasPID`"),
     ),
 )
 

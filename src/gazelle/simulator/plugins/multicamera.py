@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 from gazelle.description.model import CameraSpec
+from gazelle.parameters import ParameterTable, Topic
 from gazelle.simulator.plugins.camera_info import Calibration, read_calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream, camera_place
 from gazelle.simulator.plugins.camera_table import CAMERA_TABLE
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import add_colour
 from gazelle.simulator.plugins.image_transport import add_transports
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.sensor_set import camera_members
 
 __all__ = ["TABLE", "load", "start_multicamera_ros2"]
@@ -20,36 +21,38 @@ __all__ = ["TABLE", "load", "start_multicamera_ros2"]
 _SIDES = ("left", "right")
 
 TABLE = PluginTable(
-    family="multicamera",
-    summary="A stereo pair: the cameras of the multicamera sensor around it.",
-    filenames=("gazebo_ros_multicamera",),
+    ParameterTable(
+        "multicamera",
+        "A stereo pair: the cameras of the multicamera sensor around it.",
+        ("gazebo_ros_multicamera",),
+        CAMERA_TABLE.parameters.rows,
+    ),
+    topics=(
+        Topic(
+            "{cameraName}/left/{imageTopicName}, {cameraName}/right/{imageTopicName}",
+            "sensor_msgs/msg/Image",
+            rate="sensor's `update_rate`",
+            frame="`frameName`",
+        ),
+        Topic(
+            "{cameraName}/left/{cameraInfoTopicName}, {cameraName}/right/{cameraInfoTopicName}",
+            "sensor_msgs/msg/CameraInfo",
+            rate="sensor's `update_rate`",
+            frame="`frameName`",
+        ),
+        Topic(
+            "{camera_name}/{name}/image_raw, {camera_name}/{name}/camera_info",
+            "the same (ROS 2)",
+            rate="sensor's `update_rate`",
+            frame="`frame_name`",
+        ),
+    ),
     behaviour=(
         "Cameras whose names hold `left` or `right` are published, as in Gazebo; the right one's"
         " P[3] has the baseline: -fx `hackBaseline`.",
         "In ROS 2 the camera plug-in takes a multicamera sensor; there every camera is published"
         " below its own name.",
     ),
-    topics=(
-        Topic(
-            "{cameraName}/left/{imageTopicName}, {cameraName}/right/{imageTopicName}",
-            "sensor_msgs/msg/Image",
-            "sensor's `update_rate`",
-            "`frameName`",
-        ),
-        Topic(
-            "{cameraName}/left/{cameraInfoTopicName}, {cameraName}/right/{cameraInfoTopicName}",
-            "sensor_msgs/msg/CameraInfo",
-            "sensor's `update_rate`",
-            "`frameName`",
-        ),
-        Topic(
-            "{camera_name}/{name}/image_raw, {camera_name}/{name}/camera_info",
-            "the same (ROS 2)",
-            "sensor's `update_rate`",
-            "`frame_name`",
-        ),
-    ),
-    parameters=CAMERA_TABLE.parameters,
 )
 
 
@@ -63,7 +66,7 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start_ros1(context: PluginContext, parameters: ParameterReader, place: SensorPlace) -> None:
+def _start_ros1(context: PluginContext, parameters: PluginReader, place: SensorPlace) -> None:
     spec = place.sensor.spec
     assert isinstance(spec, CameraSpec)
     side = next((word for word in _SIDES if word in spec.name), None)
@@ -87,7 +90,7 @@ def _start_ros1(context: PluginContext, parameters: ParameterReader, place: Sens
 
 
 def start_multicamera_ros2(
-    context: PluginContext, parameters: ParameterReader, place: SensorPlace
+    context: PluginContext, parameters: PluginReader, place: SensorPlace
 ) -> None:
     """Publish every camera of a multicamera below its own name."""
     frame = parameters.text("frameName", place.link_name.split("::")[-1])

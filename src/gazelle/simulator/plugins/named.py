@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.parameters import ParameterTable
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.registry import looked_up, plain_name
 from gazelle.simulator.plugins.table import PluginTable
@@ -55,16 +56,20 @@ _NOTHING = {
 }
 
 TABLE = PluginTable(
-    family="known by name",
-    summary="Plug-ins that are known and not simulated; a warning says what does not happen.",
-    filenames=tuple(_MISSING),
+    ParameterTable(
+        "known by name",
+        "Plug-ins that are known and not simulated; a warning says what does not happen.",
+        tuple(_MISSING),
+    ),
     behaviour=tuple(f"`{name}`: {meaning}." for name, meaning in _MISSING.items()),
 )
 
 NOTHING_TABLE = PluginTable(
-    family="without effect",
-    summary="Libraries that do nothing by themselves in Gazebo either.",
-    filenames=tuple(_NOTHING),
+    ParameterTable(
+        "without effect",
+        "Libraries that do nothing by themselves in Gazebo either.",
+        tuple(_NOTHING),
+    ),
     behaviour=tuple(f"`{name}`: {meaning}." for name, meaning in _NOTHING.items()),
 )
 

@@ -5,63 +5,73 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class, pose_message, twist_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]
 
 TABLE = PluginTable(
-    family="p3d",
-    summary="Publishes the true pose and velocity of a link as odometry.",
-    filenames=("gazebo_ros_p3d",),
-    in_both_ros=True,
+    ParameterTable(
+        "p3d",
+        "Publishes the true pose and velocity of a link as odometry.",
+        ("gazebo_ros_p3d",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("bodyName", "text", "", "the link", "", aliases=("body_name",)),
+            Parameter(
+                "topicName", "text", "odom", "topic", "", aliases=("topic_name",), generations=(1,)
+            ),
+            Parameter(
+                "frameName",
+                "text",
+                "world",
+                "link that poses are relative to",
+                "",
+                aliases=("frame_name",),
+            ),
+            Parameter(
+                "xyzOffset",
+                "vector",
+                (0.0, 0.0, 0.0),
+                "added to the position",
+                "m",
+                aliases=("xyz_offset", "xyzOffsets", "xyz_offsets"),
+            ),
+            Parameter(
+                "rpyOffset",
+                "vector",
+                (0.0, 0.0, 0.0),
+                "added to the orientation",
+                "rad",
+                aliases=("rpy_offset", "rpyOffsets", "rpy_offsets"),
+            ),
+            Parameter(
+                "gaussianNoise",
+                "number",
+                0.0,
+                "sigma of the velocities' noise",
+                "m/s, rad/s",
+                aliases=("gaussian_noise",),
+            ),
+            Parameter("updateRate", "number", 0.0, "publish rate", "Hz", aliases=("update_rate",)),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
     topics=(
         Topic(
             "{topicName}",
             "nav_msgs/msg/Odometry",
-            "`updateRate`, 0 is every step",
-            "`frameName`",
+            rate="`updateRate`, 0 is every step",
+            frame="`frameName`",
             ros2="odom",
         ),
     ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic", only=1),
-        Parameter("bodyName", "text", "", "the link", "", ("body_name",)),
-        Parameter("topicName", "text", "odom", "topic", "", ("topic_name",), 1),
-        Parameter(
-            "frameName", "text", "world", "link that poses are relative to", "", ("frame_name",)
-        ),
-        Parameter(
-            "xyzOffset",
-            "vector",
-            (0.0, 0.0, 0.0),
-            "added to the position",
-            "m",
-            ("xyz_offset", "xyzOffsets", "xyz_offsets"),
-        ),
-        Parameter(
-            "rpyOffset",
-            "vector",
-            (0.0, 0.0, 0.0),
-            "added to the orientation",
-            "rad",
-            ("rpy_offset", "rpyOffsets", "rpy_offsets"),
-        ),
-        Parameter(
-            "gaussianNoise",
-            "number",
-            0.0,
-            "sigma of the velocities' noise",
-            "m/s, rad/s",
-            ("gaussian_noise",),
-        ),
-        Parameter("updateRate", "number", 0.0, "publish rate", "Hz", ("update_rate",)),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-    ),
+    in_both_ros=True,
 )
 _WORLD = frozenset({"world", "/world", "map", "/map", ""})
 
@@ -75,7 +85,7 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _start(context: PluginContext, parameters: ParameterReader, link_name: str) -> None:
+def _start(context: PluginContext, parameters: PluginReader, link_name: str) -> None:
     engine = context.host.engine
     link = engine.link(link_name)
     frame = parameters.text("frameName")

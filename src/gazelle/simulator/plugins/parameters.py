@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from gazelle.control.sources.ros_arguments import read_ros_arguments
 from gazelle.description.model import PluginTag
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, floats_from
-from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.simulator.plugins.table import Parameter, PluginTable
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.parameters import Parameter
+from gazelle.parameters.owner import ParameterOwner
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.sources import MISSING
+from gazelle.simulator.plugins.table import PluginTable
 
-__all__ = ["ParameterReader", "RosBlock"]
+__all__ = ["PluginReader", "RosBlock", "TagSource"]
 
 _ROS_WORDS = ("namespace", "remapping", "argument", "parameter")
 _ROS2 = 2
@@ -42,7 +48,32 @@ class RosBlock:
         return name
 
 
-class ParameterReader:
+class TagSource:
+    """The elements of a ``<plugin>`` as a source: of a name the text of its first one."""
+
+    def __init__(self, tag: Tag) -> None:
+        self.tag = tag
+
+    def find(self, name: str) -> Any:
+        """Return the text of the first element of a name, `MISSING` when there is none."""
+        found = self.tag.find(name)
+        return MISSING if found is None else found.text
+
+    def leaves(self) -> Iterable[tuple[str, Any]]:
+        """Return the texts of all elements, in their order."""
+        return ((child.name, child.text) for child in self.tag.children)
+
+    def full_name(self, name: str) -> str:
+        """Return an element as it is written."""
+        return f"<{name}>"
+
+    def place(self, name: str) -> SourceSpan | None:
+        """Return where the first element of a name stands."""
+        found = self.tag.find(name)
+        return None if found is None else found.span
+
+
+class PluginReader(ParameterReader):
     """Typed access to a plug-in's keys, defaults from its table.
 
     Args:
@@ -53,7 +84,6 @@ class ParameterReader:
 
     Attributes:
         ros: the ``<ros>`` element; an empty one where the plug-in is ROS 1's.
-        ros_version: which of two plug-ins this is, 0 when only its keys tell.
     """
 
     def __init__(
@@ -63,15 +93,21 @@ class ParameterReader:
         diagnostics: Diagnostics,
         ros_version: int = 0,
     ) -> None:
+        owner = ParameterOwner(plugin.name, f"plug-in '{plugin.name}'")
+        source = TagSource(plugin.parameters)
+        version = ros_version if table.in_both_ros else 0
+        super().__init__(table.parameters, source, owner, diagnostics, generation=version)
         self.plugin = plugin
-        self.ros_version = ros_version if table.in_both_ros else 0
-        self._table = table
-        self._diagnostics = diagnostics
         self._read: set[str] = set()
         self.ros = RosBlock()
-        if self.ros_version != 1:
+        if version != 1:
             self._read.add("ros")
             self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
+
+    @property
+    def ros_version(self) -> int:
+        """Which of two plug-ins this is, 0 when only its keys tell."""
+        return self.generation
 
     def is_ros2(self, *marks: str) -> bool:
         """Tell whether this is ROS 2's plug-in.
@@ -88,114 +124,99 @@ class ParameterReader:
         """Tell whether the plug-in has such a key at all."""
         return self._known_row(key) is not None
 
-    def has(self, key: str) -> bool:
-        """Tell whether a key stands in the file, under any of its spellings."""
-        return self.tag(key) is not None
-
     def tag(self, key: str) -> Tag | None:
         """Return the first element of a key, None when it is absent."""
-        for name in self._names(self._row(key)):
-            found = self.plugin.parameters.find(name)
-            if found is not None:
-                return found
-        return None
+        found = map(self.plugin.parameters.find, self.spellings(key))
+        return next((tag for tag in found if tag is not None), None)
 
     def texts(self, key: str) -> tuple[str, ...]:
         """Return the texts of all elements of a key."""
-        names = self._names(self._row(key))
+        names = self.spellings(key)
         return tuple(tag.text for tag in self.plugin.parameters.children if tag.name in names)
 
     def text(self, key: str, default: str | None = None) -> str:
-        """Return a text; `default` instead of the table's when given."""
-        tag = self.tag(key)
-        if tag is not None and tag.text:
-            return tag.text
-        return str(self._default(key)) if default is None else default
+        """Return a text, that of the table for an empty one; `default` in place of the table's."""
+        return self.raw(key) or str(self.default(key, default, ""))
 
-    def flag(self, key: str) -> bool:
+    def flag(self, key: str, default: bool | None = None) -> bool:
         """Return a truth value."""
-        default = bool(self._default(key))
-        return bool_from(self.tag(key), default, self._diagnostics)
+        return bool_from(self.tag(key), bool(self.default(key, default, False)), self.diagnostics)
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return a number; `default` instead of the table's when given."""
-        fallback = self._default(key) if default is None else default
-        return self._floats(key, (float(str(fallback)),))[0]
+        return self._floats(self.tag(key), (float(self.default(key, default, 0.0)),))[0]
 
     def numbers(self, key: str) -> tuple[float, ...]:
         """Return the numbers of all elements of a key, in their order."""
         default = self.default_number(key)
-        names = self._names(self._row(key))
+        names = self.spellings(key)
         tags = (tag for tag in self.plugin.parameters.children if tag.name in names)
-        return tuple(self._floats_of(tag, (default,))[0] for tag in tags)
+        return tuple(self._floats(tag, (default,))[0] for tag in tags)
 
     def default_number(self, key: str) -> float:
         """Return what the table has for a key."""
-        return float(str(self._default(key)))
+        return float(self.default(key, None, 0.0))
 
     def vector(self, key: str) -> tuple[float, float, float]:
         """Return three numbers."""
-        default = self._default(key)
-        assert isinstance(default, tuple)
-        x, y, z = self._floats(key, default)
+        x, y, z = self._floats(self.tag(key), self.default(key, None, (0.0, 0.0, 0.0)))
         return (x, y, z)
+
+    def spellings(self, key: str) -> tuple[str, ...]:
+        """Return the names that count for a key of the table, which has been read by that.
+
+        Raises:
+            KeyError: the table has no such key.
+        """
+        self.table.row(key)
+        names = super().spellings(key)
+        self._read.update(names)
+        return names
+
+    def default(self, key: str, default: Any, otherwise: Any) -> Any:
+        """Return the value of an absent key, which has been read by that."""
+        self.spellings(key)
+        return super().default(key, default, otherwise)
 
     def report_unread(self) -> None:
         """Report the keys that have no effect and, one by one, those that are not known."""
-        known = [name for row in self._table.parameters for name in (row.key, *row.aliases)]
+        known = [name for row in self.table.rows for name in row.names]
         idle = []
         if self.ros.parameter_files and self._known_row("parameters") is None:
             idle += [f"--params-file {name}" for name in self.ros.parameter_files]
         for tag in self.plugin.parameters.children:
             row = self._known_row(tag.name)
             if row is None:
-                self._report_unknown(tag, known)
-            elif row.kind == "none":
+                self._report_unknown_tag(tag, known)
+            elif row.is_refused:
                 idle.append(f"<{tag.name}> ({row.meaning})")
             elif tag.name not in self._read:
                 idle.append(f"<{tag.name}>{self._instead_of(row, tag.name)}")
         if idle:
             text = f"plug-in '{self.plugin.name}': these keys change nothing: {', '.join(idle)}"
-            self._diagnostics.report("parameter.idle", text, self.plugin.span)
+            self.diagnostics.report("parameter.idle", text, self.plugin.span)
 
-    def _report_unknown(self, tag: Tag, known: list[str]) -> None:
+    def _report_unknown_tag(self, tag: Tag, known: list[str]) -> None:
         hint = did_you_mean(tag.name, known)
         text = f"plug-in '{self.plugin.name}' ({self.plugin.filename}) has no key <{tag.name}>"
         text += "; it has no effect"
-        self._diagnostics.report("parameter.unknown", text, tag.span, fix=hint)
+        self.diagnostics.report("parameter.unknown", text, tag.span, fix=hint)
 
     def _known_row(self, name: str) -> Parameter | None:
         if name == "ros":
-            return Parameter("ros", "text", "", "", only=_ROS2)
-        try:
-            return self._table.parameter(name)
-        except KeyError:
-            return None
-
-    def _row(self, key: str) -> Parameter:
-        row = self._table.parameter(key)
-        self._read.update(self._names(row))
-        return row
-
-    def _names(self, row: Parameter) -> tuple[str, ...]:
-        return row.spellings(self.ros_version)
-
-    def _default(self, key: str) -> object:
-        return self._row(key).default_in(self.ros_version)
+            return Parameter("ros", "group", None, "", generations=(_ROS2,))
+        return self.table.exact_row(name)
 
     def _instead_of(self, row: Parameter, name: str) -> str:
         """Say whose key one is that the plug-in of this version does not read."""
-        names = self._names(row)
+        names = row.spellings(self.ros_version)
         if not self.ros_version or name in names:
             return ""
         other = 1 if self.ros_version == _ROS2 else _ROS2
         read = f", ROS {self.ros_version} reads <{names[0]}>" if names else ""
         return f" (of ROS {other}{read})"
 
-    def _floats(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        return self._floats_of(self.tag(key), default)
-
-    def _floats_of(self, tag: Tag | None, default: tuple[float, ...]) -> tuple[float, ...]:
+    def _floats(self, tag: Tag | None, default: tuple[float, ...]) -> tuple[float, ...]:
         if tag is None or not tag.text:
             return default
         return floats_from(
@@ -204,7 +225,7 @@ class ParameterReader:
             default,
             what=f"<{tag.name}>",
             span=tag.span,
-            diagnostics=self._diagnostics,
+            diagnostics=self.diagnostics,
         )
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.geometry import Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.body_odometry import (
     BodyOdometry,
     OdometrySetup,
@@ -16,8 +17,8 @@ from gazelle.simulator.plugins.body_odometry import (
     planar_covariance,
 )
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]
@@ -25,9 +26,75 @@ __all__ = ["TABLE", "load"]
 _EVERY_STEP = Fraction(1)
 
 TABLE = PluginTable(
-    family="planar_move",
-    summary="Gives a robot the commanded velocity in the plane, without wheels (omnidirectional).",
-    filenames=("gazebo_ros_planar_move",),
+    ParameterTable(
+        "planar_move",
+        "Gives a robot the commanded velocity in the plane, without wheels (omnidirectional).",
+        ("gazebo_ros_planar_move",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of all topics", generations=(1,)),
+            Parameter("commandTopic", "text", "cmd_vel", "commands", generations=(1,)),
+            Parameter("odometryTopic", "text", "odom", "odometry", generations=(1,)),
+            Parameter(
+                "odometryFrame", "text", "odom", "its frame", "", aliases=("odometry_frame",)
+            ),
+            Parameter(
+                "robotBaseFrame",
+                "text",
+                "base_footprint",
+                "child frame",
+                "",
+                aliases=("robot_base_frame",),
+            ),
+            Parameter(
+                "odometryRate",
+                "number",
+                20.0,
+                "publish rate, 0 for never",
+                "Hz",
+                aliases=("publish_rate",),
+            ),
+            Parameter(
+                "update_rate",
+                "number",
+                20.0,
+                "how often the velocity is set (ROS 2)",
+                "Hz",
+                generations=(2,),
+            ),
+            Parameter(
+                "cmdTimeout",
+                "number",
+                -1.0,
+                "age at which a command ends (ROS 1)",
+                "s",
+                generations=(1,),
+            ),
+            Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)", generations=(2,)),
+            Parameter(
+                "publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", generations=(2,)
+            ),
+            Parameter(
+                "covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²", generations=(2,)
+            ),
+            Parameter(
+                "covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²", generations=(2,)
+            ),
+            Parameter(
+                "covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²", generations=(2,)
+            ),
+        ),
+    ),
+    topics=(
+        Topic("{commandTopic}", "geometry_msgs/msg/Twist", kind="listens", ros2="cmd_vel"),
+        Topic(
+            "{odometryTopic}",
+            "nav_msgs/msg/Odometry",
+            rate="`odometryRate`",
+            frame="`odometryFrame`",
+            ros2="odom",
+        ),
+        Topic("/tf", "tf2_msgs/msg/TFMessage", rate="`odometryRate`", frame="`odometryFrame`"),
+    ),
     behaviour=(
         "ROS 1 sets the velocity at every step, ROS 2 at `update_rate`; in between friction and"
         " gravity act, so what stands on the floor should have little friction. The vertical speed"
@@ -37,38 +104,6 @@ TABLE = PluginTable(
         "ROS 1 measures the twist as the difference of two poses over the time between them.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False, ros2="cmd_vel"),
-        Topic(
-            "{odometryTopic}",
-            "nav_msgs/msg/Odometry",
-            "`odometryRate`",
-            "`odometryFrame`",
-            ros2="odom",
-        ),
-        Topic("/tf", "tf2_msgs/msg/TFMessage", "`odometryRate`", "`odometryFrame`"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of all topics", only=1),
-        Parameter("commandTopic", "text", "cmd_vel", "commands", only=1),
-        Parameter("odometryTopic", "text", "odom", "odometry", only=1),
-        Parameter("odometryFrame", "text", "odom", "its frame", "", ("odometry_frame",)),
-        Parameter(
-            "robotBaseFrame", "text", "base_footprint", "child frame", "", ("robot_base_frame",)
-        ),
-        Parameter(
-            "odometryRate", "number", 20.0, "publish rate, 0 for never", "Hz", ("publish_rate",)
-        ),
-        Parameter(
-            "update_rate", "number", 20.0, "how often the velocity is set (ROS 2)", "Hz", only=2
-        ),
-        Parameter("cmdTimeout", "number", -1.0, "age at which a command ends (ROS 1)", "s", only=1),
-        Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)", only=2),
-        Parameter("publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", only=2),
-        Parameter("covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²", only=2),
-        Parameter("covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²", only=2),
-        Parameter("covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²", only=2),
-    ),
 )
 
 
@@ -82,7 +117,7 @@ def load(context: PluginContext) -> None:
 class _PlanarMove:
     """One running plug-in."""
 
-    def __init__(self, context: PluginContext, parameters: ParameterReader) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader) -> None:
         self._context = context
         self._engine = context.host.engine
         self._is_ros2 = parameters.is_ros2("update_rate")
@@ -97,7 +132,7 @@ class _PlanarMove:
         context.resources.subscription(topic, None, self._take, announced="geometry_msgs/msg/Twist")
         self._start(parameters)
 
-    def _start(self, parameters: ParameterReader) -> None:
+    def _start(self, parameters: PluginReader) -> None:
         resources, step_ns = self._context.resources, self._engine.step_ns
         name = self._context.plugin.name
         period = _EVERY_STEP
@@ -152,7 +187,7 @@ class _PlanarMove:
         self._last = (self._engine.time_ns, self._pose())
 
 
-def _setup(context: PluginContext, parameters: ParameterReader, *, ros2: bool) -> OdometrySetup:
+def _setup(context: PluginContext, parameters: PluginReader, *, ros2: bool) -> OdometrySetup:
     prefix = "" if ros2 else frame_prefix(context, parameters)
     covariance = planar_covariance(
         *(parameters.number(f"covariance_{axis}") for axis in ("x", "y", "yaw"))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.model import LidarSpec, SonarSpec
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
@@ -21,7 +22,7 @@ from gazelle.simulator.plugins.stream import (
     sensor_place,
     throttled_period,
 )
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["HECTOR_TABLE", "TABLE", "load", "load_hector"]
@@ -31,41 +32,52 @@ _NEAREST = "The range is that of the nearest beam; nothing in sight is the large
 _SONAR = "It may stand in a `sonar` sensor too, whose cone is searched for the nearest surface."
 
 TABLE = PluginTable(
-    family="range",
-    summary="Publishes the nearest distance that the ray sensor around it sees.",
-    filenames=("gazebo_ros_range",),
-    behaviour=(_NEAREST, _SONAR, "A range with noise stays below the largest range."),
-    topics=(
-        Topic(
-            "{topicName}", "sensor_msgs/msg/Range", "sensor's, at most `updateRate`", "`frameName`"
+    ParameterTable(
+        "range",
+        "Publishes the nearest distance that the ray sensor around it sees.",
+        ("gazebo_ros_range",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("topicName", "text", "/range", "topic"),
+            Parameter("frameName", "text", "/world", "frame of the data"),
+            Parameter("radiation", "text", "ultrasound", "`ultrasound`; anything else is infrared"),
+            Parameter("fov", "number", 0.05, "`field_of_view`", "rad"),
+            Parameter("gaussianNoise", "number", 0.0, "sigma of the range", "m"),
+            Parameter(
+                "updateRate", "number", 0.0, "largest publish rate, 0 for the sensor's", "Hz"
+            ),
+            Parameter("alwaysOn", "refused", "", "scans are computed while somebody subscribes"),
+            Parameter("visualize", "refused", "", "belongs to the sensor"),
         ),
     ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("topicName", "text", "/range", "topic"),
-        Parameter("frameName", "text", "/world", "frame of the data"),
-        Parameter("radiation", "text", "ultrasound", "`ultrasound`; anything else is infrared"),
-        Parameter("fov", "number", 0.05, "`field_of_view`", "rad"),
-        Parameter("gaussianNoise", "number", 0.0, "sigma of the range", "m"),
-        Parameter("updateRate", "number", 0.0, "largest publish rate, 0 for the sensor's", "Hz"),
-        Parameter("alwaysOn", "none", "", "scans are computed while somebody subscribes"),
-        Parameter("visualize", "none", "", "belongs to the sensor"),
+    topics=(
+        Topic(
+            "{topicName}",
+            "sensor_msgs/msg/Range",
+            rate="sensor's, at most `updateRate`",
+            frame="`frameName`",
+        ),
     ),
+    behaviour=(_NEAREST, _SONAR, "A range with noise stays below the largest range."),
 )
 
 HECTOR_TABLE = PluginTable(
-    family="hector sonar",
-    summary="The ultrasonic ranger of hector_gazebo_plugins, in a ray sensor.",
-    filenames=("hector_gazebo_ros_sonar",),
-    behaviour=(_NEAREST, _SONAR, "dynamic_reconfigure is not offered."),
-    topics=(Topic("{topicName}", "sensor_msgs/msg/Range", "`updateRate`", "`frameId`"),),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of the topic"),
-        Parameter("topicName", "text", "sonar", "topic"),
-        Parameter("frameId", "text", "/sonar_link", "frame of the data", "", ("frameName",)),
-        Parameter("updateRate", "number", 10.0, "publish rate", "Hz"),
-        *error_parameters("m", axes=1),
+    ParameterTable(
+        "hector sonar",
+        "The ultrasonic ranger of hector_gazebo_plugins, in a ray sensor.",
+        ("hector_gazebo_ros_sonar",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of the topic"),
+            Parameter("topicName", "text", "sonar", "topic"),
+            Parameter(
+                "frameId", "text", "/sonar_link", "frame of the data", "", aliases=("frameName",)
+            ),
+            Parameter("updateRate", "number", 10.0, "publish rate", "Hz"),
+            *error_parameters("m", axes=1),
+        ),
     ),
+    topics=(Topic("{topicName}", "sensor_msgs/msg/Range", rate="`updateRate`", frame="`frameId`"),),
+    behaviour=(_NEAREST, _SONAR, "dynamic_reconfigure is not offered."),
 )
 
 

@@ -90,7 +90,7 @@ def _by_name() -> dict[str, tuple[PluginTable, Load]]:
         module = import_module(f"gazelle.simulator.plugins.{module_name}")
         table: PluginTable = getattr(module, table_name)
         load: Load = getattr(module, load_name)
-        for name in table.filenames:
+        for name in table.parameters.types:
             found[plain_name(name)] = (table, load)
     return found
 
@@ -120,7 +120,7 @@ def all_tables() -> tuple[PluginTable, ...]:
     """Return every table, in the order of the documentation."""
     tables: dict[str, PluginTable] = {}
     for table, _ in _by_name().values():
-        tables.setdefault(table.family, table)
+        tables.setdefault(table.parameters.family, table)
     return tuple(tables.values())
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import Model
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.ros2_control_table import GZ_TABLE, TABLE
 from gazelle.simulator.plugins.ros_control_loop import (
     check_controllers,
@@ -36,7 +36,7 @@ def load_gz(context: PluginContext) -> None:
     _load(context, context.reader(GZ_TABLE), is_gz=True)
 
 
-def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -> None:
+def _load(context: PluginContext, parameters: PluginReader, *, is_gz: bool) -> None:
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.ros2_robot import build_ros2_robot
     from gazelle.simulator.control_ports import make_ports, offer_manager
@@ -76,7 +76,7 @@ def _load(context: PluginContext, parameters: ParameterReader, *, is_gz: bool) -
     parameters.report_unread()
 
 
-def _described(context: PluginContext, parameters: ParameterReader, namespace: str) -> Model:
+def _described(context: PluginContext, parameters: PluginReader, namespace: str) -> Model:
     """Return the model, with the blocks of the parameter store where it has none, as from SDF."""
     from gazelle.control.hardware.description import read_ros2_controls
 
@@ -97,7 +97,7 @@ def _described(context: PluginContext, parameters: ParameterReader, namespace: s
     return model
 
 
-def _options(parameters: ParameterReader, *, is_gz: bool, rate_hz: float) -> SystemOptions:
+def _options(parameters: PluginReader, *, is_gz: bool, rate_hz: float) -> SystemOptions:
     from gazelle.control.hardware.gazebo_system import SystemOptions
 
     gain = parameters.number("position_proportional_gain") if is_gz else 0.0
@@ -105,7 +105,7 @@ def _options(parameters: ParameterReader, *, is_gz: bool, rate_hz: float) -> Sys
 
 
 def _source(
-    context: PluginContext, parameters: ParameterReader, namespace: str, manager: str
+    context: PluginContext, parameters: PluginReader, namespace: str, manager: str
 ) -> FileSource:
     from gazelle.control.sources.files import FileSource
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service
+from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["GZ_TABLE", "TABLE"]
 
 _MSGS = "controller_manager_msgs"
 _SERVICES = tuple(
-    Service(f"{{controller_manager_name}}/{verb}", f"{_MSGS}/{kind}")
+    Topic(f"{{controller_manager_name}}/{verb}", f"{_MSGS}/{kind}", kind="service")
     for verb, kind in (
         ("configure_controller", "ConfigureController"),
         ("list_controllers", "ListControllers"),
@@ -59,9 +60,18 @@ _DESCRIPTION = (
 _SIM_TYPE = "the class stands in the `<ros2_control>` block"
 
 TABLE = PluginTable(
-    family="ros2_control",
-    summary="Simulated hardware and the controller manager of ROS 2 in Gazebo Classic.",
-    filenames=("gazebo_ros2_control",),
+    ParameterTable(
+        "ros2_control",
+        "Simulated hardware and the controller manager of ROS 2 in Gazebo Classic.",
+        ("gazebo_ros2_control",),
+        (
+            *_PARAMETERS,
+            _HOLD,
+            *_DESCRIPTION,
+            Parameter("robot_sim_type", "refused", "", _SIM_TYPE, aliases=("robotSimType",)),
+        ),
+    ),
+    services=_SERVICES,
     behaviour=(
         *_COMMON,
         "`position` puts the joint where it is told and `velocity` moves it so, whatever it takes; "
@@ -71,24 +81,31 @@ TABLE = PluginTable(
         "at every step.",
         "Of several claimed commands of a joint position counts, then velocity, then effort.",
     ),
-    parameters=(
-        *_PARAMETERS,
-        _HOLD,
-        *_DESCRIPTION,
-        Parameter("robot_sim_type", "none", "", _SIM_TYPE, aliases=("robotSimType",)),
-    ),
-    services=_SERVICES,
 )
 
 GZ_TABLE = PluginTable(
-    family="gz-sim ros2_control",
-    summary="Simulated hardware and the controller manager of ROS 2 in gz-sim.",
-    filenames=(
-        "gz_ros2_control-system",
-        "ign_ros2_control-system",
-        "gz_ros2_control::GazeboSimROS2ControlPlugin",
-        "ign_ros2_control::IgnitionROS2ControlPlugin",
+    ParameterTable(
+        "gz-sim ros2_control",
+        "Simulated hardware and the controller manager of ROS 2 in gz-sim.",
+        (
+            "gz_ros2_control-system",
+            "ign_ros2_control-system",
+            "gz_ros2_control::GazeboSimROS2ControlPlugin",
+            "ign_ros2_control::IgnitionROS2ControlPlugin",
+        ),
+        (
+            *_PARAMETERS,
+            _HOLD,
+            Parameter(
+                "position_proportional_gain",
+                "number",
+                0.1,
+                "share of a position error that is made up for in one control period",
+            ),
+            *_DESCRIPTION,
+        ),
     ),
+    services=_SERVICES,
     behaviour=(
         *_COMMON,
         "Joints have motors with the joint's effort limit. `position` asks for the speed "
@@ -96,16 +113,4 @@ GZ_TABLE = PluginTable(
         "on the joint.",
         "Of several claimed commands of a joint velocity counts, then position, then effort.",
     ),
-    parameters=(
-        *_PARAMETERS,
-        _HOLD,
-        Parameter(
-            "position_proportional_gain",
-            "number",
-            0.1,
-            "share of a position error that is made up for in one control period",
-        ),
-        *_DESCRIPTION,
-    ),
-    services=_SERVICES,
 )

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.ros_control_loop import (
     check_controllers,
     control_period,
@@ -32,7 +32,7 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _make(context: PluginContext, parameters: ParameterReader) -> ControllerManager:
+def _make(context: PluginContext, parameters: PluginReader) -> ControllerManager:
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.simulator.control_ports import make_ports, offer_manager
 
@@ -57,7 +57,7 @@ def _make(context: PluginContext, parameters: ParameterReader) -> ControllerMana
     return manager
 
 
-def _namespace(context: PluginContext, parameters: ParameterReader) -> str:
+def _namespace(context: PluginContext, parameters: PluginReader) -> str:
     """Return the robot's namespace.
 
     Without any word on it Gazebo takes the model's name; in 2011, on the PR2, it was the root.
@@ -67,7 +67,7 @@ def _namespace(context: PluginContext, parameters: ParameterReader) -> str:
     return join_names("/", parameters.text("robotNamespace", fallback))
 
 
-def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) -> Robot:
+def _robot(context: PluginContext, parameters: PluginReader, namespace: str) -> Robot:
     from gazelle.control.hardware.ros1_robot import build_ros1_robot
     from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
@@ -89,7 +89,7 @@ def _robot(context: PluginContext, parameters: ParameterReader, namespace: str) 
     )
 
 
-def _gains_namespace(context: PluginContext, parameters: ParameterReader, namespace: str) -> str:
+def _gains_namespace(context: PluginContext, parameters: PluginReader, namespace: str) -> str:
     """Return where the gains lie: in Kinetic and Melodic they are outside the namespace."""
     from gazelle.control.hardware.ros1_gains import GAINS_NAME
 
@@ -131,7 +131,7 @@ def _source(context: PluginContext, namespace: str) -> Any:
 
 
 def _description(
-    context: PluginContext, parameters: ParameterReader, namespace: str
+    context: PluginContext, parameters: PluginReader, namespace: str
 ) -> ControlDescription | None:
     """Return the description in the parameter store; None when it is not this robot's."""
     from gazelle.control.hardware.description import read_description
@@ -160,13 +160,13 @@ def _fits(context: PluginContext, description: ControlDescription) -> bool:
     return not names or not names.isdisjoint(description.joints)
 
 
-def _period(context: PluginContext, parameters: ParameterReader) -> Fraction:
+def _period(context: PluginContext, parameters: PluginReader) -> Fraction:
     wanted_ns = round(parameters.number("controlPeriod") * 1e9)
     return control_period(context, wanted_ns, "<controlPeriod>") if wanted_ns else Fraction(1)
 
 
 def _listen_for_stop(
-    context: PluginContext, parameters: ParameterReader, manager: ControllerManager
+    context: PluginContext, parameters: PluginReader, manager: ControllerManager
 ) -> None:
     topic = parameters.text("eStopTopic")
     if not topic:

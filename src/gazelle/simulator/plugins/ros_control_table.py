@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["DEFAULT_ROBOT_SIM", "OF_2011", "TABLE"]
 
@@ -14,10 +15,60 @@ DEFAULT_ROBOT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 _MSGS = "controller_manager_msgs"
 
 TABLE = PluginTable(
-    family="ros_control",
-    summary="Simulated hardware and the controller manager of ROS 1. Joints come from the "
-    "`<transmission>` elements; controllers and their parameters are on the controllers page.",
-    filenames=("gazebo_ros_control", OF_2011),
+    ParameterTable(
+        "ros_control",
+        "Simulated hardware and the controller manager of ROS 1. Joints come from the "
+        "`<transmission>` elements; controllers and their parameters are on the controllers page.",
+        ("gazebo_ros_control", OF_2011),
+        (
+            Parameter(
+                "robotNamespace",
+                "text",
+                "",
+                "namespace of manager, controllers and parameters; the model's name when absent",
+            ),
+            Parameter(
+                "controlPeriod", "number", 0.0, "control period; a physics step when absent", "s"
+            ),
+            Parameter("robotParam", "text", "robot_description", "parameter with the URDF"),
+            Parameter(
+                "robotSimType",
+                "text",
+                DEFAULT_ROBOT_SIM,
+                "class of the hardware; others are compiled code, and the default is used instead",
+            ),
+            Parameter(
+                "eStopTopic",
+                "text",
+                "",
+                "emergency stop: while true, no effort, no speed, positions stay; on release the "
+                "controllers restart",
+            ),
+            Parameter(
+                "legacyModeNS",
+                "flag",
+                False,
+                "true reads PID gains from `/gazebo_ros_control/pid_gains`, without the"
+                " namespace, as "
+                "Kinetic and Melodic do; when absent both places are looked at",
+            ),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+            Parameter("updateRate", "refused", "", "the control period is `controlPeriod`"),
+            Parameter("interface:audio", "refused", "", "a placeholder that Gazebo of 2011 needed"),
+        ),
+    ),
+    topics=(Topic("{eStopTopic}", "std_msgs/msg/Bool", kind="listens"),),
+    services=tuple(
+        Topic(f"controller_manager/{verb}", f"{_MSGS}/{kind}", kind="service")
+        for verb, kind in (
+            ("list_controllers", "ListControllers"),
+            ("list_controller_types", "ListControllerTypes"),
+            ("load_controller", "LoadController"),
+            ("reload_controller_libraries", "ReloadControllerLibraries"),
+            ("switch_controller", "SwitchController"),
+            ("unload_controller", "UnloadController"),
+        )
+    ),
     behaviour=(
         "The description is read from the parameter `robotParam`, searched upwards from "
         "`robotNamespace`; without that parameter the model's own is used (Gazebo would wait for "
@@ -44,52 +95,5 @@ TABLE = PluginTable(
         "has none.",
         "A joint that is not in the model is reported and left out; Gazebo would start nothing.",
         "`gazebo_ros_controller_manager` of 2011 (PR2) means the same; its namespace is the root.",
-    ),
-    parameters=(
-        Parameter(
-            "robotNamespace",
-            "text",
-            "",
-            "namespace of manager, controllers and parameters; the model's name when absent",
-        ),
-        Parameter(
-            "controlPeriod", "number", 0.0, "control period; a physics step when absent", "s"
-        ),
-        Parameter("robotParam", "text", "robot_description", "parameter with the URDF"),
-        Parameter(
-            "robotSimType",
-            "text",
-            DEFAULT_ROBOT_SIM,
-            "class of the hardware; others are compiled code, and the default is used instead",
-        ),
-        Parameter(
-            "eStopTopic",
-            "text",
-            "",
-            "emergency stop: while true, no effort, no speed, positions stay; on release the "
-            "controllers restart",
-        ),
-        Parameter(
-            "legacyModeNS",
-            "flag",
-            False,
-            "true reads PID gains from `/gazebo_ros_control/pid_gains`, without the namespace, as "
-            "Kinetic and Melodic do; when absent both places are looked at",
-        ),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
-        Parameter("updateRate", "none", "", "the control period is `controlPeriod`"),
-        Parameter("interface:audio", "none", "", "a placeholder that Gazebo of 2011 needed"),
-    ),
-    topics=(Topic("{eStopTopic}", "std_msgs/msg/Bool", "", publishes=False),),
-    services=tuple(
-        Service(f"controller_manager/{verb}", f"{_MSGS}/{kind}")
-        for verb, kind in (
-            ("list_controllers", "ListControllers"),
-            ("list_controller_types", "ListControllerTypes"),
-            ("load_controller", "LoadController"),
-            ("reload_controller_libraries", "ReloadControllerLibraries"),
-            ("switch_controller", "SwitchController"),
-            ("unload_controller", "UnloadController"),
-        )
     ),
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.body_odometry import (
     BodyOdometry,
     OdometrySetup,
@@ -11,8 +12,8 @@ from gazelle.simulator.plugins.body_odometry import (
     planar_covariance,
 )
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.plugins.wheel_motion import wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
 
@@ -21,39 +22,43 @@ __all__ = ["TABLE", "load"]
 _JOINTS = ("leftFrontJoint", "rightFrontJoint", "leftRearJoint", "rightRearJoint")
 
 TABLE = PluginTable(
-    family="skid_steer_drive",
-    summary="Drives four wheels from velocity commands and publishes odometry (ROS 1).",
-    filenames=("gazebo_ros_skid_steer_drive",),
+    ParameterTable(
+        "skid_steer_drive",
+        "Drives four wheels from velocity commands and publishes odometry (ROS 1).",
+        ("gazebo_ros_skid_steer_drive",),
+        (
+            Parameter("robotNamespace", "text", "", "namespace of all topics"),
+            Parameter("commandTopic", "text", "cmd_vel", "commands"),
+            Parameter("odometryTopic", "text", "odom", "odometry"),
+            Parameter("odometryFrame", "text", "odom", "its frame"),
+            Parameter("robotBaseFrame", "text", "base_footprint", "child frame"),
+            Parameter("leftFrontJoint", "text", "left_front_joint", "a wheel's joint"),
+            Parameter("rightFrontJoint", "text", "right_front_joint", "a wheel's joint"),
+            Parameter("leftRearJoint", "text", "left_rear_joint", "a wheel's joint"),
+            Parameter("rightRearJoint", "text", "right_rear_joint", "a wheel's joint"),
+            Parameter("wheelSeparation", "number", 0.4, "distance of both sides", "m"),
+            Parameter("wheelDiameter", "number", 0.15, "diameter of the wheels", "m"),
+            Parameter("torque", "number", 5.0, "largest motor torque", "N·m"),
+            Parameter("updateRate", "number", 100.0, "update and publish rate", "Hz"),
+            Parameter("broadcastTF", "flag", False, "publish odom → base"),
+            Parameter("covariance_x", "number", 1e-4, "covariance x", "m²"),
+            Parameter("covariance_y", "number", 1e-4, "covariance y", "m²"),
+            Parameter("covariance_yaw", "number", 1e-2, "covariance yaw", "rad²"),
+            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+        ),
+    ),
+    topics=(
+        Topic("{commandTopic}", "geometry_msgs/msg/Twist", kind="listens"),
+        Topic(
+            "{odometryTopic}", "nav_msgs/msg/Odometry", rate="`updateRate`", frame="`odometryFrame`"
+        ),
+        Topic("/tf", "tf2_msgs/msg/TFMessage", rate="`updateRate`", frame="`odometryFrame`"),
+    ),
     behaviour=(
         "Both wheels of a side turn at v ∓ ω · `wheelSeparation`/2 over the wheel's radius, each"
         " with at most `torque` (ODE's fmax).",
         "Odometry is the true pose and velocity; the message has no height.",
         "Pose and twist have the same covariance.",
-    ),
-    topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
-        Topic("{odometryTopic}", "nav_msgs/msg/Odometry", "`updateRate`", "`odometryFrame`"),
-        Topic("/tf", "tf2_msgs/msg/TFMessage", "`updateRate`", "`odometryFrame`"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of all topics"),
-        Parameter("commandTopic", "text", "cmd_vel", "commands"),
-        Parameter("odometryTopic", "text", "odom", "odometry"),
-        Parameter("odometryFrame", "text", "odom", "its frame"),
-        Parameter("robotBaseFrame", "text", "base_footprint", "child frame"),
-        Parameter("leftFrontJoint", "text", "left_front_joint", "a wheel's joint"),
-        Parameter("rightFrontJoint", "text", "right_front_joint", "a wheel's joint"),
-        Parameter("leftRearJoint", "text", "left_rear_joint", "a wheel's joint"),
-        Parameter("rightRearJoint", "text", "right_rear_joint", "a wheel's joint"),
-        Parameter("wheelSeparation", "number", 0.4, "distance of both sides", "m"),
-        Parameter("wheelDiameter", "number", 0.15, "diameter of the wheels", "m"),
-        Parameter("torque", "number", 5.0, "largest motor torque", "N·m"),
-        Parameter("updateRate", "number", 100.0, "update and publish rate", "Hz"),
-        Parameter("broadcastTF", "flag", False, "publish odom → base"),
-        Parameter("covariance_x", "number", 1e-4, "covariance x", "m²"),
-        Parameter("covariance_y", "number", 1e-4, "covariance y", "m²"),
-        Parameter("covariance_yaw", "number", 1e-2, "covariance yaw", "rad²"),
-        Parameter("alwaysOn", "none", "", "a model plug-in always runs"),
     ),
 )
 
@@ -71,9 +76,7 @@ def load(context: PluginContext) -> None:
 class _SkidSteer:
     """One running drive."""
 
-    def __init__(
-        self, context: PluginContext, parameters: ParameterReader, names: list[str]
-    ) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader, names: list[str]) -> None:
         engine, resources = context.host.engine, context.resources
         self._joints = [engine.joint(name) for name in names]
         self._separation_m = parameters.number("wheelSeparation")
@@ -112,7 +115,7 @@ class _SkidSteer:
             joint.release()
 
 
-def _setup(context: PluginContext, parameters: ParameterReader) -> OdometrySetup:
+def _setup(context: PluginContext, parameters: PluginReader) -> OdometrySetup:
     prefix = frame_prefix(context, parameters)
     covariance = planar_covariance(
         *(parameters.number(f"covariance_{axis}") for axis in ("x", "y", "yaw"))

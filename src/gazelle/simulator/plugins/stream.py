@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
 __all__ = [
@@ -93,7 +93,7 @@ def throttled_period(context: PluginContext, place: SensorPlace, rate_hz: float)
     return place.period_in_steps(context.host.engine.step_ns, rate_hz)
 
 
-def prefixed_frame(context: PluginContext, parameters: ParameterReader, key: str) -> str:
+def prefixed_frame(context: PluginContext, parameters: PluginReader, key: str) -> str:
     """Return the frame of a key as tf::resolve does since ROS Hydro.
 
     The namespace's ``tf_prefix`` goes before it; an absolute name has none and loses its slash.

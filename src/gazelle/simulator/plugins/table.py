@@ -7,85 +7,14 @@ them, so the page cannot say anything else than the code does.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-__all__ = ["Parameter", "PluginTable", "Service", "Topic", "tables_as_markdown"]
+from gazelle.parameters import ParameterTable, Topic
+from gazelle.parameters.markdown import facts, headed, in_code, parameter_lines
 
-_ROS2 = 2
+__all__ = ["PluginTable", "tables_as_markdown"]
 
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """One key of a ``<plugin>`` element.
-
-    Attributes:
-        key: element name.
-        kind: ``text``, ``flag``, ``number``, ``vector`` or ``none`` for a key without effect.
-        default: value when the key is absent.
-        unit: SI unit, empty for none.
-        meaning: what it does; for kind ``none`` why it does nothing.
-        aliases: other spellings of the same key, such as the ROS 2 name.
-        only: the one version of ROS whose plug-in reads the key, 0 for both.
-        ros2_default: what the plug-in of ROS 2 takes for an absent key, where that differs.
-    """
-
-    key: str
-    kind: str
-    default: object
-    meaning: str
-    unit: str = ""
-    aliases: tuple[str, ...] = ()
-    only: int = 0
-    ros2_default: object | None = None
-
-    def spellings(self, ros_version: int) -> tuple[str, ...]:
-        """Return the names that count under a version of ROS, 0 for any.
-
-        ROS 1's plug-ins write camelCase and ROS 2's snake_case; a key that is spelled in one way
-        only is spelled so in both.
-        """
-        names = (self.key, *self.aliases)
-        if not ros_version:
-            return names
-        if self.only and self.only != ros_version:
-            return ()
-        own = tuple(name for name in names if _is_written_in(name, ros_version))
-        return own or names
-
-    def default_in(self, ros_version: int) -> object:
-        """Return the value of an absent key under a version of ROS."""
-        if ros_version == _ROS2 and self.ros2_default is not None:
-            return self.ros2_default
-        return self.default
-
-
-@dataclass(frozen=True, slots=True)
-class Topic:
-    """A topic a plug-in publishes or listens to.
-
-    Attributes:
-        topic: name as a pattern; words in braces are keys of the plug-in.
-        ros2: the name in ROS 2, where that is another; ``-`` for none.
-        type: ROS type, ROS 2 spelling.
-        rate: how often, in words.
-        frame: ``header.frame_id``, in words; empty for none.
-        publishes: False for a subscription.
-    """
-
-    topic: str
-    type: str
-    rate: str
-    frame: str = ""
-    publishes: bool = True
-    ros2: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Service:
-    """A service a plug-in offers."""
-
-    name: str
-    type: str
+_ROS1 = (1,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,35 +22,20 @@ class PluginTable:
     """Everything the documentation says about one family of plug-ins.
 
     Attributes:
-        family: short name.
-        summary: what it does, one or two sentences.
-        filenames: libraries and system names that mean this family, without ``lib`` and ``.so``.
+        parameters: family, summary and a row for each key of ``<plugin>``; types are libraries and
+            system names that mean this family, without ``lib`` and ``.so``.
+        topics: what it publishes and listens to; ROS types in ROS 2's spelling.
+        services: what it offers.
         behaviour: facts of behaviour, one sentence each, with their source.
         in_both_ros: ROS 1 and ROS 2 have a plug-in of this name, with other keys, names and
             defaults; what started the simulator decides between them.
     """
 
-    family: str
-    summary: str
-    filenames: tuple[str, ...]
-    parameters: tuple[Parameter, ...] = ()
+    parameters: ParameterTable
     topics: tuple[Topic, ...] = ()
-    services: tuple[Service, ...] = ()
+    services: tuple[Topic, ...] = ()
     behaviour: tuple[str, ...] = ()
     in_both_ros: bool = False
-    _by_key: dict[str, Parameter] = field(default_factory=dict, repr=False, compare=False)
-
-    def parameter(self, key: str) -> Parameter:
-        """Return the row of a key or of one of its other spellings.
-
-        Raises:
-            KeyError: the table has no such key.
-        """
-        if not self._by_key:
-            for row in self.parameters:
-                for name in (row.key, *row.aliases):
-                    self._by_key[name] = row
-        return self._by_key[key]
 
 
 def tables_as_markdown(tables: Sequence[PluginTable]) -> str:
@@ -146,41 +60,19 @@ def tables_as_markdown(tables: Sequence[PluginTable]) -> str:
 
 
 def _section(table: PluginTable) -> list[str]:
-    lines = [f"## {table.family}", "", table.summary, ""]
-    lines.append("Names: " + ", ".join(f"`{name}`" for name in table.filenames))
-    if table.behaviour:
-        lines += ["", *(f"- {fact}" for fact in table.behaviour)]
+    parameters = table.parameters
+    lines = [f"## {parameters.family}", "", parameters.summary, ""]
+    lines += [f"Names: {in_code(parameters.types)}", *facts(table.behaviour)]
     if table.topics:
-        lines += ["", "| topic | type | rate | frame |", "| --- | --- | --- | --- |"]
-        lines += [_topic_line(row) for row in table.topics]
+        lines += ["", *headed("topic", "type", "rate", "frame"), *map(_topic_line, table.topics)]
     if table.services:
-        lines += ["", "| service | type |", "| --- | --- |"]
+        lines += ["", *headed("service", "type")]
         lines += [f"| `{row.name}` | `{row.type}` |" for row in table.services]
-    if table.parameters:
-        lines += ["", "| key | other names | default | unit | meaning |"]
-        lines += ["| --- | --- | --- | --- | --- |"]
-        lines += [_parameter_line(row) for row in table.parameters]
-    return lines
+    return lines + parameter_lines(parameters.rows, "key")
 
 
 def _topic_line(row: Topic) -> str:
-    way = "" if row.publishes else " (listens)"
-    if row.ros2:
-        way += ", in ROS 2 " + ("none" if row.ros2 == "-" else f"`{row.ros2}`")
-    return f"| `{row.topic}`{way} | `{row.type}` | {row.rate} | {row.frame} |"
-
-
-def _parameter_line(row: Parameter) -> str:
-    aliases = ", ".join(f"`{name}`" for name in row.aliases)
-    default = "" if row.kind == "none" else f"`{row.default}`"
-    if row.ros2_default is not None:
-        default += f", in ROS 2 `{row.ros2_default}`"
-    mark = f" (ROS {row.only})"
-    meaning = row.meaning if not row.only or mark in row.meaning else row.meaning + mark
-    return f"| `{row.key}` | {aliases} | {default} | {row.unit} | {meaning} |"
-
-
-def _is_written_in(name: str, ros_version: int) -> bool:
-    if ros_version == _ROS2:
-        return name == name.lower()
-    return "_" not in name
+    way = "" if row.kind == "publishes" else " (listens)"
+    if row.ros2 or row.generations == _ROS1:
+        way += ", in ROS 2 " + (f"`{row.ros2}`" if row.ros2 else "none")
+    return f"| `{row.name}`{way} | `{row.type}` | {row.rate} | {row.frame} |"

@@ -17,7 +17,7 @@ from gazelle.simulator.plugins.body_odometry import (
     planar_covariance,
 )
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.tricycle_table import TABLE
 from gazelle.simulator.scheduler import period_in_steps
 
@@ -42,9 +42,7 @@ def load(context: PluginContext) -> None:
 class _Tricycle:
     """One running drive."""
 
-    def __init__(
-        self, context: PluginContext, parameters: ParameterReader, names: list[str]
-    ) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader, names: list[str]) -> None:
         self._context = context
         self._engine = context.host.engine
         self._joints = [self._engine.joint(name) for name in names]
@@ -57,7 +55,7 @@ class _Tricycle:
         self._offer(parameters)
         self._start(parameters)
 
-    def _read(self, parameters: ParameterReader) -> None:
+    def _read(self, parameters: PluginReader) -> None:
         number = parameters.number
         self._is_ros2 = parameters.is_ros2("publish_odom")
         self._radius_m = number("actuatedWheelDiameter") / 2
@@ -72,7 +70,7 @@ class _Tricycle:
         self._angle_tolerance = number("steeringAngleTolerance")
         self._by_encoder = parameters.text("odometrySource").lower() in _ENCODER
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
         self._prefix = "" if self._is_ros2 else frame_prefix(context, parameters)
         topic = context.topic(parameters, parameters.text("odometryTopic"))
@@ -97,7 +95,7 @@ class _Tricycle:
             topic = join_names(context.namespace(parameters), name)
             self._states = resources.publisher(topic, "sensor_msgs/JointState")
 
-    def _start(self, parameters: ParameterReader) -> None:
+    def _start(self, parameters: PluginReader) -> None:
         resources, step_ns = self._context.resources, self._engine.step_ns
         period = period_in_steps(parameters.number("updateRate"), step_ns)
         self._steps = max(1, round(float(period)))

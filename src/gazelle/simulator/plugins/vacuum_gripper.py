@@ -6,10 +6,11 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]
@@ -18,9 +19,33 @@ __all__ = ["TABLE", "load"]
 _LOOK_HZ = 100.0
 
 TABLE = PluginTable(
-    family="vacuum_gripper",
-    summary="Holds links of other models that come near the gripper's link, while it is on.",
-    filenames=("gazebo_ros_vacuum_gripper",),
+    ParameterTable(
+        "vacuum_gripper",
+        "Holds links of other models that come near the gripper's link, while it is on.",
+        ("gazebo_ros_vacuum_gripper",),
+        (
+            Parameter(
+                "robotNamespace", "text", "", "namespace of topic and services", generations=(1,)
+            ),
+            Parameter("bodyName", "text", "", "the link that holds", "", aliases=("link_name",)),
+            Parameter(
+                "topicName", "text", "grasping", "whether something is held", generations=(1,)
+            ),
+            Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m", generations=(2,)),
+            Parameter(
+                "fixed",
+                "text",
+                "",
+                "a model or link that is never held, repeatable (ROS 2)",
+                generations=(2,),
+            ),
+        ),
+    ),
+    topics=(Topic("{topicName}", "std_msgs/msg/Bool", rate="every step", ros2="grasping"),),
+    services=(
+        Topic("on, off (ROS 1)", "std_srvs/srv/Empty", kind="service"),
+        Topic("switch (ROS 2)", "std_srvs/srv/SetBool", kind="service"),
+    ),
     behaviour=(
         "A link is near when its origin is within `max_distance` of the gripper's origin. It is"
         " held by a weld at the pose it has then, until the gripper is switched off; Gazebo pulls"
@@ -29,20 +54,6 @@ TABLE = PluginTable(
         "`grasping` is sent at every step to those who listen.",
     ),
     in_both_ros=True,
-    topics=(Topic("{topicName}", "std_msgs/msg/Bool", "every step", ros2="grasping"),),
-    services=(
-        Service("on, off (ROS 1)", "std_srvs/srv/Empty"),
-        Service("switch (ROS 2)", "std_srvs/srv/SetBool"),
-    ),
-    parameters=(
-        Parameter("robotNamespace", "text", "", "namespace of topic and services", only=1),
-        Parameter("bodyName", "text", "", "the link that holds", "", ("link_name",)),
-        Parameter("topicName", "text", "grasping", "whether something is held", only=1),
-        Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m", only=2),
-        Parameter(
-            "fixed", "text", "", "a model or link that is never held, repeatable (ROS 2)", only=2
-        ),
-    ),
 )
 
 
@@ -58,7 +69,7 @@ def load(context: PluginContext) -> None:
 class _Gripper:
     """One running gripper."""
 
-    def __init__(self, context: PluginContext, parameters: ParameterReader, link: str) -> None:
+    def __init__(self, context: PluginContext, parameters: PluginReader, link: str) -> None:
         self._context = context
         self._engine = context.host.engine
         self._link = self._engine.link(link)
@@ -68,7 +79,7 @@ class _Gripper:
         self._held: list[str] = []
         self._offer(parameters)
 
-    def _offer(self, parameters: ParameterReader) -> None:
+    def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
         name = context.plugin.name
         ros2 = parameters.is_ros2("max_distance")

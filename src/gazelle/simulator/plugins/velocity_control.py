@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from gazelle.geometry import Pose
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]
 
@@ -16,30 +17,32 @@ Vector3 = tuple[float, float, float]
 Setter = Callable[[Vector3, Vector3], None]
 
 TABLE = PluginTable(
-    family="gz-sim velocity control",
-    summary="Sets the velocity of a model, or of single links, at every step.",
-    filenames=(
-        "gz-sim-velocity-control-system",
-        "ignition-gazebo-velocity-control-system",
-        "gz::sim::systems::VelocityControl",
-        "ignition::gazebo::systems::VelocityControl",
+    ParameterTable(
+        "gz-sim velocity control",
+        "Sets the velocity of a model, or of single links, at every step.",
+        (
+            "gz-sim-velocity-control-system",
+            "ignition-gazebo-velocity-control-system",
+            "gz::sim::systems::VelocityControl",
+            "ignition::gazebo::systems::VelocityControl",
+        ),
+        (
+            Parameter("topic", "text", "/model/{model}/cmd_vel", "commands of the model"),
+            Parameter("initial_linear", "vector", (0.0, 0.0, 0.0), "speed at the start", "m/s"),
+            Parameter(
+                "initial_angular", "vector", (0.0, 0.0, 0.0), "turn rate at the start", "rad/s"
+            ),
+            Parameter("link_name", "text", "", "a link that is commanded by itself, repeatable"),
+        ),
+    ),
+    topics=(
+        Topic("{topic}", "geometry_msgs/msg/Twist", kind="listens"),
+        Topic("/model/M/link/{link_name}/cmd_vel", "geometry_msgs/msg/Twist", kind="listens"),
     ),
     behaviour=(
         "Velocities are in the frame of the model or link and are set at every step, so gravity"
         " and friction act within a step only.",
         "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to.",
-    ),
-    topics=(
-        Topic("{topic}", "geometry_msgs/msg/Twist", "", "", publishes=False),
-        Topic(
-            "/model/M/link/{link_name}/cmd_vel", "geometry_msgs/msg/Twist", "", "", publishes=False
-        ),
-    ),
-    parameters=(
-        Parameter("topic", "text", "/model/{model}/cmd_vel", "commands of the model"),
-        Parameter("initial_linear", "vector", (0.0, 0.0, 0.0), "speed at the start", "m/s"),
-        Parameter("initial_angular", "vector", (0.0, 0.0, 0.0), "turn rate at the start", "rad/s"),
-        Parameter("link_name", "text", "", "a link that is commanded by itself, repeatable"),
     ),
 )
 

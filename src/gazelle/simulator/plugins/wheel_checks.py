@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_geometry import DriveGeometry, drive_geometry
 
 __all__ = ["check_drive", "exchange_wheels"]
@@ -13,7 +13,7 @@ _TOLERANCE = 0.02
 
 
 def exchange_wheels(
-    context: PluginContext, parameters: ParameterReader, wheels: tuple[str, str]
+    context: PluginContext, parameters: PluginReader, wheels: tuple[str, str]
 ) -> bool:
     """Tell whether the wheels change places: ``legacyMode``, or the geometry where it is absent."""
     if parameters.has("legacyMode"):

@@ -15,7 +15,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import ParameterReader
+from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.plugins.wheel_slip_table import GAZEBO_TABLE, GZ_TABLE, TABLE
@@ -52,7 +52,7 @@ def load_gz(context: PluginContext) -> None:
     _load_plain(context, context.reader(GZ_TABLE))
 
 
-def _load_plain(context: PluginContext, parameters: ParameterReader) -> None:
+def _load_plain(context: PluginContext, parameters: PluginReader) -> None:
     _Slip(context, _wheels(context, parameters))
     parameters.report_unread()
 
@@ -112,7 +112,7 @@ class _Slip:
         return forward, float(velocity @ axis), joint.velocity * wheel.radius_m
 
 
-def _wheels(context: PluginContext, parameters: ParameterReader) -> list[_Wheel]:
+def _wheels(context: PluginContext, parameters: PluginReader) -> list[_Wheel]:
     parameters.texts("wheel")
     tags = [tag for tag in context.plugin.parameters.children if tag.name == "wheel"]
     if not tags:
@@ -161,7 +161,7 @@ def _number(context: PluginContext, tag: Tag, name: str) -> float:
     ]
 
 
-def _offer_ros1(context: PluginContext, parameters: ParameterReader, slip: _Slip) -> None:
+def _offer_ros1(context: PluginContext, parameters: PluginReader, slip: _Slip) -> None:
     """Offer dynamic_reconfigure below ``/<model>/wheel_slip``; negative values change nothing."""
     own = parameters.text("robotNamespace").strip("/") or "wheel_slip"
     rows = [
@@ -189,7 +189,7 @@ def _offer_ros1(context: PluginContext, parameters: ParameterReader, slip: _Slip
     changed(offered.values)
 
 
-def _offer_ros2(context: PluginContext, parameters: ParameterReader, slip: _Slip) -> None:
+def _offer_ros2(context: PluginContext, parameters: PluginReader, slip: _Slip) -> None:
     """Offer the parameters of the plug-in's node and publish ``wheel_slip``."""
     node_name = join_names(context.namespace(parameters), context.plugin.name)
     values = {
@@ -227,7 +227,7 @@ def _offer_ros2(context: PluginContext, parameters: ParameterReader, slip: _Slip
     _publish_slips(context, parameters, slip)
 
 
-def _publish_slips(context: PluginContext, parameters: ParameterReader, slip: _Slip) -> None:
+def _publish_slips(context: PluginContext, parameters: PluginReader, slip: _Slip) -> None:
     topic = context.topic(parameters, "wheel_slip")
     publisher = context.resources.publisher(topic, "gazebo_msgs/WheelSlip")
     tolerance = parameters.number("wheel_spin_tolerance")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["GAZEBO_TABLE", "GZ_TABLE", "TABLE"]
 
@@ -22,9 +23,41 @@ _WHEEL = Parameter(
 )
 
 TABLE = PluginTable(
-    family="wheel_slip",
-    summary="Lets wheels slip in proportion to force, with parameters that can be changed live.",
-    filenames=("gazebo_ros_wheel_slip",),
+    ParameterTable(
+        "wheel_slip",
+        "Lets wheels slip in proportion to force, with parameters that can be changed live.",
+        ("gazebo_ros_wheel_slip",),
+        (
+            _WHEEL,
+            Parameter(
+                "robotNamespace",
+                "text",
+                "wheel_slip",
+                "below the model's name (ROS 1)",
+                generations=(1,),
+            ),
+            Parameter(
+                "wheel_spin_tolerance", "number", 1e-3, "rim speed below which slip is 0", "m/s"
+            ),
+            Parameter("publisher_update_rate", "number", 100.0, "rate of `wheel_slip`", "Hz"),
+        ),
+    ),
+    topics=(
+        Topic("wheel_slip", "gazebo_msgs/msg/WheelSlip", rate="`publisher_update_rate` (ROS 2)"),
+        Topic(
+            "/M/wheel_slip/parameter_updates",
+            "dynamic_reconfigure/msg/Config",
+            rate="changes (ROS 1)",
+        ),
+    ),
+    services=(
+        Topic(
+            "/M/wheel_slip/set_parameters (ROS 1)",
+            "dynamic_reconfigure/srv/Reconfigure",
+            kind="service",
+        ),
+        Topic("set_parameters … (ROS 2)", "rcl_interfaces/srv/SetParameters …", kind="service"),
+    ),
     behaviour=(
         *_LAW,
         "ROS 1 takes `slip_compliance_unitless_lateral` and `_longitudinal` by"
@@ -33,41 +66,29 @@ TABLE = PluginTable(
         " parameters `friction_coefficient_…` are not offered: friction is that of the surface.",
     ),
     in_both_ros=True,
-    topics=(
-        Topic("wheel_slip", "gazebo_msgs/msg/WheelSlip", "`publisher_update_rate` (ROS 2)"),
-        Topic(
-            "/M/wheel_slip/parameter_updates", "dynamic_reconfigure/msg/Config", "changes (ROS 1)"
-        ),
-    ),
-    services=(
-        Service("/M/wheel_slip/set_parameters (ROS 1)", "dynamic_reconfigure/srv/Reconfigure"),
-        Service("set_parameters … (ROS 2)", "rcl_interfaces/srv/SetParameters …"),
-    ),
-    parameters=(
-        _WHEEL,
-        Parameter("robotNamespace", "text", "wheel_slip", "below the model's name (ROS 1)", only=1),
-        Parameter("wheel_spin_tolerance", "number", 1e-3, "rim speed below which slip is 0", "m/s"),
-        Parameter("publisher_update_rate", "number", 100.0, "rate of `wheel_slip`", "Hz"),
-    ),
 )
 
 GAZEBO_TABLE = PluginTable(
-    family="WheelSlipPlugin",
-    summary="Gazebo Classic's wheel slip without ROS.",
-    filenames=("WheelSlipPlugin",),
+    ParameterTable(
+        "WheelSlipPlugin",
+        "Gazebo Classic's wheel slip without ROS.",
+        ("WheelSlipPlugin",),
+        (_WHEEL,),
+    ),
     behaviour=_LAW,
-    parameters=(_WHEEL,),
 )
 
 GZ_TABLE = PluginTable(
-    family="gz-sim wheel slip",
-    summary="The gz-sim system of the same purpose.",
-    filenames=(
-        "gz-sim-wheel-slip-system",
-        "ignition-gazebo-wheel-slip-system",
-        "gz::sim::systems::WheelSlip",
-        "ignition::gazebo::systems::WheelSlip",
+    ParameterTable(
+        "gz-sim wheel slip",
+        "The gz-sim system of the same purpose.",
+        (
+            "gz-sim-wheel-slip-system",
+            "ignition-gazebo-wheel-slip-system",
+            "gz::sim::systems::WheelSlip",
+            "ignition::gazebo::systems::WheelSlip",
+        ),
+        (_WHEEL,),
     ),
     behaviour=_LAW,
-    parameters=(_WHEEL,),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, cast
 
+from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
 from gazelle.simulator.gazebo_ros.joint_services import JointServices
 from gazelle.simulator.gazebo_ros.light_services import LightServices
@@ -12,8 +13,8 @@ from gazelle.simulator.gazebo_ros.link_services import LinkServices
 from gazelle.simulator.gazebo_ros.model_services import ModelServices
 from gazelle.simulator.gazebo_ros.states import offer_entity_states
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import ParameterReader
-from gazelle.simulator.plugins.table import Parameter, PluginTable, Service, Topic
+from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer
@@ -23,41 +24,43 @@ __all__ = ["PROPERTIES_TABLE", "STATE_TABLE", "load_properties", "load_state"]
 _NAMES = "`<ros>`'s namespace and remappings give the names."
 
 STATE_TABLE = PluginTable(
-    family="gazebo_ros_state",
-    summary="States of all models, links and lights of the world, asked for, set and published.",
-    filenames=("gazebo_ros_state",),
+    ParameterTable(
+        "gazebo_ros_state",
+        "States of all models, links and lights of the world, asked for, set and published.",
+        ("gazebo_ros_state",),
+        (Parameter("update_rate", "number", 100.0, "of both topics, 0 for every step", "Hz"),),
+    ),
+    topics=(
+        Topic("model_states", "gazebo_msgs/msg/ModelStates", rate="`update_rate`"),
+        Topic("link_states", "gazebo_msgs/msg/LinkStates", rate="`update_rate`"),
+    ),
+    services=(
+        Topic("get_entity_state", "gazebo_msgs/srv/GetEntityState", kind="service"),
+        Topic("set_entity_state", "gazebo_msgs/srv/SetEntityState", kind="service"),
+    ),
     behaviour=(
         _NAMES,
         "An entity is a model, `model::link` or a light; `reference_frame` is one of them, or"
         " empty or `world`. What is not there is logged, for the responses have no words.",
     ),
-    topics=(
-        Topic("model_states", "gazebo_msgs/msg/ModelStates", "`update_rate`"),
-        Topic("link_states", "gazebo_msgs/msg/LinkStates", "`update_rate`"),
-    ),
-    services=(
-        Service("get_entity_state", "gazebo_msgs/srv/GetEntityState"),
-        Service("set_entity_state", "gazebo_msgs/srv/SetEntityState"),
-    ),
-    parameters=(
-        Parameter("update_rate", "number", 100.0, "of both topics, 0 for every step", "Hz"),
-    ),
 )
 
 PROPERTIES_TABLE = PluginTable(
-    family="gazebo_ros_properties",
-    summary="What models, joints, links and lights of the world are, asked for and set.",
-    filenames=("gazebo_ros_properties",),
-    behaviour=(_NAMES, "The links of a model are told as `model::link`, as in ROS 2."),
-    services=(
-        Service("get_model_properties", "gazebo_msgs/srv/GetModelProperties"),
-        Service("get_joint_properties", "gazebo_msgs/srv/GetJointProperties"),
-        Service("set_joint_properties", "gazebo_msgs/srv/SetJointProperties"),
-        Service("get_link_properties", "gazebo_msgs/srv/GetLinkProperties"),
-        Service("set_link_properties", "gazebo_msgs/srv/SetLinkProperties"),
-        Service("get_light_properties", "gazebo_msgs/srv/GetLightProperties"),
-        Service("set_light_properties", "gazebo_msgs/srv/SetLightProperties"),
+    ParameterTable(
+        "gazebo_ros_properties",
+        "What models, joints, links and lights of the world are, asked for and set.",
+        ("gazebo_ros_properties",),
     ),
+    services=(
+        Topic("get_model_properties", "gazebo_msgs/srv/GetModelProperties", kind="service"),
+        Topic("get_joint_properties", "gazebo_msgs/srv/GetJointProperties", kind="service"),
+        Topic("set_joint_properties", "gazebo_msgs/srv/SetJointProperties", kind="service"),
+        Topic("get_link_properties", "gazebo_msgs/srv/GetLinkProperties", kind="service"),
+        Topic("set_link_properties", "gazebo_msgs/srv/SetLinkProperties", kind="service"),
+        Topic("get_light_properties", "gazebo_msgs/srv/GetLightProperties", kind="service"),
+        Topic("set_light_properties", "gazebo_msgs/srv/SetLightProperties", kind="service"),
+    ),
+    behaviour=(_NAMES, "The links of a model are told as `model::link`, as in ROS 2."),
 )
 
 
@@ -85,7 +88,7 @@ def load_properties(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-def _offer(context: PluginContext, parameters: ParameterReader, rows: Iterable[Row]) -> None:
+def _offer(context: PluginContext, parameters: PluginReader, rows: Iterable[Row]) -> None:
     with context.host.node.announced_together():
         for row in rows:
             context.resources.service(context.topic(parameters, row.name), row.type, row.handler)

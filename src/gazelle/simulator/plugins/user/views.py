@@ -10,19 +10,22 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
+from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.handles import ModelOfSimulation
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import Host, PluginContext, Resources
-from gazelle.simulator.plugins.table import Parameter, PluginTable
+from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.ports import PublisherPort
 
 __all__ = ["PluginNode", "PluginParameters", "WorldOfPlugin"]
 
 _TABLE = PluginTable(
-    family="user",
-    summary="",
-    filenames=(),
-    parameters=(Parameter("robotNamespace", "text", "", "namespace of the topics"),),
+    ParameterTable(
+        "user",
+        "",
+        (),
+        (Parameter("robotNamespace", "text", "", "namespace of the topics"),),
+    ),
 )
 Guard = Callable[[Callable[[], Any]], Any]
 
