@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from gazelle.interfaces import action_type, message_type, service_type
 from gazelle.node_specs.all_specs import builtin_executables, node_spec, node_specs
+from gazelle.node_specs.spec import resolved
 
 
 @pytest.mark.parametrize("node", node_specs(), ids=lambda node: f"{node.package}/{node.executable}")
@@ -38,3 +40,18 @@ def test_unknown_names_are_no_nodes() -> None:
 def test_no_name_stands_for_two_nodes() -> None:
     names = [name[:2] for node in node_specs() for name in node.names]
     assert sorted(names) == sorted(set(names))
+
+
+def test_every_table_of_parameters_that_is_named_is_there() -> None:
+    for node in node_specs():
+        assert node.parameters is None or resolved(node.parameters) is not None
+
+
+def test_types_that_rows_name_are_known() -> None:
+    for node in node_specs():
+        for kind, rows in (
+            (message_type, node.topics),
+            (service_type, node.services),
+            (action_type, node.actions),
+        ):
+            assert all(kind(row.type) for row in rows)

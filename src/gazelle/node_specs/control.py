@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec
+from gazelle.node_specs.shared import TF_LISTENED
+from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec, listens, offers
 
 __all__ = ["CONTROL"]
 
@@ -25,6 +26,31 @@ CONTROL = (
         does="runs controllers on mock hardware, without a simulation",
         is_light=False,
         name="controller_manager",
+        services=(
+            offers("~cleanup_controller", "controller_manager_msgs/srv/CleanupController"),
+            offers("~configure_controller", "controller_manager_msgs/srv/ConfigureController"),
+            offers("~list_controller_types", "controller_manager_msgs/srv/ListControllerTypes"),
+            offers("~list_controllers", "controller_manager_msgs/srv/ListControllers"),
+            offers(
+                "~list_hardware_components", "controller_manager_msgs/srv/ListHardwareComponents"
+            ),
+            offers(
+                "~list_hardware_interfaces", "controller_manager_msgs/srv/ListHardwareInterfaces"
+            ),
+            offers("~load_controller", "controller_manager_msgs/srv/LoadController"),
+            offers(
+                "~reload_controller_libraries",
+                "controller_manager_msgs/srv/ReloadControllerLibraries",
+            ),
+            offers(
+                "~set_hardware_component_state",
+                "controller_manager_msgs/srv/SetHardwareComponentState",
+            ),
+            offers("~switch_controller", "controller_manager_msgs/srv/SwitchController"),
+            offers("~unload_controller", "controller_manager_msgs/srv/UnloadController"),
+        ),
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="controller_manager",
@@ -99,5 +125,9 @@ CONTROL = (
         does="turns wrenches into other frames",
         is_light=True,
         name="fts_wrench_transformer",
+        topics=(
+            listens("~wrench", "geometry_msgs/msg/WrenchStamped"),
+            *TF_LISTENED,
+        ),
     ),
 )

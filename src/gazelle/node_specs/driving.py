@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeSpec
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    FrameRow,
+    NodeName,
+    NodeSpec,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["DRIVING"]
 
@@ -14,6 +23,18 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.fake:run",
         does="a TurtleBot3 that drives without physics",
         is_light=True,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("joint_states", "sensor_msgs/msg/JointState"),
+            publishes("odom", "nav_msgs/msg/Odometry"),
+            listens("cmd_vel", "geometry_msgs/msg/Twist"),
+        ),
+        is_complete=True,
+        frames=(FrameRow("{odom_frame|odom}", "{base_frame|base_footprint}"),),
+        joints=(
+            "{wheel_left_joint_name|wheel_left_joint}",
+            "{wheel_right_joint_name|wheel_right_joint}",
+        ),
     ),
     NodeSpec(
         package="turtlebot3_fake_node",
@@ -22,6 +43,18 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.fake:run_ros2",
         does="a TurtleBot3 that drives without physics, ROS 2's package",
         is_light=True,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("joint_states", "sensor_msgs/msg/JointState"),
+            publishes("odom", "nav_msgs/msg/Odometry"),
+            listens("cmd_vel", "geometry_msgs/msg/Twist"),
+        ),
+        is_complete=True,
+        frames=(FrameRow("{~odom_frame|odom}", "{~base_frame|base_footprint}"),),
+        joints=(
+            "{~wheel_left_joint_name|wheel_left_joint}",
+            "{~wheel_right_joint_name|wheel_right_joint}",
+        ),
     ),
     NodeSpec(
         package="turtlebot3_gazebo",
@@ -29,6 +62,12 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.drive:run",
         does="wanders about without bumping into things",
         is_light=True,
+        topics=(
+            publishes("{cmd_vel_topic_name|cmd_vel}", "geometry_msgs/msg/Twist"),
+            listens("odom", "nav_msgs/msg/Odometry"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+        ),
+        is_complete=True,
     ),
     NodeSpec(
         package="turtlebot3_slam",
@@ -37,6 +76,11 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.flat_world_imu:run",
         does="makes an IMU's accelerations those of flat ground",
         is_light=True,
+        topics=(
+            publishes("imu_out", "sensor_msgs/msg/Imu"),
+            listens("imu_in", "sensor_msgs/msg/Imu"),
+        ),
+        is_complete=True,
     ),
     NodeSpec(
         package="turtlebot3_teleop",
@@ -46,6 +90,8 @@ DRIVING = (
         does="drives a TurtleBot3 from the keyboard",
         is_light=False,
         name="turtlebot3_teleop",
+        topics=(publishes("cmd_vel", "geometry_msgs/msg/Twist"),),
+        is_complete=True,
     ),
     NodeSpec(
         package="turtlebot3_teleop",
@@ -54,6 +100,8 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.teleop:run_ros2",
         does="drives a TurtleBot3 from the keyboard, ROS 2's name",
         is_light=False,
+        topics=(publishes("cmd_vel", "geometry_msgs/msg/Twist"),),
+        is_complete=True,
     ),
     NodeSpec(
         package="teleop_twist_keyboard",
@@ -63,6 +111,11 @@ DRIVING = (
         does="drives any robot from the keyboard",
         is_light=False,
         name="teleop_twist_keyboard",
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist", when="!~stamped|false"),
+            publishes("cmd_vel", "geometry_msgs/msg/TwistStamped", when="~stamped|false"),
+        ),
+        is_complete=True,
     ),
     NodeSpec(
         package="teleop_twist_keyboard",
@@ -71,6 +124,11 @@ DRIVING = (
         entry="gazelle.nodes.teleop.twist_keyboard:run_ros2",
         does="drives any robot from the keyboard, ROS 2's name",
         is_light=False,
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist", when="!~stamped|false"),
+            publishes("cmd_vel", "geometry_msgs/msg/TwistStamped", when="~stamped|false"),
+        ),
+        is_complete=True,
     ),
     NodeSpec(
         package="twist_mux",
@@ -78,6 +136,10 @@ DRIVING = (
         entry="gazelle.nodes.twist_mux.mux:run",
         does="passes on one of several velocity commands, by priorities, time-outs and locks",
         is_light=True,
+        topics=(
+            publishes("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),
+            publishes("cmd_vel_out", "geometry_msgs/msg/Twist"),
+        ),
     ),
     NodeSpec(
         package="twist_mux",
@@ -85,6 +147,10 @@ DRIVING = (
         entry="gazelle.nodes.twist_mux.marker:run",
         does="shows a velocity command as an arrow",
         is_light=True,
+        topics=(
+            publishes("marker", "visualization_msgs/msg/Marker"),
+            listens("twist", "geometry_msgs/msg/Twist"),
+        ),
     ),
     NodeSpec(
         package="twist_mux",
@@ -94,6 +160,20 @@ DRIVING = (
         is_light=True,
         aliases=(NodeName("twist_mux", "joystick_relay", ROS_2),),
         name="joystick_relay",
+        topics=(
+            publishes("joy_priority", "std_msgs/msg/Bool"),
+            publishes("joy_vel_out", "geometry_msgs/msg/Twist"),
+            publishes("text_marker", "visualization_msgs/msg/Marker"),
+            listens("joy_vel_in", "geometry_msgs/msg/Twist"),
+        ),
+        actions=(
+            offers("joy_priority_action", "twist_mux_msgs/action/JoyPriority"),
+            offers("joy_turbo_angular_decrease", "twist_mux_msgs/action/JoyTurbo"),
+            offers("joy_turbo_angular_increase", "twist_mux_msgs/action/JoyTurbo"),
+            offers("joy_turbo_decrease", "twist_mux_msgs/action/JoyTurbo"),
+            offers("joy_turbo_increase", "twist_mux_msgs/action/JoyTurbo"),
+            offers("joy_turbo_reset", "twist_mux_msgs/action/JoyTurbo"),
+        ),
     ),
     NodeSpec(
         package="joy",
@@ -102,6 +182,7 @@ DRIVING = (
         does="publishes what a joystick does",
         is_light=True,
         aliases=(NodeName("joy_linux", "joy_linux_node", ROS_2),),
+        topics=(publishes("joy", "sensor_msgs/msg/Joy"),),
     ),
     NodeSpec(
         package="joy",
@@ -118,5 +199,9 @@ DRIVING = (
         does="drives any robot by a joystick",
         is_light=True,
         name="teleop_twist_joy_node",
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist"),
+            listens("joy", "sensor_msgs/msg/Joy"),
+        ),
     ),
 )

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeSpec
+from gazelle.node_specs.shared import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    FrameRow,
+    NodeSpec,
+    calls,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["LOCALISATION"]
 
@@ -14,6 +24,14 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.server:run",
         does="publishes a map from a file",
         is_light=False,
+        topics=(
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+        ),
+        services=(
+            offers("change_map", "nav_msgs/srv/LoadMap"),
+            offers("static_map", "nav_msgs/srv/GetMap"),
+        ),
     ),
     NodeSpec(
         package="map_server",
@@ -22,6 +40,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.saver:run",
         does="writes the map that is published",
         is_light=False,
+        topics=(listens("map", "nav_msgs/msg/OccupancyGrid", remark="one map; then it ends"),),
     ),
     NodeSpec(
         package="nav2_map_server",
@@ -30,6 +49,15 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.server_ros2:run",
         does="publishes a map from a file, ROS 2's package",
         is_light=False,
+        topics=(
+            publishes("{~topic_name|map}", "nav_msgs/msg/OccupancyGrid"),
+            *LIFECYCLE_TOPICS,
+        ),
+        services=(
+            offers("~load_map", "nav2_msgs/srv/LoadMap"),
+            offers("~map", "nav_msgs/srv/GetMap"),
+            *LIFECYCLE_SERVICES,
+        ),
     ),
     NodeSpec(
         package="nav2_map_server",
@@ -38,6 +66,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.saver:run_cli",
         does="writes the map that is published, ROS 2's package",
         is_light=False,
+        topics=(listens("map", "nav_msgs/msg/OccupancyGrid", remark="one map; then it ends"),),
     ),
     NodeSpec(
         package="nav2_map_server",
@@ -47,6 +76,11 @@ LOCALISATION = (
         does="writes maps on request",
         is_light=False,
         name="map_saver",
+        topics=(*LIFECYCLE_TOPICS,),
+        services=(
+            offers("~save_map", "nav2_msgs/srv/SaveMap"),
+            *LIFECYCLE_SERVICES,
+        ),
     ),
     NodeSpec(
         package="amcl",
@@ -55,6 +89,32 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run",
         does="finds the robot in a map",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            publishes("particlecloud", "geometry_msgs/msg/PoseArray"),
+            listens(
+                "/gazebo/model_states",
+                "gazebo_msgs/msg/ModelStates",
+                remark="the truth, to say once where the robot is when nobody gave a pose",
+            ),
+            listens("initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            listens("map", "nav_msgs/msg/OccupancyGrid", when="~use_map_topic|false"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("global_localization", "std_srvs/srv/Empty"),
+            offers("request_nomotion_update", "std_srvs/srv/Empty"),
+            offers("set_map", "nav_msgs/srv/SetMap"),
+            calls(
+                "static_map",
+                "nav_msgs/srv/GetMap",
+                when="!~use_map_topic|false",
+                remark="once, for the map",
+            ),
+        ),
+        frames=(FrameRow("{~global_frame_id|map}", "{~odom_frame_id|odom}", "~tf_broadcast|true"),),
     ),
     NodeSpec(
         package="fake_localization",
@@ -63,6 +123,15 @@ LOCALISATION = (
         entry="gazelle.nodes.fake_localization:run",
         does="gives the simulator's true pose in the place of amcl's",
         is_light=True,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            publishes("particlecloud", "geometry_msgs/msg/PoseArray"),
+            listens("base_pose_ground_truth", "nav_msgs/msg/Odometry"),
+            listens("initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            *TF_LISTENED,
+        ),
+        frames=(FrameRow("{~global_frame_id|map}", "{~odom_frame_id|odom}"),),
     ),
     NodeSpec(
         package="nav2_amcl",
@@ -71,6 +140,23 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run_ros2",
         does="finds the robot in a map, ROS 2's package",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            publishes("particle_cloud", "nav2_msgs/msg/ParticleCloud"),
+            listens("initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            listens("{~map_topic|map}", "nav_msgs/msg/OccupancyGrid"),
+            listens("{~scan_topic|scan}", "sensor_msgs/msg/LaserScan"),
+            *LIFECYCLE_TOPICS,
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("reinitialize_global_localization", "std_srvs/srv/Empty"),
+            offers("request_nomotion_update", "std_srvs/srv/Empty"),
+            offers("set_initial_pose", "nav2_msgs/srv/SetInitialPose"),
+            *LIFECYCLE_SERVICES,
+        ),
+        frames=(FrameRow("{~global_frame_id|map}", "{~odom_frame_id|odom}", "~tf_broadcast|true"),),
     ),
     NodeSpec(
         package="depthimage_to_laserscan",
@@ -79,6 +165,12 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.flattening:run_depth",
         does="makes scans of depth pictures",
         is_light=True,
+        topics=(
+            publishes("scan", "sensor_msgs/msg/LaserScan"),
+            listens("camera_info", "sensor_msgs/msg/CameraInfo"),
+            listens("image", "sensor_msgs/msg/Image"),
+            *TF_LISTENED,
+        ),
     ),
     NodeSpec(
         package="depthimage_to_laserscan",
@@ -88,6 +180,12 @@ LOCALISATION = (
         does="makes scans of depth pictures, ROS 2's name",
         is_light=True,
         name="depthimage_to_laserscan",
+        topics=(
+            publishes("scan", "sensor_msgs/msg/LaserScan"),
+            listens("camera_info", "sensor_msgs/msg/CameraInfo"),
+            listens("image", "sensor_msgs/msg/Image"),
+            *TF_LISTENED,
+        ),
     ),
     NodeSpec(
         package="pointcloud_to_laserscan",
@@ -96,6 +194,11 @@ LOCALISATION = (
         does="makes scans of point clouds",
         is_light=True,
         name="pointcloud_to_laserscan",
+        topics=(
+            publishes("scan", "sensor_msgs/msg/LaserScan"),
+            listens("cloud_in", "sensor_msgs/msg/PointCloud2"),
+            *TF_LISTENED,
+        ),
     ),
     NodeSpec(
         package="laser_filters",
@@ -103,6 +206,11 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.laser_filters:run",
         does="takes out of scans what does not belong there",
         is_light=True,
+        topics=(
+            publishes("scan_filtered", "sensor_msgs/msg/LaserScan"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
     ),
     NodeSpec(
         package="robot_localization",
@@ -111,6 +219,13 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.ekf:run",
         does="fuses odometry, IMU and poses",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("odometry/filtered", "nav_msgs/msg/Odometry"),
+            listens("set_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            *TF_LISTENED,
+        ),
+        frames=None,
     ),
     NodeSpec(
         package="robot_localization",
@@ -120,6 +235,13 @@ LOCALISATION = (
         does="fuses odometry, IMU and poses, ROS 2's name",
         is_light=False,
         name="ekf_filter_node",
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("odometry/filtered", "nav_msgs/msg/Odometry"),
+            listens("set_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            *TF_LISTENED,
+        ),
+        frames=None,
     ),
     NodeSpec(
         package="robot_pose_ekf",
@@ -128,5 +250,16 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.pose_ekf:run",
         does="fuses wheel odometry, IMU and visual odometry",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("~odom_combined", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+            listens("imu_data", "sensor_msgs/msg/Imu", when="~imu_used|true"),
+            listens("odom", "nav_msgs/msg/Odometry", when="~odom_used|true"),
+            listens("vo", "nav_msgs/msg/Odometry", when="~vo_used|true"),
+            *TF_LISTENED,
+        ),
+        frames=(
+            FrameRow("{~output_frame|odom_combined}", "{~base_footprint_frame|base_footprint}"),
+        ),
     ),
 )

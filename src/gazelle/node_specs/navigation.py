@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeSpec
+from gazelle.node_specs.shared import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    NodeName,
+    NodeSpec,
+    calls,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["NAVIGATION"]
 
@@ -14,6 +24,29 @@ NAVIGATION = (
         entry="gazelle.nodes.move_base.node:run",
         does="drives to goals around obstacles",
         is_light=False,
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist"),
+            publishes("~NavfnROS/plan", "nav_msgs/msg/Path"),
+            publishes("~TrajectoryPlannerROS/global_plan", "nav_msgs/msg/Path"),
+            publishes("~TrajectoryPlannerROS/local_plan", "nav_msgs/msg/Path"),
+            publishes("~current_goal", "geometry_msgs/msg/PoseStamped"),
+            publishes("~global_costmap/costmap", "nav_msgs/msg/OccupancyGrid"),
+            publishes("~global_costmap/costmap_updates", "map_msgs/msg/OccupancyGridUpdate"),
+            publishes("~global_costmap/footprint", "geometry_msgs/msg/PolygonStamped"),
+            publishes("~local_costmap/costmap", "nav_msgs/msg/OccupancyGrid"),
+            publishes("~local_costmap/costmap_updates", "map_msgs/msg/OccupancyGridUpdate"),
+            publishes("~local_costmap/footprint", "geometry_msgs/msg/PolygonStamped"),
+            publishes("~recovery_status", "move_base_msgs/msg/RecoveryStatus"),
+            listens("move_base_simple/goal", "geometry_msgs/msg/PoseStamped"),
+            listens("odom", "nav_msgs/msg/Odometry"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("~NavfnROS/make_plan", "nav_msgs/srv/GetPlan"),
+            offers("~clear_costmaps", "std_srvs/srv/Empty"),
+            offers("~make_plan", "nav_msgs/srv/GetPlan"),
+        ),
+        actions=(offers("move_base", "move_base_msgs/action/MoveBase"),),
     ),
     NodeSpec(
         package="moveit_ros_move_group",
@@ -21,6 +54,39 @@ NAVIGATION = (
         entry="gazelle.nodes.move_group:run",
         does="plans and executes motions of arms, as MoveIt does",
         is_light=False,
+        topics=(
+            publishes("display_planned_path", "moveit_msgs/msg/DisplayTrajectory"),
+            publishes("monitored_planning_scene", "moveit_msgs/msg/PlanningScene"),
+            publishes("~display_planned_path", "moveit_msgs/msg/DisplayTrajectory"),
+            publishes("~monitored_planning_scene", "moveit_msgs/msg/PlanningScene"),
+            listens("attached_collision_object", "moveit_msgs/msg/AttachedCollisionObject"),
+            listens("collision_object", "moveit_msgs/msg/CollisionObject"),
+            listens("joint_states", "sensor_msgs/msg/JointState"),
+            listens("planning_scene", "moveit_msgs/msg/PlanningScene"),
+            listens("planning_scene_world", "moveit_msgs/msg/PlanningSceneWorld"),
+            listens("trajectory_execution_event", "std_msgs/msg/String"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("apply_planning_scene", "moveit_msgs/srv/ApplyPlanningScene"),
+            offers("check_state_validity", "moveit_msgs/srv/GetStateValidity"),
+            offers("clear_octomap", "std_srvs/srv/Empty"),
+            offers("compute_cartesian_path", "moveit_msgs/srv/GetCartesianPath"),
+            offers("compute_fk", "moveit_msgs/srv/GetPositionFK"),
+            offers("compute_ik", "moveit_msgs/srv/GetPositionIK"),
+            offers("get_planner_params", "moveit_msgs/srv/GetPlannerParams"),
+            offers("get_planning_scene", "moveit_msgs/srv/GetPlanningScene"),
+            offers("plan_kinematic_path", "moveit_msgs/srv/GetMotionPlan"),
+            offers("plan_sequence_path", "moveit_msgs/srv/GetMotionSequence"),
+            offers("query_planner_interface", "moveit_msgs/srv/QueryPlannerInterfaces"),
+            offers("set_planner_params", "moveit_msgs/srv/SetPlannerParams"),
+        ),
+        actions=(
+            offers("execute_trajectory", "moveit_msgs/action/ExecuteTrajectory"),
+            offers("move_group", "moveit_msgs/action/MoveGroup"),
+            offers("sequence_move_group", "moveit_msgs/action/MoveGroupSequence"),
+        ),
+        joints=None,
     ),
     NodeSpec(
         package="nav2_planner",
@@ -29,6 +95,18 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.planner_server:run",
         does="plans paths (Nav2)",
         is_light=False,
+        topics=(
+            publishes("plan", "nav_msgs/msg/Path"),
+            *LIFECYCLE_TOPICS,
+        ),
+        services=(
+            offers("is_path_valid", "nav2_msgs/srv/IsPathValid"),
+            *LIFECYCLE_SERVICES,
+        ),
+        actions=(
+            offers("compute_path_through_poses", "nav2_msgs/action/ComputePathThroughPoses"),
+            offers("compute_path_to_pose", "nav2_msgs/action/ComputePathToPose"),
+        ),
     ),
     NodeSpec(
         package="nav2_controller",
@@ -37,6 +115,16 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.controller_server:run",
         does="follows paths (Nav2)",
         is_light=False,
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist"),
+            publishes("local_plan", "nav_msgs/msg/Path"),
+            publishes("received_global_plan", "nav_msgs/msg/Path"),
+            listens("{~odom_topic|odom}", "nav_msgs/msg/Odometry"),
+            listens("{~speed_limit_topic|speed_limit}", "nav2_msgs/msg/SpeedLimit"),
+            *LIFECYCLE_TOPICS,
+        ),
+        services=(*LIFECYCLE_SERVICES,),
+        actions=(offers("follow_path", "nav2_msgs/action/FollowPath"),),
     ),
     NodeSpec(
         package="nav2_behaviors",
@@ -46,6 +134,23 @@ NAVIGATION = (
         does="spins, backs up, waits (Nav2)",
         is_light=False,
         aliases=(NodeName("nav2_recoveries", "recoveries_server", ROS_2),),
+        topics=(
+            publishes("cmd_vel", "geometry_msgs/msg/Twist"),
+            listens("{~costmap_topic|local_costmap/costmap_raw}", "nav2_msgs/msg/Costmap"),
+            listens(
+                "{~footprint_topic|local_costmap/published_footprint}",
+                "geometry_msgs/msg/PolygonStamped",
+            ),
+            *LIFECYCLE_TOPICS,
+            *TF_LISTENED,
+        ),
+        services=(*LIFECYCLE_SERVICES,),
+        actions=(
+            offers("backup", "nav2_msgs/action/BackUp"),
+            offers("drive_on_heading", "nav2_msgs/action/DriveOnHeading"),
+            offers("spin", "nav2_msgs/action/Spin"),
+            offers("wait", "nav2_msgs/action/Wait"),
+        ),
     ),
     NodeSpec(
         package="nav2_bt_navigator",
@@ -54,6 +159,18 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.bt_navigator:run",
         does="drives to poses by behaviour trees (Nav2)",
         is_light=False,
+        topics=(
+            publishes("behavior_tree_log", "nav2_msgs/msg/BehaviorTreeLog"),
+            listens("goal_pose", "geometry_msgs/msg/PoseStamped"),
+            listens("{~odom_topic|odom}", "nav_msgs/msg/Odometry"),
+            *LIFECYCLE_TOPICS,
+            *TF_LISTENED,
+        ),
+        services=(*LIFECYCLE_SERVICES,),
+        actions=(
+            offers("navigate_through_poses", "nav2_msgs/action/NavigateThroughPoses"),
+            offers("navigate_to_pose", "nav2_msgs/action/NavigateToPose"),
+        ),
     ),
     NodeSpec(
         package="nav2_waypoint_follower",
@@ -62,6 +179,14 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.waypoint_follower:run",
         does="drives to one pose after another (Nav2)",
         is_light=False,
+        topics=(*LIFECYCLE_TOPICS,),
+        services=(*LIFECYCLE_SERVICES,),
+        actions=(
+            offers("follow_waypoints", "nav2_msgs/action/FollowWaypoints"),
+            calls(
+                "navigate_to_pose", "nav2_msgs/action/NavigateToPose", remark="drives to each pose"
+            ),
+        ),
     ),
     NodeSpec(
         package="nav2_smoother",
@@ -70,6 +195,12 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.smoother_server:run",
         does="smooths paths (Nav2)",
         is_light=False,
+        topics=(
+            listens("{~costmap_topic|global_costmap/costmap_raw}", "nav2_msgs/msg/Costmap"),
+            *LIFECYCLE_TOPICS,
+        ),
+        services=(*LIFECYCLE_SERVICES,),
+        actions=(offers("smooth_path", "nav2_msgs/action/SmoothPath"),),
     ),
     NodeSpec(
         package="nav2_velocity_smoother",
@@ -78,6 +209,13 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.velocity_smoother:run",
         does="limits accelerations of commands (Nav2)",
         is_light=False,
+        topics=(
+            publishes("cmd_vel_smoothed", "geometry_msgs/msg/Twist"),
+            listens("cmd_vel", "geometry_msgs/msg/Twist"),
+            listens("{~odom_topic|odom}", "nav_msgs/msg/Odometry"),
+            *LIFECYCLE_TOPICS,
+        ),
+        services=(*LIFECYCLE_SERVICES,),
     ),
     NodeSpec(
         package="nav2_collision_monitor",
@@ -86,6 +224,16 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.collision_monitor:run",
         does="slows or stops commands by what sensors see (Nav2)",
         is_light=False,
+        topics=(
+            publishes("{~cmd_vel_out_topic|cmd_vel}", "geometry_msgs/msg/Twist"),
+            listens("{~cmd_vel_in_topic|cmd_vel_smoothed}", "geometry_msgs/msg/Twist"),
+            *LIFECYCLE_TOPICS,
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("~toggle", "nav2_msgs/srv/Toggle"),
+            *LIFECYCLE_SERVICES,
+        ),
     ),
     NodeSpec(
         package="nav2_lifecycle_manager",
@@ -94,5 +242,9 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.lifecycle_manager:run",
         does="brings managed nodes up and down (Nav2)",
         is_light=False,
+        services=(
+            offers("~is_active", "std_srvs/srv/Trigger"),
+            offers("~manage_nodes", "nav2_msgs/srv/ManageLifecycleNodes"),
+        ),
     ),
 )

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    NodeName,
+    NodeRole,
+    NodeSpec,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["SIMULATION"]
 
@@ -22,6 +31,44 @@ SIMULATION = (
             NodeName("gazebo", "gzserver", ROS_1),
         ),
         role=NodeRole.SIMULATOR,
+        topics=(
+            publishes("/clock", "rosgraph_msgs/msg/Clock"),
+            publishes("/gazebo/link_states", "gazebo_msgs/msg/LinkStates"),
+            publishes("/gazebo/model_states", "gazebo_msgs/msg/ModelStates"),
+            listens("/gazebo/set_link_state", "gazebo_msgs/msg/LinkState"),
+            listens("/gazebo/set_model_state", "gazebo_msgs/msg/ModelState"),
+        ),
+        services=(
+            offers("/gazebo/apply_body_wrench", "gazebo_msgs/srv/ApplyBodyWrench"),
+            offers("/gazebo/apply_joint_effort", "gazebo_msgs/srv/ApplyJointEffort"),
+            offers("/gazebo/clear_body_wrenches", "gazebo_msgs/srv/BodyRequest"),
+            offers("/gazebo/clear_joint_forces", "gazebo_msgs/srv/JointRequest"),
+            offers("/gazebo/control_world", "ros_gz_interfaces/srv/ControlWorld"),
+            offers("/gazebo/delete_light", "gazebo_msgs/srv/DeleteLight"),
+            offers("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel"),
+            offers("/gazebo/get_joint_properties", "gazebo_msgs/srv/GetJointProperties"),
+            offers("/gazebo/get_light_properties", "gazebo_msgs/srv/GetLightProperties"),
+            offers("/gazebo/get_link_properties", "gazebo_msgs/srv/GetLinkProperties"),
+            offers("/gazebo/get_link_state", "gazebo_msgs/srv/GetLinkState"),
+            offers("/gazebo/get_model_properties", "gazebo_msgs/srv/GetModelProperties"),
+            offers("/gazebo/get_model_state", "gazebo_msgs/srv/GetModelState"),
+            offers("/gazebo/get_physics_properties", "gazebo_msgs/srv/GetPhysicsProperties"),
+            offers("/gazebo/get_state_hash", "std_srvs/srv/Trigger"),
+            offers("/gazebo/get_world_properties", "gazebo_msgs/srv/GetWorldProperties"),
+            offers("/gazebo/pause_physics", "std_srvs/srv/Empty"),
+            offers("/gazebo/reset_simulation", "std_srvs/srv/Empty"),
+            offers("/gazebo/reset_world", "std_srvs/srv/Empty"),
+            offers("/gazebo/set_joint_properties", "gazebo_msgs/srv/SetJointProperties"),
+            offers("/gazebo/set_light_properties", "gazebo_msgs/srv/SetLightProperties"),
+            offers("/gazebo/set_link_properties", "gazebo_msgs/srv/SetLinkProperties"),
+            offers("/gazebo/set_link_state", "gazebo_msgs/srv/SetLinkState"),
+            offers("/gazebo/set_model_configuration", "gazebo_msgs/srv/SetModelConfiguration"),
+            offers("/gazebo/set_model_state", "gazebo_msgs/srv/SetModelState"),
+            offers("/gazebo/set_physics_properties", "gazebo_msgs/srv/SetPhysicsProperties"),
+            offers("/gazebo/spawn_sdf_model", "gazebo_msgs/srv/SpawnModel"),
+            offers("/gazebo/spawn_urdf_model", "gazebo_msgs/srv/SpawnModel"),
+            offers("/gazebo/unpause_physics", "std_srvs/srv/Empty"),
+        ),
     ),
     NodeSpec(
         package="gazebo_ros",
@@ -75,6 +122,14 @@ SIMULATION = (
         is_light=False,
         name="gazebo",
         role=NodeRole.SIMULATOR,
+        topics=(
+            publishes("/clock", "rosgraph_msgs/msg/Clock"),
+            publishes("/stats", "gazelle_msgs/msg/WorldStatistics"),
+            publishes("/world/default/clock", "rosgraph_msgs/msg/Clock"),
+            publishes("/world/default/dynamic_pose/info", "tf2_msgs/msg/TFMessage"),
+            publishes("/world/default/pose/info", "tf2_msgs/msg/TFMessage"),
+            publishes("/world/default/stats", "gazelle_msgs/msg/WorldStatistics"),
+        ),
     ),
     NodeSpec(
         package="ros_gz_bridge",
@@ -88,6 +143,8 @@ SIMULATION = (
             NodeName("ros_gz_bridge", "bridge_node", ROS_2),
         ),
         name="ros_gz_bridge",
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="ros_gz_image",

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeSpec
+from gazelle.node_specs.shared import TF_LISTENED
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    FrameRow,
+    NodeName,
+    NodeSpec,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["SLAM"]
 
@@ -13,6 +23,10 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_explore",
         does="drives to frontiers until all is known",
         is_light=False,
+        topics=(
+            listens("{~costmap_topic|costmap}", "nav_msgs/msg/OccupancyGrid"),
+            *TF_LISTENED,
+        ),
     ),
     NodeSpec(
         package="gmapping",
@@ -21,6 +35,15 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_gmapping",
         does="SLAM, gmapping's names",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
+        frames=(FrameRow("{~map_frame|map}", "{~odom_frame|odom}"),),
     ),
     NodeSpec(
         package="slam_karto",
@@ -29,6 +52,15 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_karto",
         does="SLAM, slam_karto's names",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
+        frames=(FrameRow("{~map_frame|map}", "{~odom_frame|odom}"),),
     ),
     NodeSpec(
         package="hector_mapping",
@@ -37,6 +69,15 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_hector",
         does="SLAM, hector_mapping's names",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
+        frames=None,
     ),
     NodeSpec(
         package="cartographer_ros",
@@ -44,6 +85,15 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_cartographer",
         does="SLAM, cartographer's names",
         is_light=False,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("scan", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
+        frames=None,
     ),
     NodeSpec(
         package="cartographer_ros",
@@ -65,6 +115,22 @@ SLAM = (
             NodeName("slam_toolbox", "map_and_localization_slam_toolbox_node", ROS_2),
         ),
         name="slam_toolbox",
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("{~scan_topic|/scan}", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("~deserialize_map", "slam_toolbox/srv/DeserializePoseGraph"),
+            offers("~dynamic_map", "nav_msgs/srv/GetMap"),
+            offers("~pause_new_measurements", "slam_toolbox/srv/Pause"),
+            offers("~reset", "slam_toolbox/srv/Reset"),
+            offers("~save_map", "slam_toolbox/srv/SaveMap"),
+            offers("~serialize_map", "slam_toolbox/srv/SerializePoseGraph"),
+        ),
+        frames=None,
     ),
     NodeSpec(
         package="slam_toolbox",
@@ -73,6 +139,22 @@ SLAM = (
         does="localisation in a saved graph of poses, slam_toolbox's names",
         is_light=False,
         name="slam_toolbox",
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("map", "nav_msgs/msg/OccupancyGrid"),
+            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+            listens("{~scan_topic|/scan}", "sensor_msgs/msg/LaserScan"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers("~deserialize_map", "slam_toolbox/srv/DeserializePoseGraph"),
+            offers("~dynamic_map", "nav_msgs/srv/GetMap"),
+            offers("~pause_new_measurements", "slam_toolbox/srv/Pause"),
+            offers("~reset", "slam_toolbox/srv/Reset"),
+            offers("~save_map", "slam_toolbox/srv/SaveMap"),
+            offers("~serialize_map", "slam_toolbox/srv/SerializePoseGraph"),
+        ),
+        frames=None,
     ),
     NodeSpec(
         package="frontier_exploration",
@@ -81,6 +163,24 @@ SLAM = (
         entry="gazelle.nodes.frontier_exploration.server:run",
         does="explores what lies inside of a polygon, by move_base",
         is_light=False,
+        topics=(
+            publishes("~explore_costmap/costmap", "nav_msgs/msg/OccupancyGrid"),
+            publishes("~explore_costmap/costmap_updates", "map_msgs/msg/OccupancyGridUpdate"),
+            publishes("~explore_costmap/explore_boundary/frontiers", "sensor_msgs/msg/PointCloud2"),
+            publishes("~explore_costmap/footprint", "geometry_msgs/msg/PolygonStamped"),
+            *TF_LISTENED,
+        ),
+        services=(
+            offers(
+                "~explore_costmap/explore_boundary/get_next_frontier",
+                "frontier_exploration/srv/GetNextFrontier",
+            ),
+            offers(
+                "~explore_costmap/explore_boundary/update_boundary_polygon",
+                "frontier_exploration/srv/UpdateBoundaryPolygon",
+            ),
+        ),
+        actions=(offers("~", "frontier_exploration/action/ExploreTask"),),
     ),
     NodeSpec(
         package="frontier_exploration",
@@ -89,5 +189,9 @@ SLAM = (
         entry="gazelle.nodes.frontier_exploration.client:run",
         does="makes a polygon of clicked points and lets explore_server explore it",
         is_light=True,
+        topics=(
+            publishes("exploration_polygon_marker", "visualization_msgs/msg/Marker"),
+            listens("/clicked_point", "geometry_msgs/msg/PointStamped"),
+        ),
     ),
 )

@@ -124,8 +124,9 @@ class NodeSpec:
         parameters: ``module:ATTRIBUTE`` of its table of parameters, None for none.
         topics, services, actions: what it has on a graph when it has come up.
         frames: transforms it sends; None when they cannot be told before it runs.
-        joints: whose states it sends, with parameters in braces as in `Interface`.
-        other_names: names of its code that are remapped and no topic: services, namespaces.
+        joints: whose states it sends, with parameters in braces as in `Interface`; None when they
+            cannot be told before it runs.
+        namespaces: names of its code that stand before those of topics and are remapped first.
         is_complete: there are no other topics than `topics`.
     """
 
@@ -144,8 +145,8 @@ class NodeSpec:
     services: tuple[Interface, ...] = ()
     actions: tuple[Interface, ...] = ()
     frames: tuple[FrameRow, ...] | None = ()
-    joints: tuple[str, ...] = ()
-    other_names: tuple[str, ...] = ()
+    joints: tuple[str, ...] | None = ()
+    namespaces: tuple[str, ...] = ()
     is_complete: bool = False
 
     @property

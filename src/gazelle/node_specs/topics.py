@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec
+from gazelle.node_specs.spec import (
+    ROS_1,
+    ROS_2,
+    NodeName,
+    NodeRole,
+    NodeSpec,
+    listens,
+    offers,
+    publishes,
+)
 
 __all__ = ["TOPICS"]
 
@@ -23,6 +32,8 @@ TOPICS = (
         entry="gazelle.nodes.rosbag.play:run",
         does="plays a bag",
         is_light=False,
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="rclcpp_components",
@@ -37,6 +48,8 @@ TOPICS = (
             NodeName("rclcpp_components", "component_container_event", ROS_2),
         ),
         name="ComponentManager",
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="rosout",
@@ -45,6 +58,10 @@ TOPICS = (
         entry="gazelle.nodes.rosout:run",
         does="collects log messages",
         is_light=True,
+        topics=(
+            publishes("/rosout_agg", "rcl_interfaces/msg/Log"),
+            listens("/rosout", "rcl_interfaces/msg/Log"),
+        ),
     ),
     NodeSpec(
         package="topic_tools",
@@ -76,6 +93,8 @@ TOPICS = (
         entry="gazelle.nodes.topic_transform:run_transform",
         does="publishes what a Python expression makes of a topic or a field",
         is_light=True,
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="topic_tools",
@@ -83,6 +102,8 @@ TOPICS = (
         entry="gazelle.nodes.topic_transform:run_relay_field",
         does="fills messages with fields of another topic",
         is_light=True,
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="topic_tools",
@@ -90,6 +111,15 @@ TOPICS = (
         entry="gazelle.nodes.topic_mux:run_mux",
         does="publishes one of several topics, which services select",
         is_light=True,
+        topics=(publishes("mux/selected", "std_msgs/msg/String"),),
+        services=(
+            offers("mux/add", "topic_tools/srv/MuxAdd"),
+            offers("mux/delete", "topic_tools/srv/MuxDelete"),
+            offers("mux/list", "topic_tools/srv/MuxList"),
+            offers("mux/select", "topic_tools/srv/MuxSelect"),
+        ),
+        frames=None,
+        joints=None,
     ),
     NodeSpec(
         package="topic_tools",
@@ -98,5 +128,14 @@ TOPICS = (
         entry="gazelle.nodes.topic_mux:run_demux",
         does="publishes a topic as one of several, which services select",
         is_light=True,
+        topics=(publishes("demux/selected", "std_msgs/msg/String"),),
+        services=(
+            offers("demux/add", "topic_tools/srv/DemuxAdd"),
+            offers("demux/delete", "topic_tools/srv/DemuxDelete"),
+            offers("demux/list", "topic_tools/srv/DemuxList"),
+            offers("demux/select", "topic_tools/srv/DemuxSelect"),
+        ),
+        frames=None,
+        joints=None,
     ),
 )

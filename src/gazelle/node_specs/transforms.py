@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.spec import ROS_1, NodeName, NodeRole, NodeSpec
+from gazelle.node_specs.spec import ROS_1, NodeName, NodeRole, NodeSpec, listens, publishes
 
 __all__ = ["TRANSFORMS"]
 
@@ -14,6 +14,10 @@ TRANSFORMS = (
         does="publishes joint states of a robot description, with sliders if use_gui is true",
         is_light=True,
         role=NodeRole.JOINT_STATES,
+        topics=(
+            publishes("joint_states", "sensor_msgs/msg/JointState"),
+            listens("joint_states", "sensor_msgs/msg/JointState"),
+        ),
     ),
     NodeSpec(
         package="robot_state_publisher",
@@ -23,6 +27,11 @@ TRANSFORMS = (
         is_light=True,
         aliases=(NodeName("robot_state_publisher", "state_publisher", ROS_1),),
         role=NodeRole.STATE_PUBLISHER,
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            publishes("/tf_static", "tf2_msgs/msg/TFMessage"),
+            listens("joint_states", "sensor_msgs/msg/JointState"),
+        ),
     ),
     NodeSpec(
         package="tf",
@@ -32,6 +41,11 @@ TRANSFORMS = (
         does="publishes transforms with other names of frames",
         is_light=True,
         name="tf_remapper",
+        topics=(
+            publishes("/tf", "tf2_msgs/msg/TFMessage"),
+            listens("/tf_old", "tf2_msgs/msg/TFMessage"),
+        ),
+        frames=None,
     ),
     NodeSpec(
         package="tf",
@@ -41,6 +55,7 @@ TRANSFORMS = (
         does="publishes one fixed transform again and again",
         is_light=True,
         role=NodeRole.STATIC_TRANSFORM,
+        topics=(publishes("/tf", "tf2_msgs/msg/TFMessage"),),
     ),
     NodeSpec(
         package="tf2_ros",
@@ -49,6 +64,7 @@ TRANSFORMS = (
         does="publishes one fixed transform, latched",
         is_light=True,
         role=NodeRole.STATIC_TRANSFORM,
+        topics=(publishes("/tf_static", "tf2_msgs/msg/TFMessage"),),
     ),
     NodeSpec(
         package="joint_state_publisher_gui",
@@ -57,5 +73,9 @@ TRANSFORMS = (
         does="publishes joint states, moved by sliders",
         is_light=False,
         role=NodeRole.JOINT_STATES,
+        topics=(
+            publishes("joint_states", "sensor_msgs/msg/JointState"),
+            listens("joint_states", "sensor_msgs/msg/JointState"),
+        ),
     ),
 )

@@ -163,6 +163,24 @@ def test_amcl_connects_the_map_with_the_odometry(launched: Launch) -> None:
 
 
 @pytest.mark.parametrize(
+    ("package", "kind", "row"),
+    [
+        ("amcl", "amcl", None),
+        ("robot_pose_ekf", "robot_pose_ekf", ("odom_combined → base_footprint", "moving", "/n")),
+        ("topic_tools", "mux", None),
+    ],
+)
+def test_frames_of_a_built_in_node_are_those_of_its_row(
+    launched: Launch, package: str, kind: str, row: tuple[str, str, str] | None
+) -> None:
+    silent = '<param name="tf_broadcast" value="false"/>'
+    node = f'<node name="n" pkg="{package}" type="{kind}" args="a b">{silent}</node>'
+    report = launched(QUIET, ROBOT, SPAWN.format(ARGS, ""), STATES, node)
+    rows = [row for section in report.sections if section.name == "frames" for row in section.rows]
+    assert rows == ([row] if row else [])
+
+
+@pytest.mark.parametrize(
     ("parameters", "row"),
     [
         ("", ("odom → base_link", "moving", "/n")),

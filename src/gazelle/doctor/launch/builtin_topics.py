@@ -1,111 +1,108 @@
-"""Topics, joint states and transforms of built-in nodes that do one thing each."""
+"""Topics, joint states and transforms of built-in nodes, by their rows and their parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from gazelle.doctor.launch.launched import Launched, LaunchedNode
+from gazelle.graph.names import resolve
+from gazelle.node_specs.patterns import ValueOf, expanded, holds
+from gazelle.node_specs.spec import Direction, Interface, NodeSpec
 
 __all__ = ["BuiltinTopics", "builtin_topics"]
 
-_TWIST = "geometry_msgs/msg/Twist"
-_ODOMETRY = "nav_msgs/msg/Odometry"
-_IMU = "sensor_msgs/msg/Imu"
-_POSE = "turtlesim/msg/Pose"
-_TF = "tf2_msgs/msg/TFMessage"
+_EKF = frozenset({"ekf_localization_node", "ekf_node"})
 
 
 @dataclass(frozen=True, slots=True)
 class BuiltinTopics:
-    """What one node has, by the names of its code.
+    """What one node has.
 
     Attributes:
-        publishes, listens: types by topic.
-        other_names: services and namespaces that can be remapped too.
-        transforms: parent and child of each it sends.
-        joints: whose states it sends.
+        publishes, listens: types by global topic, after remapping; a type may be empty.
+        written: names before remapping that its code uses, global.
+        transforms: parent and child of each it sends; None when they cannot be told.
+        joints: whose states it sends; None when they cannot be told.
         is_complete: there are no further topics.
     """
 
-    publishes: Mapping[str, str] = field(default_factory=dict)
-    listens: Mapping[str, str] = field(default_factory=dict)
-    other_names: tuple[str, ...] = ()
-    transforms: tuple[tuple[str, str], ...] = ()
-    joints: tuple[str, ...] = ()
-    is_complete: bool = True
+    publishes: Mapping[str, str]
+    listens: Mapping[str, str]
+    written: frozenset[str]
+    transforms: tuple[tuple[str, str], ...] | None
+    joints: frozenset[str] | None
+    is_complete: bool
 
 
 def builtin_topics(node: LaunchedNode, launched: Launched) -> BuiltinTopics | None:
-    """Return what a built-in node has; None when that is not known here."""
-    builtin = node.executable.builtin if node.executable is not None else None
-    if builtin is None:
+    """Return what a built-in node has; None for other nodes."""
+    spec = node.executable.builtin if node.executable is not None else None
+    if spec is None:
         return None
-    name = (builtin.package, builtin.executable)
-    if name in _COMPUTED:
-        return _COMPUTED[name](node, launched)
-    return _FIXED.get(name)
 
+    def value_of(name: str, default: str) -> str:
+        full = name if name.startswith("~") else node.resolve(name)
+        full = resolve(full, node.program.namespace, node=node.full_name)
+        has_own = launched.parameters.has(full)
+        return str(launched.parameters.get(full)) if has_own else default
 
-_DRIVING = BuiltinTopics({"cmd_vel": _TWIST})
-_FIXED = {
-    ("turtlesim", "turtlesim_node"): BuiltinTopics(
-        {"turtle1/pose": _POSE, "turtle1/color_sensor": "turtlesim/msg/Color"},
-        {"turtle1/cmd_vel": _TWIST},
-        # More turtles can be spawned.
-        is_complete=False,
-    ),
-    ("turtlesim", "turtle_teleop_key"): BuiltinTopics({"turtle1/cmd_vel": _TWIST}),
-    ("turtlesim", "draw_square"): BuiltinTopics(
-        {"turtle1/cmd_vel": _TWIST}, {"turtle1/pose": _POSE}, ("reset",)
-    ),
-    ("turtlebot3_slam", "flat_world_imu_node"): BuiltinTopics({"imu_out": _IMU}, {"imu_in": _IMU}),
-    ("turtlebot3_teleop", "turtlebot3_teleop_key"): _DRIVING,
-    ("turtlebot3_teleop", "teleop_keyboard"): _DRIVING,
-    ("teleop_twist_keyboard", "teleop_twist_keyboard"): _DRIVING,
-}
-
-
-def _mimic(node: LaunchedNode, _launched: Launched) -> BuiltinTopics:
-    source, target = node.resolve("input"), node.resolve("output")
-    names = ("input", "output", "input/pose", "output/cmd_vel")
-    return BuiltinTopics({f"{target}/cmd_vel": _TWIST}, {f"{source}/pose": _POSE}, names)
-
-
-def _twist_keyboard(node: LaunchedNode, launched: Launched) -> BuiltinTopics:
-    is_stamped = bool(launched.private(node, "stamped", False))
-    return BuiltinTopics({"cmd_vel": "geometry_msgs/msg/TwistStamped" if is_stamped else _TWIST})
-
-
-def _drive(node: LaunchedNode, launched: Launched) -> BuiltinTopics:
-    topic = _parameter(node, launched, "cmd_vel_topic_name", "cmd_vel")
-    return BuiltinTopics({topic: _TWIST}, {"scan": "sensor_msgs/msg/LaserScan", "odom": _ODOMETRY})
-
-
-def _fake(node: LaunchedNode, launched: Launched) -> BuiltinTopics:
-    def name(key: str, default: str) -> str:
-        return _parameter(node, launched, key, default)
-
+    rows = [row for row in spec.topics if holds(row.when, value_of)]
+    others = (*spec.services, *spec.actions)
+    names = [expanded(row.name, value_of) for row in (*rows, *others)]
     return BuiltinTopics(
-        {"odom": _ODOMETRY, "joint_states": "sensor_msgs/msg/JointState", "/tf": _TF},
-        {"cmd_vel": _TWIST},
-        transforms=((name("odom_frame", "odom"), name("base_frame", "base_footprint")),),
-        joints=(
-            name("wheel_left_joint_name", "wheel_left_joint"),
-            name("wheel_right_joint_name", "wheel_right_joint"),
-        ),
+        _named(_of(rows, Direction.GIVES), node, spec, value_of),
+        _named(_of(rows, Direction.TAKES), node, spec, value_of),
+        frozenset(_global(name, node) for name in (*names, *spec.namespaces)),
+        _transforms(spec, node, launched, value_of),
+        None if spec.joints is None else frozenset(expanded(one, value_of) for one in spec.joints),
+        spec.is_complete,
     )
 
 
-_COMPUTED: dict[tuple[str, str], Callable[[LaunchedNode, Launched], BuiltinTopics]] = {
-    ("turtlesim", "mimic"): _mimic,
-    ("turtlebot3_fake", "turtlebot3_fake_node"): _fake,
-    ("turtlebot3_gazebo", "turtlebot3_drive"): _drive,
-    ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): _twist_keyboard,
-}
+def _of(rows: Iterable[Interface], direction: Direction) -> list[Interface]:
+    return [row for row in rows if row.direction is direction]
 
 
-def _parameter(node: LaunchedNode, launched: Launched, name: str, default: str) -> str:
-    """Return a parameter of the node's namespace."""
-    full = node.resolve(name)
-    return str(launched.parameters.get(full)) if launched.parameters.has(full) else default
+def _named(
+    rows: Iterable[Interface], node: LaunchedNode, spec: NodeSpec, value_of: ValueOf
+) -> dict[str, str]:
+    return {_remapped(expanded(row.name, value_of), node, spec): row.type for row in rows}
+
+
+def _remapped(name: str, node: LaunchedNode, spec: NodeSpec) -> str:
+    """Return the global name of a topic; a namespace that is remapped by itself comes first."""
+    first, _, rest = name.partition("/")
+    return node.resolve(f"{node.resolve(first)}/{rest}" if first in spec.namespaces else name)
+
+
+def _global(name: str, node: LaunchedNode) -> str:
+    return resolve(name, node.program.namespace, node=node.full_name)
+
+
+def _transforms(
+    spec: NodeSpec, node: LaunchedNode, launched: Launched, value_of: ValueOf
+) -> tuple[tuple[str, str], ...] | None:
+    if spec.executable in _EKF:
+        return _filtered(node, launched)
+    if spec.frames is None:
+        return None
+    return tuple(
+        (expanded(row.parent, value_of).strip("/"), expanded(row.child, value_of).strip("/"))
+        for row in spec.frames
+        if holds(row.when, value_of)
+    )
+
+
+def _filtered(node: LaunchedNode, launched: Launched) -> tuple[tuple[str, str], ...]:
+    """Return what a filter of robot_localization sends, by REP 105 from its world frame."""
+
+    def frame(name: str, default: str) -> str:
+        return str(launched.private(node, name, default)).strip("/")
+
+    if launched.private(node, "publish_tf", True) is False:
+        return ()
+    odom = frame("odom_frame", "odom")
+    world = frame("world_frame", odom)
+    base = frame("base_link_frame", "base_link")
+    return ((world, odom if world == frame("map_frame", "map") else base),)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch.builtin_topics import BuiltinTopics, builtin_topics
+from gazelle.doctor.launch.builtin_topics import builtin_topics
 from gazelle.doctor.launch.known_nodes import KnownNode, known_node
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.launch.script_reading import read_script
@@ -73,7 +73,15 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             return _named(node, {}, {})
     builtin = builtin_topics(node, launched)
     if builtin is not None:
-        return _of_builtin(node, builtin)
+        return NodeTopics(
+            node,
+            builtin.publishes,
+            builtin.listens,
+            builtin.written,
+            builtin.is_complete,
+            KnownNode(builtin.transforms) if builtin.joints is not None else None,
+            builtin.joints or frozenset(),
+        )
     known = known_node(node, launched)
     return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=known)
 
@@ -92,18 +100,6 @@ def _named(
         {node.resolve(name): kind for name, kind in listens.items()},
         written,
         is_complete,
-    )
-
-
-def _of_builtin(node: LaunchedNode, found: BuiltinTopics) -> NodeTopics:
-    named = _named(node, found.publishes, found.listens, found.is_complete)
-    place, own = node.program.namespace, node.full_name
-    others = {resolve(name, place, node=own) for name in found.other_names}
-    return replace(
-        named,
-        written=named.written | others,
-        known=KnownNode(found.transforms),
-        joints=frozenset(found.joints),
     )
 
 
