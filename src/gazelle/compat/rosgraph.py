@@ -5,14 +5,19 @@ from __future__ import annotations
 import os
 import socket
 import sys
-from collections.abc import Mapping, Sequence
 from typing import Any
 from urllib.parse import urlsplit
 
+from gazelle.compat.master_address import (
+    DEFAULT_MASTER_PORT,
+    DEFAULT_MASTER_URI,
+    ROS_MASTER_URI,
+    get_master_uri,
+    warn_of_master,
+)
 from gazelle.compat.rospy import client
 from gazelle.compat.rospy.errors import ROSException
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.telling import warn_once
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 
@@ -48,10 +53,7 @@ __all__ = [
 ROS_HOSTNAME = "ROS_HOSTNAME"
 ROS_IP = "ROS_IP"
 ROS_IPV6 = "ROS_IPV6"
-ROS_MASTER_URI = "ROS_MASTER_URI"
 ROS_NAMESPACE = "ROS_NAMESPACE"
-DEFAULT_MASTER_PORT = 11311
-DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}"
 
 
 class MasterException(Exception):  # noqa: N818 - rosgraph's name
@@ -67,15 +69,6 @@ class MasterError(MasterException):
 
 
 Failure, Error, ROSMasterException = MasterFailure, MasterError, MasterException
-
-
-def get_master_uri(env: Mapping[str, str] | None = None, argv: Sequence[str] | None = None) -> str:
-    """Return ``__master:=`` of a command line, or ``ROS_MASTER_URI``."""
-    words = sys.argv if argv is None else argv
-    given = [word.partition(":=")[2] for word in words if word.startswith("__master:=")]
-    if given:
-        return given[0]
-    return (os.environ if env is None else env).get(ROS_MASTER_URI, DEFAULT_MASTER_URI)
 
 
 def parse_http_host_and_port(url: str) -> tuple[str, int]:
@@ -150,13 +143,6 @@ def get_host_name() -> str:
 def get_local_address() -> str:
     """Return the address others would use, which is this machine's own."""
     return os.environ.get(ROS_HOSTNAME) or os.environ.get(ROS_IP) or "127.0.0.1"
-
-
-def warn_of_master(uri: str | None) -> None:
-    """Say that another master's address leads to this process's own graph."""
-    own = get_master_uri()
-    if uri and uri.rstrip("/") != own.rstrip("/"):
-        warn_once(f"master {uri}: answered by the graph of this process, {own}")
 
 
 def is_master_online(master_uri: str | None = None) -> bool:

@@ -289,7 +289,7 @@ class MasterProxy(Master):
     """
 
     def __init__(self, uri: str = "") -> None:
-        from gazelle.compat.rosgraph import warn_of_master
+        from gazelle.compat.master_address import warn_of_master
 
         warn_of_master(uri)
 
