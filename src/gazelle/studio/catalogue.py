@@ -36,6 +36,7 @@ METHODS: dict[str, Method] = {
     **settings.METHODS,
     **plugins.METHODS,
     **motion.METHODS,
+    **displays.METHODS,
     "file.save": save_file,
     "robot.get": get_robot,
 }

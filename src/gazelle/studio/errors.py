@@ -25,9 +25,10 @@ class StudioError(GazelleError):
         super().__init__(message)
 
 
-def unknown(kind: str, name: str, existing: Iterable[str]) -> StudioError:
+def unknown(kind: str, name: str, existing: Iterable[str], *, hint: str = "") -> StudioError:
     """Return the error of a name that is none of the existing ones."""
-    return StudioError(f"there is no {kind} '{name}'", known=nearest_names(name, existing))
+    known = nearest_names(name, existing)
+    return StudioError(f"there is no {kind} '{name}'", hint=hint, known=known)
 
 
 def error_value(error: BaseException) -> dict[str, Any]:

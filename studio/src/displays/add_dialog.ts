@@ -1,7 +1,9 @@
 /** Add: a display by its type, or by a topic that somebody publishes. */
+import type { Connection } from '../connection';
+import { inOneLine } from '../errors';
 import { shortType, type GraphStore } from '../graph_store';
 import { button, h } from '../widgets/dom';
-import { displayKinds, kindsFor } from './registry';
+import { displayKinds, kindsFor, learnAdded } from './registry';
 
 /** What was chosen. */
 export interface Choice {
@@ -15,7 +17,7 @@ interface Option extends Choice {
 }
 
 /** Ask which display to add; null when the person thinks better of it. */
-export function askDisplay(graph: GraphStore): Promise<Choice | null> {
+export function askDisplay(graph: GraphStore, connection: Connection): Promise<Choice | null> {
   return new Promise((resolve) => {
     let chosen: Choice | null = null;
     const list = h('div', { class: 'add-list', role: 'listbox', 'aria-label': 'Displays' });
@@ -47,6 +49,10 @@ export function askDisplay(graph: GraphStore): Promise<Choice | null> {
     const dialog = h('dialog', { class: 'dialog add-dialog', 'aria-label': 'Add a display' },
       h('h2', {}, 'Add a display'), tabs, list, h('div', { class: 'dialog-buttons' }, button('Cancel', () => finish(null))));
     const unwatch = graph.watch(fill);
+    learnAdded(connection).catch((problem: unknown) => [inOneLine(problem)]).then((problems) => {
+      fill();
+      list.after(...problems.map((problem) => h('div', { class: 'notice' }, problem)));
+    });
     dialog.addEventListener('close', () => {
       unwatch();
       dialog.remove();

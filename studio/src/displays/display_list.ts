@@ -27,6 +27,8 @@ export class DisplayList {
   backgroundColour = '48; 48; 48';
   /** What a `.rviz` file says of tools. */
   tools: readonly ToolValue[] = [];
+  /** Of classes that are not known yet. */
+  private waiting: readonly DisplayValue[] = [];
   private readonly listeners = new Set<(what: 'list' | 'status' | 'properties', display?: Display) => void>();
 
   constructor(readonly stage: Stage) {
@@ -80,31 +82,42 @@ export class DisplayList {
     this.stage.frames.hold(held);
   }
 
-  /** Take what `rviz.open` answers or a layout kept; tells which classes are not known. */
-  load(value: JsonObject): string[] {
+  /** Take what `rviz.open` answers or a layout kept; tells whether some wait for their class to be known. */
+  load(value: JsonObject): boolean {
     [...this.displays].forEach((display) => this.remove(display));
-    const unknown: string[] = [];
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
     this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as ToolValue[];
     // What a world file says of its scene stays.
     if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld) this.setBackground(textOf(value, 'background'));
     const displays = Array.isArray(value['displays']) ? value['displays'] : [];
-    for (const each of displays.filter(isObject)) {
-      const given = each as unknown as DisplayValue;
+    this.waiting = this.addAll(displays.filter(isObject) as unknown as DisplayValue[]);
+    this.tell('list');
+    return this.waiting.length > 0;
+  }
+
+  /** Add those that waited; tells which classes are still not known. */
+  addWaiting(): string[] {
+    const left = this.addAll(this.waiting);
+    this.waiting = [];
+    this.tell('list');
+    return left.map((each) => each.class);
+  }
+
+  /** Add displays; returns those of classes that are not known. */
+  private addAll(values: readonly DisplayValue[]): DisplayValue[] {
+    return values.filter((given) => {
       const topic: JsonObject = given.topic ? { Topic: given.topic } : {};
       const display = this.add(given.class, { ...given.properties, ...topic }, given.name || undefined);
-      if (!display) unknown.push(given.class);
-      else if (given.enabled === false) display.setEnabled(false);
-    }
-    this.tell('list');
-    return unknown;
+      if (display && given.enabled === false) display.setEnabled(false);
+      return display === null;
+    });
   }
 
   /** What a layout keeps. */
   save(): JsonObject {
-    const displays = this.displays.map((each) => ({
+    const displays = [...this.displays.map((each) => ({
       class: each.kind.name, name: each.name, enabled: each.enabled, properties: each.props.toObject(),
-    }));
+    })), ...this.waiting];
     const [shown, tools] = [displays, this.tools] as unknown as Json[];
     return { fixed_frame: this.fixedFrame, background: this.backgroundColour, displays: shown, tools };
   }

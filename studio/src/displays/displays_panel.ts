@@ -143,7 +143,7 @@ export class DisplaysPanel extends BasePanel {
 
   private async add(): Promise<void> {
     if (!this.scene) return;
-    const choice = await askDisplay(this.host.graph);
+    const choice = await askDisplay(this.host.graph, this.connection);
     if (!choice) return;
     const display = this.scene.displays.add(choice.className, choice.topic ? { Topic: choice.topic } : this.onlyTopic(choice.className));
     this.choose(display);

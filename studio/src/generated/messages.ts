@@ -10,4 +10,12 @@ export interface DisplayRow {
   aliases: string[];
   /** it reads the stream `display`. */
   streams: boolean;
+  /** the display whose drawing it takes, usually its own. */
+  drawn_as: string;
+}
+
+/** Displays that pip packages add, and one sentence for each that cannot be shown. */
+export interface AddedDisplays {
+  displays: DisplayRow[];
+  problems: string[];
 }

@@ -2,6 +2,8 @@
 import * as THREE from 'three';
 import type { Connection } from '../connection';
 import { DisplayList } from '../displays/display_list';
+import { learnAdded } from '../displays/registry';
+import { CallError, inOneLine } from '../errors';
 import { isObject, type JsonObject } from '../json';
 import { Assembly } from '../model/assembly';
 import { Contacts } from '../model/contacts';
@@ -111,8 +113,15 @@ export class ScenePanel implements Panel, Bench {
   /** Take displays of a layout or of a `.rviz` file. */
   loadDisplays(value: JsonObject): void {
     this.displays.chosen = Boolean(value['fixed_frame']);
-    const unknown = this.displays.load(value);
-    if (unknown.length) this.host.fail(new Error(`These display classes are not known and were left out: ${unknown.join(', ')}`));
+    if (this.displays.load(value)) void this.addWaiting();
+  }
+
+  /** What Gazelle does not have a pip package may have. */
+  private async addWaiting(): Promise<void> {
+    const problems = await learnAdded(this.connection).catch((problem: unknown) => [inOneLine(problem)]);
+    const unknown = this.displays.addWaiting();
+    if (!unknown.length) return;
+    this.host.fail(new CallError(`These display classes are not known and were left out: ${unknown.join(', ')}`, problems.join(' ')));
   }
 
   shown(visible: boolean): void {

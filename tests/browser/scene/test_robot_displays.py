@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.browser.scene.rviz_page import RvizPage, stamped
+from tests.installed_packages import code_of_page, installed
 
 pytestmark = pytest.mark.slow
 
@@ -115,14 +116,42 @@ def test_file_of_rviz_opens_with_its_view(rviz: RvizPage, bench: Any, tmp_path: 
   Views:
     Current: {Class: rviz/TopDownOrtho, Scale: 80, Angle: 0, X: 1, Y: 2}
 """
+    _open_file(rviz, text)
+    rviz.eventually(lambda: list(rviz.report()["displays"]) == ["Ground", "Front"])
+    report = rviz.report()
+    assert report["fixedFrame"] == "odom"
+    assert report["displays"]["Front"]["topic"] == "/front"
+    assert (report["camera"]["kind"], report["camera"]["scale"]) == ("TopDownOrtho", 80)
+
+
+def test_file_of_rviz_may_name_a_display_of_a_pip_package(
+    rviz: RvizPage, bench: Any, tmp_path: Any
+) -> None:
+    text = """Visualization Manager:
+  Global Options: {Fixed Frame: odom}
+  Displays:
+    - {Class: far_displays/Speed, Name: Fast, Enabled: true, Topic: /speed, Value: true}
+    - {Class: far_displays/Nonsense, Name: Odd, Enabled: true, Value: true}
+"""
+    twist = {"header": stamped("base_link"), "twist": {"linear": {"x": 1.5}}}
+    bench.keep_publishing("/speed", "geometry_msgs/msg/TwistStamped", lambda _: twist, hz=6)
+    source = code_of_page("A display of RViz")
+    points = {
+        "gazelle.displays": {"speed": "far_displays:SPEED", "gone": "far_displays:MISSING"},
+    }
+    with installed(tmp_path / "site", "far_displays", source, points):
+        _open_file(rviz, text)
+        rviz.shows("Fast", markers=1)
+        toast = rviz.seen.toast()
+    assert "These display classes are not known and were left out: Nonsense" in toast
+    assert "module 'far_displays' has no attribute 'MISSING'" in toast
+    rviz.seen.shot()
+
+
+def _open_file(rviz: RvizPage, text: str) -> None:
     rviz.seen.panel("displays").get_by_role("button", name="More").click()
     with rviz.seen.page.expect_file_chooser() as waiting:
         rviz.seen.page.get_by_role("menuitem", name="Open a .rviz file…").click()
     waiting.value.set_files(
         files=[{"name": "robot.rviz", "mimeType": "text/plain", "buffer": text.encode()}]
     )
-    rviz.eventually(lambda: list(rviz.report()["displays"]) == ["Ground", "Front"])
-    report = rviz.report()
-    assert report["fixedFrame"] == "odom"
-    assert report["displays"]["Front"]["topic"] == "/front"
-    assert (report["camera"]["kind"], report["camera"]["scale"]) == ("TopDownOrtho", 80)

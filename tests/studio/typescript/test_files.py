@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.studio.displays.registry import DISPLAYS, find_display
+from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.typescript.files import FILES, FOLDER
 
 _FOLDER = Path(__file__).parents[3] / FOLDER
@@ -27,10 +27,3 @@ def test_every_display_has_one_drawing() -> None:
     table = registry.partition("const DRAWINGS")[2].partition("{")[2].partition("};")[0]
     drawn = [line.strip().partition(":")[0] for line in table.splitlines() if line.strip()]
     assert drawn == sorted(DISPLAYS)
-
-
-def test_displays_are_found_by_the_classes_of_both_versions_of_rviz() -> None:
-    assert find_display("rviz/WrenchStamped") is DISPLAYS["Wrench"]
-    assert find_display("rviz_default_plugins/Wrench") is DISPLAYS["Wrench"]
-    assert find_display("LaserScan") is DISPLAYS["LaserScan"]
-    assert find_display("rviz/Nothing") is None

@@ -12,7 +12,7 @@ from gazelle.studio.displays.pictures import (
     checked_colormap,
     encoded_picture,
 )
-from gazelle.studio.displays.showing import Site, headed, open_newest, open_on
+from gazelle.studio.displays.showing import Site, open_newest, open_on
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
@@ -35,12 +35,12 @@ def open_image(studio: Studio, channel: Channel, params: Params) -> OpenStream:
 
 def open_picture(site: Site) -> OpenStream:
     """Display Image: the pictures of a topic as JPEG."""
-    return open_newest(site, _maker(_settings(site.params)))
+    return open_newest(site, _maker(site))
 
 
 def open_camera(site: Site) -> OpenStream:
     """Display Camera: the pictures, and the camera and where it stands ahead of them."""
-    make = _maker(_settings(site.params))
+    make = _maker(site)
     topic = site.params.text("topic")
     info = CameraInfo(site.studio, info_topic(topic))
     told: Any = None
@@ -53,7 +53,7 @@ def open_camera(site: Site) -> OpenStream:
             text = f"No CameraInfo received on [{info.topic}]. Topic may not exist."
             site.channel.status("warn", text)
             return frame
-        header = headed(sample).header
+        header = site.headed(sample).header
         value = {
             "camera_info": message_value(camera, None),
             "pose": pose_values(site.pose(header)),
@@ -116,9 +116,11 @@ def _settings(params: Params) -> PictureSettings:
     )
 
 
-def _maker(settings: PictureSettings) -> Callable[[Sample], Frame]:
+def _maker(site: Site) -> Callable[[Sample], Frame]:
+    settings = _settings(site.params)
+
     def make(sample: Sample) -> Frame:
-        message = sample.message()
+        message = site.message(sample)
         if not hasattr(message, "data") or not (
             hasattr(message, "encoding") or hasattr(message, "format")
         ):

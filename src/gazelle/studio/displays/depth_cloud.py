@@ -11,7 +11,7 @@ from gazelle.studio.displays.cameras import CameraInfo, info_topic
 from gazelle.studio.displays.pictures import pixels_rgb
 from gazelle.studio.displays.point_colours import Colouring
 from gazelle.studio.displays.points import Points, budget_of, points_frame
-from gazelle.studio.displays.showing import Site, headed, open_newest
+from gazelle.studio.displays.showing import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
@@ -33,7 +33,7 @@ def open_depth_cloud(site: Site) -> OpenStream:
     colours = _Last(site, site.params.text(_COLOUR, ""))
 
     def make(sample: Sample) -> Frame | None:
-        message = headed(sample)
+        message = site.headed(sample)
         camera = info.message()
         if camera is None:
             raise StudioError(f"no camera_info came on {info.topic}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from gazelle.studio.displays.showing import Site
 from gazelle.studio.streams import OpenStream
@@ -23,6 +23,9 @@ class Display:
         open: its stream ``display``; None for those that the page draws from other streams.
         aliases: what other versions of RViz call it.
         topic_names: RViz's properties, besides ``Topic``, that name its topic in a file.
+        drawn_as: the display of the registry whose drawing it takes, empty for its own; only
+            displays of other packages take another's.
+        convert: of one that is drawn as another: makes its message into one that the other shows.
     """
 
     name: str
@@ -31,6 +34,8 @@ class Display:
     open: Callable[[Site], OpenStream] | None = None
     aliases: tuple[str, ...] = ()
     topic_names: tuple[str, ...] = ()
+    drawn_as: str = ""
+    convert: Callable[[Any], Any] | None = None
 
 
 class DisplayRow(TypedDict):
@@ -40,6 +45,7 @@ class DisplayRow(TypedDict):
         types: messages it shows, as `sensor_msgs/LaserScan`; none for those without a topic.
         aliases: what other versions of RViz call it.
         streams: it reads the stream `display`.
+        drawn_as: the display whose drawing it takes, usually its own.
     """
 
     name: str
@@ -47,6 +53,7 @@ class DisplayRow(TypedDict):
     types: list[str]
     aliases: list[str]
     streams: bool
+    drawn_as: str
 
 
 def display_row(display: Display) -> DisplayRow:
@@ -57,4 +64,5 @@ def display_row(display: Display) -> DisplayRow:
         "types": list(display.types),
         "aliases": list(display.aliases),
         "streams": display.open is not None,
+        "drawn_as": display.drawn_as or display.name,
     }

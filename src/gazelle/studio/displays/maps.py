@@ -152,7 +152,7 @@ class _Grid:
         return self._site.pose(newest)
 
     def _load(self, sample: Sample) -> None:
-        message: Any = sample.message()
+        message = self._site.message(sample)
         if not hasattr(message, "info"):
             raise StudioError(f"{sample.raw.type_name} is no map")
         width, height = int(message.info.width), int(message.info.height)

@@ -65,7 +65,7 @@ class _Markers:
         with self._lock:
             samples, self._samples = self._samples, []
         for sample in samples:
-            message: Any = sample.message()
+            message = self._site.message(sample)
             if not hasattr(message, "markers") and not hasattr(message, "ns"):
                 raise StudioError(f"{message.TYPE_NAME} is no marker")
             for one in getattr(message, "markers", [message]):
@@ -211,7 +211,7 @@ class _Interactive:
         with self._lock:
             samples, self._samples = self._samples, []
         for sample in samples:
-            message: Any = sample.message()
+            message = self._site.message(sample)
             if not hasattr(message, "markers"):
                 raise StudioError(f"{message.TYPE_NAME} brings no interactive markers")
             self._merge(message)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.studio.displays.showing import Site, headed, open_newest
+from gazelle.studio.displays.showing import Site, open_newest
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.stamps import stamp_s
@@ -18,7 +18,7 @@ def open_plain(site: Site) -> OpenStream:
     """Send each message with the pose of its frame in the fixed one."""
 
     def make(sample: Sample) -> Any:
-        message = headed(sample)
+        message = site.headed(sample)
         # Joint states have no frame; efforts are drawn at the robot's joints.
         framed = bool(message.header.frame_id) or hasattr(message, "pose")
         pose = pose_values(site.pose(message.header)) if framed else None

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gazelle.geometry import Pose
 from gazelle.studio.displays.packing import pack
 from gazelle.studio.displays.point_colours import Colouring, ramp
-from gazelle.studio.displays.showing import Site, headed, open_newest
+from gazelle.studio.displays.showing import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.stamps import stamp_s
@@ -63,7 +63,7 @@ def open_points(site: Site) -> OpenStream:
     budget = budget_of(site)
 
     def make(sample: Sample) -> Frame:
-        message = headed(sample)
+        message = site.headed(sample)
         pose = site.pose(message.header)
         wanted = (colouring.channel,) if colouring.transformer in ("", "Intensity") else ()
         points = points_of(message, budget, wanted, colouring.transformer in ("", "RGB8"))

@@ -1,4 +1,4 @@
-"""All displays, one row each; what draws a row is `DRAWINGS` in ``studio/src/displays``.
+"""Gazelle's own displays, one row each; `DRAWINGS` in ``studio/src/displays`` draws them.
 
 The page's copy of the rows is generated: ``python -m gazelle.studio.typescript``.
 """
@@ -13,7 +13,7 @@ from gazelle.studio.displays.markers import open_interactive, open_markers
 from gazelle.studio.displays.plain import open_plain
 from gazelle.studio.displays.points import open_points
 
-__all__ = ["DISPLAYS", "find_display"]
+__all__ = ["DISPLAYS", "own_display"]
 
 _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 _MARKERS = "Shapes, lines, texts and meshes that programs draw."
@@ -175,6 +175,6 @@ DISPLAYS: dict[str, Display] = {row.name: row for row in _ROWS}
 _BY_ANY_NAME = {name: row for row in _ROWS for name in (row.name, *row.aliases)}
 
 
-def find_display(name: str) -> Display | None:
-    """Return the display that a class means: ``rviz/LaserScan``, or only ``LaserScan``."""
-    return _BY_ANY_NAME.get(name.rpartition("/")[2])
+def own_display(name: str) -> Display | None:
+    """Return the display of a class without its package, by any of its names."""
+    return _BY_ANY_NAME.get(name)

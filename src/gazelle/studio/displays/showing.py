@@ -16,7 +16,7 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Site", "headed", "open_newest", "open_on"]
+__all__ = ["Site", "open_newest", "open_on"]
 
 _RETRY_S = 0.5
 
@@ -32,14 +32,47 @@ class Site:
         leave: ends the interest in frames, with the display.
     """
 
-    def __init__(self, studio: Studio, channel: Channel, params: Params) -> None:
-        """Note the site of a display."""
+    def __init__(
+        self,
+        studio: Studio,
+        channel: Channel,
+        params: Params,
+        convert: Callable[[Any], Any] | None = None,
+    ) -> None:
+        """Note the site of a display; `convert` makes a message into one that it shows."""
         self.studio = studio
         self.channel = channel
         self.params = params
         self.frames = studio.shared(Frames)
         self.leave = self.frames.use() if "fixed_frame" in params else lambda: None
         self._fixed = params.text("fixed_frame", "map")
+        self._convert = convert
+
+    def message(self, sample: Sample) -> Any:
+        """Return what a sample brings for this display.
+
+        Raises:
+            StudioError: it cannot be made into what the display shows.
+        """
+        message = sample.message()
+        if self._convert is None:
+            return message
+        try:
+            return self._convert(message)
+        except Exception as error:
+            text = f"{sample.raw.type_name} cannot be converted: {type(error).__name__}: {error}"
+            raise StudioError(text) from error
+
+    def headed(self, sample: Sample) -> Any:
+        """Return a sample's message, which must have a header.
+
+        Raises:
+            StudioError: it has none, so nobody knows where it is.
+        """
+        message = self.message(sample)
+        if not hasattr(message, "header"):
+            raise StudioError(f"{sample.raw.type_name} has no header, so it has no place")
+        return message
 
     def pose(self, header: Any) -> Pose:
         """Return ``T_fixed_frame`` of a message's header.
@@ -53,18 +86,6 @@ class Site:
             raise StudioError(
                 f"No transform from [{header.frame_id}] to [{self._fixed}]: {error}"
             ) from error
-
-
-def headed(sample: Sample) -> Any:
-    """Return a sample's message, which must have a header.
-
-    Raises:
-        StudioError: it has none, so nobody knows where it is.
-    """
-    message = sample.message()
-    if not hasattr(message, "header"):
-        raise StudioError(f"{sample.raw.type_name} has no header, so it has no place")
-    return message
 
 
 def open_on(site: Site, opener: Callable[[Site], OpenStream]) -> OpenStream:

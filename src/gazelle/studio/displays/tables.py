@@ -1,9 +1,13 @@
-"""The streams that show messages."""
+"""The streams that show messages, and the displays that pip packages add."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from gazelle.studio.displays.cameras import open_image
-from gazelle.studio.displays.registry import DISPLAYS, find_display
+from gazelle.studio.displays.finding import added_displays, find_display, list_added
+from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.displays.showing import Site, open_on
 from gazelle.studio.displays.turtles import open_turtles
 from gazelle.studio.errors import unknown
@@ -11,15 +15,20 @@ from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
-__all__ = ["STREAMS"]
+__all__ = ["METHODS", "STREAMS"]
 
 
 def _open_display(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     name = params.text("display").rpartition("/")[2]
     display = find_display(name)
     if display is None or display.open is None:
-        raise unknown("display", name, (row.name for row in DISPLAYS.values() if row.open))
-    return open_on(Site(studio, channel, params), display.open)
+        added = added_displays()
+        known = (row.name for row in (*DISPLAYS.values(), *added.displays.values()) if row.open)
+        raise unknown("display", name, known, hint=" ".join(added.problems))
+    return open_on(Site(studio, channel, params, display.convert), display.open)
+
+
+METHODS: dict[str, Callable[[Studio, Params], Any]] = {"display.list": list_added}
 
 
 STREAMS: dict[str, StreamKind] = {

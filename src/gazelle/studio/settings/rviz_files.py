@@ -9,6 +9,7 @@ from typing import Any
 
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, read_yaml
+from gazelle.studio.displays.finding import find_display
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
@@ -85,8 +86,10 @@ def _displays(found: Any, group: str = "", *, enabled: bool = True) -> Iterator[
         if short in _GROUPS:
             yield from _displays(item.get("Displays"), f"{name}/", enabled=on)
             continue
-        topic = next((_topic(item[key]) for key in _TOPICS if _topic(item.get(key))), "")
-        skipped = {"Class", "Enabled", "Name", "Value", *_TOPICS}
+        display = find_display(short)
+        topics = (*_TOPICS, *(display.topic_names if display else ()))
+        topic = next((_topic(item[key]) for key in topics if _topic(item.get(key))), "")
+        skipped = {"Class", "Enabled", "Name", "Value", *topics}
         properties = {str(key): _plain(item[key]) for key in item if key not in skipped}
         if short == "RobotModel" and not topic and "Robot Description" in item:
             topic = _absolute(str(item["Robot Description"]))

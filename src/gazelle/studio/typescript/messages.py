@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from gazelle.studio.displays.display import DisplayRow
+from gazelle.studio.displays.finding import AddedDisplays
 
 __all__ = ["MESSAGES"]
 
-MESSAGES: tuple[type, ...] = (DisplayRow,)
+MESSAGES: tuple[type, ...] = (DisplayRow, AddedDisplays)
 """`TypedDict` classes, each before those that it is part of."""
