@@ -44,9 +44,9 @@ from gazelle.description.model import (
 )
 from gazelle.geometry import Pose
 from gazelle.sensors import (
-    NoiseSource,
     RayScene,
     camera_intrinsics,
+    noise_stream,
     point_cloud,
     render,
     scan,
@@ -92,7 +92,7 @@ def _print_scans(scene: RayScene, poses: Poses) -> None:
     spec = LidarSpec(
         samples=360, min_angle_rad=-3.0, max_angle_rad=3.0, range_min_m=0.1, range_max_m=30.0
     )
-    noise = NoiseSource(Noise("gaussian", stddev=0.01), 1, "laser")
+    noise = noise_stream(Noise("gaussian", stddev=0.01), 1, "laser")
     above = Pose((0.0, 0.0, 0.6))
     _measure("scan, 360 rays", lambda: scan(scene, spec, above))
     _measure("scan, 360 rays, noise", lambda: scan(scene, spec, above, noise=noise))

@@ -21,7 +21,7 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.geometry import Pose
-from gazelle.sensors import NoiseSource, camera_intrinsics, render
+from gazelle.sensors import camera_intrinsics, picture_noise, render
 from gazelle.sensors.pixel_kernels import mark_edges
 
 CAMERA = CameraSpec(width_px=160, height_px=120, horizontal_fov_rad=1.05, near_m=0.05, far_m=50.0)
@@ -299,7 +299,7 @@ def test_picture_does_not_depend_on_the_number_of_threads(scene_of, link, antial
             Pose(),
             want_depth=True,
             antialias=antialias,
-            noise=NoiseSource(spec.noise, 1, "camera"),
+            noise=picture_noise(spec.noise, 1, "camera"),
             threads=threads,
         )
         for threads in (1, 2, 3, 1)
@@ -344,7 +344,7 @@ def test_only_tiles_with_steps_of_colour_are_smoothed() -> None:
 
 def test_noise_is_one_sample_per_pixel_of_the_sigma_asked_for(scene_of) -> None:
     spec = replace(CAMERA, noise=Noise("gaussian", stddev=0.02))
-    noisy = render(scene_of(), spec, Pose(), noise=NoiseSource(spec.noise, 1, "camera")).rgb
+    noisy = render(scene_of(), spec, Pose(), noise=picture_noise(spec.noise, 1, "camera")).rgb
     error = noisy.astype(int) - 179
     assert (error == error[:, :, :1]).all()
     assert error.mean() == pytest.approx(0, abs=4 * 5.1 / math.sqrt(160 * 120) + 0.02)

@@ -10,7 +10,7 @@ import pytest
 
 from gazelle.description.model import ImuSpec, Noise
 from gazelle.geometry import Pose
-from gazelle.sensors import ImuNoise, LinkMotion, imu_reading
+from gazelle.sensors import LinkMotion, imu_noise, imu_reading
 
 GRAVITY = (0.0, 0.0, -9.8)
 NOTHING = np.zeros(3)
@@ -71,7 +71,7 @@ def test_orientation_refers_to_custom_rpy_or_to_the_start() -> None:
 def test_each_axis_has_a_noise_of_its_own() -> None:
     quiet, loud = Noise("gaussian", stddev=0.01), Noise("gaussian", stddev=1.0)
     spec = ImuSpec((quiet, quiet, loud), (loud, quiet, quiet))
-    noise = ImuNoise(spec, 3, "robot::imu")
+    noise = imu_noise(spec, 3, "robot::imu")
     records = [imu_reading(AT_REST, spec, GRAVITY, noise=noise, dt_s=0.01) for _ in range(2000)]
     rates = np.array([record.angular_velocity_rad_s for record in records])
     forces = np.array([record.linear_acceleration_m_s2 for record in records])

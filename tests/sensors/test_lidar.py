@@ -22,7 +22,7 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.geometry import Pose
-from gazelle.sensors import NoiseSource, scan, scan_angles, scene_kind
+from gazelle.sensors import noise_stream, scan, scan_angles, scene_kind
 
 MILLIMETRE = 1e-3
 AROUND = LidarSpec(
@@ -190,7 +190,7 @@ def test_noise_has_the_mean_and_sigma_asked_for(scene_of, link) -> None:
     count, sigma = 10_000, 0.01
     spec = replace(AROUND, samples=count, noise=Noise("gaussian", stddev=sigma))
     exact = scan(scene, spec, Pose()).ranges_m
-    noisy = scan(scene, spec, Pose(), noise=NoiseSource(spec.noise, 7, "robot::laser"))
+    noisy = scan(scene, spec, Pose(), noise=noise_stream(spec.noise, 7, "robot::laser"))
     error = noisy.ranges_m.astype(float) - exact
     assert abs(error.mean()) < 4 * sigma / math.sqrt(count)
     assert error.std() == pytest.approx(sigma, rel=0.05)
@@ -198,7 +198,7 @@ def test_noise_has_the_mean_and_sigma_asked_for(scene_of, link) -> None:
 
 def test_noise_keeps_within_the_limits_and_leaves_infinity(scene_of, room) -> None:
     spec = replace(AROUND, range_min_m=2.9, range_max_m=3.5)
-    source = NoiseSource(Noise("gaussian", stddev=0.5), 1, "laser")
+    source = noise_stream(Noise("gaussian", stddev=0.5), 1, "laser")
     exact = scan(scene_of(*room), spec, Pose((0.0, 0.0, 0.5))).ranges_m
     noisy = scan(scene_of(*room), spec, Pose((0.0, 0.0, 0.5)), noise=source).ranges_m
     seen = np.isfinite(exact)
@@ -210,7 +210,7 @@ def test_noise_keeps_within_the_limits_and_leaves_infinity(scene_of, room) -> No
 def test_equal_seeds_give_equal_scans(scene_of, room) -> None:
     scene, noise = scene_of(*room), Noise("gaussian", stddev=0.01)
     first, again, other = (
-        scan(scene, AROUND, Pose((0.0, 0.0, 0.5)), noise=NoiseSource(noise, 3, name)).ranges_m
+        scan(scene, AROUND, Pose((0.0, 0.0, 0.5)), noise=noise_stream(noise, 3, name)).ranges_m
         for name in ("a", "a", "b")
     )
     assert np.array_equal(first, again)

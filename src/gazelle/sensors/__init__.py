@@ -14,6 +14,7 @@ from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.drift_noise import DriftModel, DriftNoise
 from gazelle.sensors.embree import EmbreeError
 from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
+from gazelle.sensors.gaussian_noise import PictureNoise
 from gazelle.sensors.gps import (
     GpsRecord,
     flat_earth_position,
@@ -21,10 +22,10 @@ from gazelle.sensors.gps import (
     gps_reading,
     north_west_up,
 )
-from gazelle.sensors.imu import ImuNoise, ImuRecord, LinkMotion, imu_reading
+from gazelle.sensors.imu import ImuRecord, LinkMotion, imu_noise, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
-from gazelle.sensors.noise import NoiseSource
+from gazelle.sensors.noise import NOISE_MODELS, NoiseModel, NoiseStream, noise_stream, picture_noise
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.sonar import SonarRecord, sonar_range
 from gazelle.sensors.surroundings import (
@@ -44,6 +45,7 @@ from gazelle.sensors.vector_noise import VectorNoise
 from gazelle.sensors.warming import warm_up
 
 __all__ = [
+    "NOISE_MODELS",
     "POINT_DTYPE",
     "AltimeterRecord",
     "CameraRecord",
@@ -53,14 +55,15 @@ __all__ = [
     "EmbreeError",
     "GeodeticPosition",
     "GpsRecord",
-    "ImuNoise",
     "ImuRecord",
     "Intrinsics",
     "JointLoad",
     "LidarRecord",
     "LinkMotion",
     "MagnetometerRecord",
-    "NoiseSource",
+    "NoiseModel",
+    "NoiseStream",
+    "PictureNoise",
     "PressureRecord",
     "RayScene",
     "ScanAngles",
@@ -80,12 +83,15 @@ __all__ = [
     "geodetic_position",
     "gps_noise",
     "gps_reading",
+    "imu_noise",
     "imu_reading",
     "is_distorting",
     "link_wrenches",
     "local_position",
     "magnetic_field",
+    "noise_stream",
     "north_west_up",
+    "picture_noise",
     "point_cloud",
     "render",
     "scan",

@@ -14,8 +14,8 @@ from gazelle.geometry import Pose
 from gazelle.sensors.bands import default_threads, each_band, row_bands
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import packet_buffer
+from gazelle.sensors.gaussian_noise import PictureNoise
 from gazelle.sensors.intrinsics import camera_intrinsics
-from gazelle.sensors.noise import NoiseSource
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
 from gazelle.sensors.shading_tables import (
     ShadingTables,
@@ -55,7 +55,7 @@ def render(
     want_rgb: bool = True,
     want_depth: bool = False,
     antialias: bool = False,
-    noise: NoiseSource | None = None,
+    noise: PictureNoise | None = None,
     threads: int | None = None,
 ) -> CameraRecord:
     """Render what a camera sees; the result does not depend on the number of threads.
@@ -90,8 +90,8 @@ def render(
         exposure.run(default_threads() if threads is None else threads, antialias)
     if rgb is not None and spec.distortion is not None and is_distorting(spec.distortion):
         rgb = distort(rgb, spec.distortion)
-    if rgb is not None and noise is not None and not noise.is_silent:
-        rgb = _noisy(rgb, noise)
+    if rgb is not None and noise is not None:
+        rgb = noise.apply(rgb)
     return CameraRecord(rgb, depth)
 
 
@@ -186,11 +186,3 @@ def _report_lens(scene: RayScene, spec: CameraSpec) -> None:
     degrees = math.degrees(spec.horizontal_fov_rad)
     text = f"camera '{spec.name}' has a wide-angle lens of {degrees:.0f} degrees; it is drawn as a"
     scene.diagnostics.report("sensors.wide-angle-lens", f"{text} pinhole")
-
-
-def _noisy(rgb: NDArray[np.uint8], noise: NoiseSource) -> NDArray[np.uint8]:
-    samples = noise.white32(rgb.shape[:2]) * np.float32(255.0)
-    # Room for the sum without wrapping; a half is added so that truncation rounds.
-    steps = np.floor(samples + np.float32(0.5)).astype(np.int16)
-    noisy: NDArray[np.int16] = rgb.astype(np.int16) + steps[:, :, None]
-    return noisy.clip(0, 255).astype(np.uint8)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-
-from gazelle.sensors.noise import seed_words
 
 __all__ = ["DriftModel", "DriftNoise"]
 
@@ -26,6 +25,8 @@ class DriftModel:
         gaussian_noise: sigma of the white noise.
         scale_error: factor on the true value.
     """
+
+    type: ClassVar[str] = "hector_drift"
 
     offset: tuple[float, ...]
     drift: tuple[float, ...]
@@ -50,15 +51,15 @@ class DriftNoise:
         drift: the present drift, (N,).
     """
 
-    def __init__(self, model: DriftModel, seed: int, name: str) -> None:
-        """Seed from the world's seed and the sensor's scoped name."""
+    is_silent = False
+
+    def __init__(self, model: DriftModel, random: np.random.Generator) -> None:
+        """Draw the first drift."""
         self.model = model
-        self._random = np.random.Generator(
-            np.random.Philox(np.random.SeedSequence(seed_words(seed, name)))
-        )
+        self._random = random
         self.drift: Array = self._random.standard_normal(len(model.drift)) * np.array(model.drift)
 
-    def apply(self, values: Array, dt_s: float) -> Array:
+    def apply(self, values: Array, *, dt_s: float = 0.0) -> Array:
         """Return the (N,) values with error; `dt_s` is the time since the last call."""
         model, count = self.model, len(self.drift)
         frequency = np.array(model.drift_frequency_hz[:count])

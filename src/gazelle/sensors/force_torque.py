@@ -72,5 +72,5 @@ def force_torque_reading(
     sign = 1.0 if spec.measure_direction == "parent_to_child" else -1.0
     values = sign * np.concatenate([load.force_n @ axes, torque @ axes])
     if noise is not None:
-        values = noise.apply(values, dt_s)
+        values = noise.apply(values, dt_s=dt_s)
     return WrenchRecord(values[:3], values[3:])

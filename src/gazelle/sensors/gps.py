@@ -65,7 +65,7 @@ def gps_reading(
     x, y, z = velocity_m_s.tolist()
     values = np.array((*position_m, *enu_vector((x, y, z), origin)))
     if noise is not None:
-        values = noise.apply(values, dt_s)
+        values = noise.apply(values, dt_s=dt_s)
     x, y, z = values[:3].tolist()
     return GpsRecord(geodetic_position((x, y, z), origin), values[3:])
 

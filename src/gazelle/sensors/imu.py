@@ -9,15 +9,16 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
 from gazelle.geometry import IDENTITY_POSE, Pose, cross, quat_xyzw_from_rpy
-from gazelle.sensors.noise import NoiseSource
+from gazelle.sensors.vector_noise import VectorNoise
 
-__all__ = ["ImuNoise", "ImuRecord", "LinkMotion", "imu_reading"]
+__all__ = ["ImuRecord", "LinkMotion", "imu_noise", "imu_reading"]
 
 Vector3 = tuple[float, float, float]
 QuatXyzw = tuple[float, float, float, float]
 
 _ENU: QuatXyzw = (0.0, 0.0, 0.0, 1.0)
 _NED_RPY = (np.pi, 0.0, np.pi / 2)
+_AXES = [f"{part}/{axis}" for part in ("angular_velocity", "linear_acceleration") for axis in "xyz"]
 _NWU_RPY = (0.0, 0.0, np.pi / 2)
 
 
@@ -53,24 +54,10 @@ class ImuRecord:
     linear_acceleration_m_s2: NDArray[np.float64]
 
 
-class ImuNoise:
-    """The six noises of an IMU, each with a stream of its own.
-
-    Attributes:
-        angular_velocity: about x, y, z.
-        linear_acceleration: along x, y, z.
-    """
-
-    def __init__(self, spec: ImuSpec, seed: int, name: str) -> None:
-        """Seed from the world's seed and the sensor's scoped name."""
-        self.angular_velocity = tuple(
-            NoiseSource(noise, seed, f"{name}/angular_velocity/{axis}")
-            for axis, noise in zip("xyz", spec.angular_velocity_noise, strict=True)
-        )
-        self.linear_acceleration = tuple(
-            NoiseSource(noise, seed, f"{name}/linear_acceleration/{axis}")
-            for axis, noise in zip("xyz", spec.linear_acceleration_noise, strict=True)
-        )
+def imu_noise(spec: ImuSpec, seed: int, name: str) -> VectorNoise:
+    """Return the six noises of an IMU: angular velocity, then linear acceleration."""
+    noises = (*spec.angular_velocity_noise, *spec.linear_acceleration_noise)
+    return VectorNoise(noises, seed, name, axes=_AXES)
 
 
 def imu_reading(
@@ -79,7 +66,7 @@ def imu_reading(
     gravity_m_s2: Vector3,
     *,
     T_link_sensor: Pose = IDENTITY_POSE,
-    noise: ImuNoise | None = None,
+    noise: VectorNoise | None = None,
     dt_s: float = 0.0,
     initial_xyzw: QuatXyzw = _ENU,
 ) -> ImuRecord:
@@ -94,7 +81,7 @@ def imu_reading(
         spec: the IMU; says what its orientation refers to.
         gravity_m_s2: the world's.
         T_link_sensor: its frame on the link.
-        noise: None for a clean reading.
+        noise: from `imu_noise`, None for a clean reading.
         dt_s: simulated time since the last reading, for walking biases.
         initial_xyzw: what the orientation refers to when the spec does not say; Gazebo's sensor
             takes its own orientation at the start, gazebo_ros_imu the world (the default).
@@ -111,8 +98,7 @@ def imu_reading(
     rate = to_sensor @ omega
     force = to_sensor @ (acceleration - np.array(gravity_m_s2))
     if noise is not None:
-        rate = _with_noise(rate, noise.angular_velocity, dt_s)
-        force = _with_noise(force, noise.linear_acceleration, dt_s)
+        rate, force = np.split(noise.apply(np.concatenate((rate, force)), dt_s=dt_s), 2)
     reference = Pose(quat_xyzw=_reference(spec, initial_xyzw)).inverse()
     return ImuRecord((reference @ T_world_sensor).quat_xyzw, rate, force)
 
@@ -134,12 +120,3 @@ def _reference(spec: ImuSpec, initial_xyzw: QuatXyzw) -> QuatXyzw:
             return quat_xyzw_from_rpy(spec.custom_rpy_rad)
         case _:
             return initial_xyzw
-
-
-def _with_noise(
-    values: NDArray[np.float64],
-    sources: tuple[NoiseSource, ...],
-    dt_s: float,
-) -> NDArray[np.float64]:
-    pairs = zip(sources, values, strict=True)
-    return np.array([float(source.apply(float(value), dt_s=dt_s)) for source, value in pairs])

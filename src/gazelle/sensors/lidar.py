@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import LidarSpec
 from gazelle.geometry import Pose
 from gazelle.sensors.embree import NOTHING, PACKET, PACKET_BYTES, library, packet_buffer
-from gazelle.sensors.noise import NoiseSource
+from gazelle.sensors.noise import NoiseStream
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
 
 __all__ = ["LidarRecord", "ScanAngles", "cast", "scan", "scan_angles", "scene_kind"]
@@ -86,7 +86,7 @@ def scan(
     spec: LidarSpec,
     T_world_sensor: Pose,
     *,
-    noise: NoiseSource | None = None,
+    noise: NoiseStream | None = None,
 ) -> LidarRecord:
     """Take a scan.
 

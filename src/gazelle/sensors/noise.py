@@ -1,94 +1,78 @@
-"""Noise models of SDF's ``<noise>``, seeded per sensor and independent of threads and order."""
+"""Noise models: one table, from which every sensor and plug-in makes its streams of noise.
+
+A model is a record of parameters with a `type`; the table says what makes a stream of it. A new
+model is a row here, and its word in `gazelle.description.model.NOISE_TYPES` where SDF names it.
+"""
 
 from __future__ import annotations
 
-import hashlib
-import math
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any, NamedTuple, Protocol, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import Noise
+from gazelle.sensors.drift_noise import DriftModel, DriftNoise
+from gazelle.sensors.gaussian_noise import GaussianNoise, NoNoise, PictureNoise
+from gazelle.sensors.seeding import random_stream
 
-__all__ = ["NoiseSource", "seed_words"]
-
-_GAUSSIAN = ("gaussian", "gaussian_quantized")
-_SMALLEST_PRECISION = 1e-6
-
-
-def seed_words(seed: int, name: str) -> list[int]:
-    """Return the words that seed a sensor's generator: the same in every process and version.
-
-    Args:
-        seed: of the world.
-        name: scoped name of the sensor, and of the axis where it has several noises.
-    """
-    digest = hashlib.blake2b(f"{seed}\0{name}".encode(), digest_size=32).digest()
-    return [int(word) for word in np.frombuffer(digest, "<u4")]
+__all__ = ["NOISE_MODELS", "NoiseModel", "NoiseStream", "noise_stream", "picture_noise"]
 
 
-class NoiseSource:
-    """One stream of noise: ``output = input + bias + N(mean, stddev)``.
-
-    The bias is drawn once from N(bias_mean, bias_stddev) and, half of the time, its sign is
-    changed (Gazebo Classic's GaussianNoiseModel). With a dynamic bias it walks as a first-order
-    Gauss–Markov process (gz-sensors): over dt it decays by ``exp(-dt/τ)`` and gains
-    ``N(0, sqrt(σ_b² τ/2 (1 − exp(−2 dt/τ))))``. ``gaussian_quantized`` rounds the result to
-    multiples of the precision, half away from zero.
-
-    Attributes:
-        noise: the model.
-        bias: its present bias.
-    """
-
-    def __init__(self, noise: Noise, seed: int, name: str) -> None:
-        """Seed from the world's seed and the sensor's scoped name."""
-        self.noise = noise
-        self._random = np.random.Generator(
-            np.random.Philox(np.random.SeedSequence(seed_words(seed, name)))
-        )
-        bias = self._random.normal(noise.bias_mean, noise.bias_stddev)
-        self.bias = -bias if self._random.random() < 0.5 else bias
+class NoiseStream(Protocol):
+    """Turns true values into measured ones, call by call."""
 
     @property
     def is_silent(self) -> bool:
-        """Whether `apply` returns its input: the type is no Gaussian one."""
-        return self.noise.type not in _GAUSSIAN
+        """Whether `apply` returns its input, so that a sensor need not ask."""
 
-    def apply(
-        self, values: NDArray[np.floating] | float, *, dt_s: float = 0.0
-    ) -> NDArray[np.float64]:
-        """Return the values with noise.
+    def apply(self, values: Any, *, dt_s: float = 0.0) -> NDArray[np.float64]:
+        """Return values with noise; `dt_s` is the simulated time since the last call."""
 
-        Args:
-            values: true values, any shape.
-            dt_s: simulated time since the last call, for the dynamic bias.
-        """
-        clean = np.asarray(values, np.float64)
-        if self.is_silent:
-            return clean
-        self._walk(dt_s)
-        noisy = clean + self.bias + self.white(clean.shape)
-        precision = self.noise.precision
-        if self.noise.type == "gaussian_quantized" and precision > _SMALLEST_PRECISION:
-            noisy = np.copysign(np.floor(np.abs(noisy) / precision + 0.5) * precision, noisy)
-        return noisy
 
-    def white(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
-        """Return samples of N(mean, stddev) without bias."""
-        return self.noise.mean + self.noise.stddev * self._random.standard_normal(shape)
+class NoiseModel(NamedTuple):
+    """A row of the table.
 
-    def white32(self, shape: tuple[int, ...]) -> NDArray[np.float32]:
-        """Return samples of N(mean, stddev) without bias, float32 (for images)."""
-        samples = self._random.standard_normal(shape, dtype=np.float32)
-        samples *= np.float32(self.noise.stddev)
-        samples += np.float32(self.noise.mean)
-        return samples
+    Attributes:
+        type: word of SDF's ``<noise type="…">``, or of a plug-in's own error model.
+        stream: makes a stream of the parameters and of random numbers.
+        picture: likewise for cameras, None where pictures have no such noise.
+    """
 
-    def _walk(self, dt_s: float) -> None:
-        sigma = self.noise.dynamic_bias_stddev
-        tau = self.noise.dynamic_bias_correlation_time_s
-        if sigma <= 0 or tau <= 0 or dt_s <= 0:
-            return
-        spread = math.sqrt(-sigma * sigma * tau / 2 * math.expm1(-2 * dt_s / tau))
-        self.bias = math.exp(-dt_s / tau) * self.bias + self._random.normal(0.0, spread)
+    type: str
+    stream: Callable[[Any, np.random.Generator], NoiseStream]
+    picture: Callable[[Any, np.random.Generator], PictureNoise] | None = None
+
+
+NOISE_MODELS: Mapping[str, NoiseModel] = {
+    row.type: row
+    for row in (
+        NoiseModel("none", NoNoise),
+        NoiseModel("gaussian", GaussianNoise, PictureNoise),
+        NoiseModel("gaussian_quantized", partial(GaussianNoise, quantised=True), PictureNoise),
+        NoiseModel("hector_drift", DriftNoise),
+    )
+}
+
+
+@overload
+def noise_stream(model: Noise, seed: int, name: str) -> NoiseStream: ...
+@overload
+def noise_stream(model: DriftModel, seed: int, name: str) -> DriftNoise: ...
+def noise_stream(model: Noise | DriftModel, seed: int, name: str) -> NoiseStream:
+    """Return a stream of noise.
+
+    Args:
+        model: its parameters.
+        seed: of the world.
+        name: see `random_stream`.
+    """
+    return NOISE_MODELS[model.type].stream(model, random_stream(seed, name))
+
+
+def picture_noise(noise: Noise, seed: int, name: str) -> PictureNoise | None:
+    """Return a camera's noise, None where its model leaves pictures as they are."""
+    make = NOISE_MODELS[noise.type].picture
+    return None if make is None else make(noise, random_stream(seed, name))

@@ -8,24 +8,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import Noise
-from gazelle.sensors.noise import NoiseSource
+from gazelle.sensors.noise import noise_stream
 
 __all__ = ["VectorNoise"]
 
 
 class VectorNoise:
-    """As many independent noises as a sensor has axes."""
+    """As many independent noises as a sensor has axes.
 
-    def __init__(self, noises: Sequence[Noise], seed: int, name: str) -> None:
-        """Seed from the world's seed, the sensor's scoped name and the number of the axis."""
-        self._sources = tuple(
-            NoiseSource(noise, seed, f"{name}/{place}") for place, noise in enumerate(noises)
+    Attributes:
+        is_silent: whether all of them are.
+    """
+
+    def __init__(
+        self, noises: Sequence[Noise], seed: int, name: str, *, axes: Sequence[str] = ()
+    ) -> None:
+        """Begin a stream for each axis.
+
+        Args:
+            noises: of the axes.
+            seed: of the world.
+            name: scoped name of the sensor.
+            axes: their names, which their streams depend on; 0, 1 … when there are none.
+        """
+        parts = axes or [str(place) for place in range(len(noises))]
+        self._streams = tuple(
+            noise_stream(noise, seed, f"{name}/{part}")
+            for noise, part in zip(noises, parts, strict=True)
         )
-        self._is_silent = all(source.is_silent for source in self._sources)
+        self.is_silent = all(stream.is_silent for stream in self._streams)
 
-    def apply(self, values: NDArray[np.float64], dt_s: float) -> NDArray[np.float64]:
+    def apply(self, values: NDArray[np.float64], *, dt_s: float = 0.0) -> NDArray[np.float64]:
         """Return the (N,) values with noise; `dt_s` is the time since the last call."""
-        if self._is_silent:
+        if self.is_silent:
             return values
-        pairs = zip(self._sources, values, strict=True)
-        return np.array([float(source.apply(float(value), dt_s=dt_s)) for source, value in pairs])
+        pairs = zip(self._streams, values, strict=True)
+        return np.array([float(stream.apply(float(value), dt_s=dt_s)) for stream, value in pairs])

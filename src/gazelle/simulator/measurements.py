@@ -130,7 +130,7 @@ class Measurements:
         assert isinstance(spec, MagnetometerSpec)
         field = magnetic_field(self._engine.world.magnetic_field_t, self._pose(place))
         noise = self._noise(place.name, spec.noise)
-        return MagnetometerRecord(noise.apply(field, self._elapsed_s(place.name)))
+        return MagnetometerRecord(noise.apply(field, dt_s=self._elapsed_s(place.name)))
 
     def altimeter(self, place: SensorPlace) -> AltimeterRecord:
         """Return how far an ``altimeter`` has risen since its model was put into the world."""
@@ -143,7 +143,7 @@ class Measurements:
         start = self._start(place)
         values = np.array([altitude_change_m(pose, start), _point_velocity(link, pose)[2]])
         noise = self._noise(place.name, (spec.position_noise, spec.velocity_noise))
-        height, speed = noise.apply(values, self._elapsed_s(place.name)).tolist()
+        height, speed = noise.apply(values, dt_s=self._elapsed_s(place.name)).tolist()
         return AltimeterRecord(height, speed, start.position_m[2])
 
     def pressure(self, place: SensorPlace) -> PressureRecord:
@@ -154,7 +154,9 @@ class Measurements:
         assert isinstance(spec, PressureSpec)
         height_m = spec.reference_altitude_m + self._pose(place).position_m[2]
         noise = self._noise(place.name, (spec.noise,))
-        values = noise.apply(np.array([air_pressure_pa(height_m)]), self._elapsed_s(place.name))
+        values = noise.apply(
+            np.array([air_pressure_pa(height_m)]), dt_s=self._elapsed_s(place.name)
+        )
         return PressureRecord(float(values[0]))
 
     def _pose(self, place: SensorPlace) -> Pose:

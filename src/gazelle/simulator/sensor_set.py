@@ -13,6 +13,7 @@ from gazelle.description.model import (
     LidarSpec,
     Light,
     Model,
+    Noise,
     SonarSpec,
     World,
 )
@@ -24,12 +25,13 @@ if TYPE_CHECKING:
     from gazelle.engine import Engine, Snapshot
     from gazelle.sensors import (
         CameraRecord,
-        ImuNoise,
         ImuRecord,
         LidarRecord,
-        NoiseSource,
+        NoiseStream,
+        PictureNoise,
         RayScene,
         SonarRecord,
+        VectorNoise,
     )
 
 __all__ = ["SensorSet", "View", "camera_members", "sensor_places"]
@@ -39,7 +41,7 @@ __all__ = ["SensorSet", "View", "camera_members", "sensor_places"]
 class _ImuState:
     """What an IMU carries from one reading to the next."""
 
-    noise: ImuNoise
+    noise: VectorNoise
     initial_xyzw: tuple[float, float, float, float]
     last_ns: int
 
@@ -109,7 +111,8 @@ class SensorSet:
         self._engine = engine
         self._seed = seed
         self._scenes: dict[str, tuple[RayScene, World]] = {}
-        self._noises: dict[str, NoiseSource] = {}
+        self._noises: dict[tuple[str, Noise], NoiseStream] = {}
+        self._picture_noises: dict[tuple[str, Noise], PictureNoise | None] = {}
         self._imus: dict[str, _ImuState] = {}
         self._lights: tuple[Light, ...] | None = None
         self._lit: tuple[World, World] | None = None
@@ -136,6 +139,7 @@ class SensorSet:
     def restart(self) -> None:
         """Start all noise over, as after a reset."""
         self._noises.clear()
+        self._picture_noises.clear()
         self._imus.clear()
         self.measurements.restart()
 
@@ -188,7 +192,7 @@ class SensorSet:
                 pose,
                 want_rgb=want_rgb,
                 want_depth=want_depth,
-                noise=self._noise(place, spec),
+                noise=self._picture_noise(place, spec),
             )
 
     def read(self, place: SensorPlace) -> Any:
@@ -229,7 +233,7 @@ class SensorSet:
         With `relative` its orientation refers to the one it had at the first reading, unless the
         spec names a frame; else to the world.
         """
-        from gazelle.sensors import ImuNoise, LinkMotion, imu_reading
+        from gazelle.sensors import LinkMotion, imu_noise, imu_reading
 
         link = self._engine.link(link_name)
         linear, angular = link.acceleration_world()
@@ -239,7 +243,7 @@ class SensorSet:
         state = self._imus.get(name)
         if state is None:
             initial = (T_world_link @ T_link_sensor).quat_xyzw
-            state = self._imus[name] = _ImuState(ImuNoise(spec, self._seed, name), initial, now_ns)
+            state = self._imus[name] = _ImuState(imu_noise(spec, self._seed, name), initial, now_ns)
         dt_s = (now_ns - state.last_ns) * 1e-9
         state.last_ns = now_ns
         self.computed += 1
@@ -275,11 +279,18 @@ class SensorSet:
         scene.update(view.snapshot)
         return scene
 
-    def _noise(self, place: SensorPlace, spec: LidarSpec | CameraSpec) -> NoiseSource | None:
-        from gazelle.sensors import NoiseSource
+    def _noise(self, place: SensorPlace, spec: LidarSpec) -> NoiseStream:
+        from gazelle.sensors import noise_stream
 
-        if spec.noise.type == "none":
-            return None
-        if place.name not in self._noises:
-            self._noises[place.name] = NoiseSource(spec.noise, self._seed, place.name)
-        return self._noises[place.name]
+        key = (place.name, spec.noise)
+        if key not in self._noises:
+            self._noises[key] = noise_stream(spec.noise, self._seed, place.name)
+        return self._noises[key]
+
+    def _picture_noise(self, place: SensorPlace, spec: CameraSpec) -> PictureNoise | None:
+        from gazelle.sensors import picture_noise
+
+        key = (place.name, spec.noise)
+        if key not in self._picture_noises:
+            self._picture_noises[key] = picture_noise(spec.noise, self._seed, place.name)
+        return self._picture_noises[key]

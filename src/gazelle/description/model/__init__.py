@@ -26,6 +26,8 @@ from gazelle.description.model.plugin import (
     TransmissionTag,
 )
 from gazelle.description.model.sensor import (
+    NO_NOISE,
+    NOISE_TYPES,
     AltimeterSpec,
     CameraSpec,
     ContactSpec,
@@ -69,6 +71,8 @@ from gazelle.description.model.world import (
 )
 
 __all__ = [
+    "NOISE_TYPES",
+    "NO_NOISE",
     "ActuatorTag",
     "AltimeterSpec",
     "Box",

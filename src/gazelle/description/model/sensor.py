@@ -9,6 +9,7 @@ from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = [
+    "NOISE_TYPES",
     "NO_NOISE",
     "AltimeterSpec",
     "CameraSpec",
@@ -33,7 +34,7 @@ NO_NOISE_TYPE = "none"
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """SDF ``<noise>``: `type` is ``none``, ``gaussian`` or ``gaussian_quantized``."""
+    """SDF ``<noise>``: `type` is one of `NOISE_TYPES`."""
 
     type: str = NO_NOISE_TYPE
     mean: float = 0.0
@@ -46,6 +47,8 @@ class Noise:
     span: SourceSpan | None = None
 
 
+# Each is a row of `gazelle.sensors.NOISE_MODELS` too.
+NOISE_TYPES = (NO_NOISE_TYPE, "gaussian", "gaussian_quantized")
 NO_NOISE = Noise()
 Noise3 = tuple[Noise, Noise, Noise]
 _NO_NOISE3: Noise3 = (NO_NOISE, NO_NOISE, NO_NOISE)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Noise
+from gazelle.description.model import NOISE_TYPES, Noise
 from gazelle.description.sdf.values import child_float
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
@@ -11,7 +11,6 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["read_axis_noises", "read_noise", "read_noise_of"]
 
 Noise3 = tuple[Noise, Noise, Noise]
-_TYPES = ("none", "gaussian", "gaussian_quantized")
 _AXES = ("x", "y", "z")
 
 
@@ -23,9 +22,9 @@ def read_noise(tag: Tag | None, context: ReadContext) -> Noise:
     if tag is None:
         return Noise()
     kind = (tag.attributes.get("type") or tag.text_of("type", default="none")).strip()
-    if kind not in _TYPES:
+    if kind not in NOISE_TYPES:
         message = f"noise type '{kind}' is not known; there is no noise here"
-        fix = did_you_mean(kind, _TYPES) or "write one of: " + ", ".join(_TYPES)
+        fix = did_you_mean(kind, NOISE_TYPES) or "write one of: " + ", ".join(NOISE_TYPES)
         context.diagnostics.report("sdf.bad-value", message, tag.span, fix=fix)
         return Noise(span=tag.span)
     return Noise(

@@ -100,13 +100,13 @@ class ErrorSource:
         """
         dt_s = (self._engine.time_ns - self._last_ns) * 1e-9
         self._last_ns = self._engine.time_ns
-        noisy = self._noise.apply(values, dt_s)
+        noisy = self._noise.apply(values, dt_s=dt_s)
         if velocity_error is not None:
             self._noise.drift = self._noise.drift + dt_s * velocity_error
         return noisy
 
     def _restart(self) -> None:
-        from gazelle.sensors import DriftNoise
+        from gazelle.sensors import noise_stream
 
-        self._noise = DriftNoise(self._model, self._seed, self._name)
+        self._noise = noise_stream(self._model, self._seed, self._name)
         self._last_ns = self._engine.time_ns

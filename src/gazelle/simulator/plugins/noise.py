@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description.model import NO_NOISE, Noise
 from gazelle.simulator.plugins.context import PluginContext
 
 __all__ = ["gaussian"]
@@ -18,15 +18,14 @@ def gaussian(context: PluginContext, sigma: float) -> Callable[[int], NDArray[np
 
     A reset of the world starts it over, so that two runs are alike.
     """
-    name = f"{context.model.name}::{context.plugin.name}"
-    seed = (context.host.seed, zlib.crc32(name.encode()))
-    generators = [np.random.default_rng(seed)]
+    from gazelle.sensors import noise_stream
+
+    noise = Noise("gaussian", stddev=sigma) if sigma > 0 else NO_NOISE
+    words = (context.host.seed, f"{context.model.name}::{context.plugin.name}")
+    streams = [noise_stream(noise, *words)]
 
     def restart() -> None:
-        generators[0] = np.random.default_rng(seed)
-
-    def draw(count: int) -> NDArray[np.float64]:
-        return generators[0].normal(0.0, sigma, count) if sigma > 0 else np.zeros(count)
+        streams[0] = noise_stream(noise, *words)
 
     context.resources.on_reset(restart)
-    return draw
+    return lambda count: streams[0].apply(np.zeros(count))
