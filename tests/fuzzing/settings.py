@@ -16,7 +16,7 @@ from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config
 from gazelle.description.moveit.places import read_yaml
-from gazelle.description.moveit.settings import Settings as MoveItSettings
+from gazelle.description.moveit.settings import ParameterReader as MoveItSettings
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import follow
@@ -40,13 +40,14 @@ from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.tables import controller_table, planner_table
 from gazelle.nodes.nav2.trees.loading import read_trees
 from gazelle.nodes.navigation.assembling import assemble
-from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.reading import node_reader
 from gazelle.nodes.ros_gz.rows import read_file
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import read_configuration
 from gazelle.nodes.slam.options import options_of
 from gazelle.nodes.teleop.joystick import read_driving
 from gazelle.nodes.twist_mux.inputs import read_inputs
+from gazelle.parameters.trees import nested
 from gazelle.studio.params import Params
 from gazelle.studio.plugins.rqt.forms import form_layout, form_widgets
 from gazelle.studio.settings.perspectives import open_perspective
@@ -93,10 +94,10 @@ def _move_base(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> N
         assemble(_group(tree, name), f"/move_base/{name}", diagnostics, above=tree)
     for plugin in ("dwa_local_planner/DWAPlannerROS", "base_local_planner/TrajectoryPlannerROS"):
         own = _group(tree, plugin.rpartition("/")[2])
-        Settings(controller_table(plugin), own, plugin, diagnostics).fill(
+        node_reader(controller_table(plugin), own, plugin, diagnostics).fill(
             CONTROLLERS[plugin].options
         )
-    Settings(amcl_table(1), _group(tree, "amcl"), "/amcl", diagnostics).fill(AmclOptions)
+    node_reader(amcl_table(1), _group(tree, "amcl"), "/amcl", diagnostics).fill(AmclOptions)
 
 
 def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
@@ -111,22 +112,22 @@ def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
         for name, below in _group(tree, server, "ros__parameters").items():
             plugin = str(below.get("plugin")) if isinstance(below, dict) else ""
             if plugin in plugins:
-                settings = Settings(table(plugin), below, name, diagnostics)
+                settings = node_reader(table(plugin), below, name, diagnostics)
                 settings.fill(cast(Any, plugins)[plugin].options)
                 settings.report_unknown("plugin")
     monitor = _group(tree, "collision_monitor", "ros__parameters")
-    settings = Settings(COLLISION_MONITOR, monitor, "/collision_monitor", diagnostics)
+    settings = node_reader(COLLISION_MONITOR, monitor, "/collision_monitor", diagnostics)
     read_zones(settings)
     read_sources(settings)
     report_others(settings)
     own = _group(tree, "amcl", "ros__parameters")
-    Settings(amcl_table(2), own, "/amcl", diagnostics).fill(AmclOptions)
+    node_reader(amcl_table(2), own, "/amcl", diagnostics).fill(AmclOptions)
 
 
 def _slam(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     tree = _tree(path)
     for name, flavour in FLAVOURS.items():
-        settings = Settings(flavour.table, tree, name, diagnostics)
+        settings = node_reader(flavour.table, tree, name, diagnostics)
         options_of(flavour, settings)
         settings.report_unknown()
 

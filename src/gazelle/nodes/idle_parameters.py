@@ -27,10 +27,10 @@ from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.navigation.assembling import costmap_table, layer_table
-from gazelle.nodes.navigation.settings import nested
-from gazelle.nodes.navigation.table import Table
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.trees import nested
 
 __all__ = ["IdleParameter", "idle_parameters", "node_of_name"]
 
@@ -66,7 +66,7 @@ def idle_parameters(
     """
     tree = nested(values)
     if node in _EKF:
-        table: Table | None = ekf_table(tree)
+        table: ParameterTable | None = ekf_table(tree)
     else:
         table = costmap_table(generation) if node == "costmap" else _tables(generation).get(node)
     return () if table is None else tuple(_walk(table, tree, "", generation))
@@ -83,7 +83,7 @@ def node_of_name(name: str) -> str:
 
 
 def _walk(
-    table: Table, tree: Mapping[str, Any], prefix: str, generation: Generation
+    table: ParameterTable, tree: Mapping[str, Any], prefix: str, generation: Generation
 ) -> Iterator[IdleParameter]:
     kinds = _kinds(tree)
     for key, value in tree.items():
@@ -100,7 +100,7 @@ def _walk(
 
 def _below(
     key: str, value: Mapping[str, Any], kinds: Mapping[str, str], generation: Generation
-) -> Table | None:
+) -> ParameterTable | None:
     if key in _COSTMAPS:
         return costmap_table(generation)
     return _plugins(generation).get(_plain(str(value.get("plugin", kinds.get(key, "")))))
@@ -123,7 +123,7 @@ def _plain(plugin: str) -> str:
 
 
 @cache
-def _tables(generation: Generation) -> dict[str, Table]:
+def _tables(generation: Generation) -> dict[str, ParameterTable]:
     """Return the tables of nodes by ``package/type``."""
     slam = [flavour.table for flavour in FLAVOURS.values()]
     if generation == 1:
@@ -138,7 +138,7 @@ def _tables(generation: Generation) -> dict[str, Table]:
 
 
 @cache
-def _plugins(generation: Generation) -> dict[str, Table]:
+def _plugins(generation: Generation) -> dict[str, ParameterTable]:
     """Return the tables of plug-ins by their types."""
     tables = [layer_table(options, generation) for options in _LAYERS]
     if generation == 1:

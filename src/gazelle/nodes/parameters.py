@@ -13,8 +13,8 @@ from gazelle.graph.console import level_of
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
-from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.ros2_console import print_ros2
+from gazelle.parameters.trees import nested
 
 __all__ = [
     "node_parameters",

@@ -259,10 +259,16 @@ class ParameterReader:
             key: its name.
             default: takes the place of the table's, unless None.
             otherwise: what it is where the table has none.
+
+        Raises:
+            KeyError: the table has no such parameter: whoever reads it made a mistake.
         """
         if default is not None:
             return default
         row = self.table.row_for(key)
+        # The table of a user's own class is empty: what there is, it alone knows.
+        if row is None and self.table.rows:
+            raise KeyError(f"{self.table.family} has no parameter {key}")
         found = None if row is None else row.default_in(self.generation)
         return otherwise if found is None else found
 

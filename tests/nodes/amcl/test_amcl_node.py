@@ -17,7 +17,7 @@ from gazelle.navigation.localisation import AmclOptions
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.tables import amcl_table
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
 
 _TRUE = (1.2, 2.0, 0.4)
 _ELSEWHERE = (2.6, 0.9, -1.2)
@@ -248,7 +248,7 @@ def test_wrong_parameters_are_told_all_at_once() -> None:
     tree = {"laser_model_type": "likelyhood_field", "odom_model_type": "diferential",
             "min_particles": 900, "max_particles": 100, "update_mind": 0.1,
             "gui_publish_rate": 10}  # fmt: skip
-    settings = Settings(amcl_table(1), tree, "/amcl", found)
+    settings = node_reader(amcl_table(1), tree, "/amcl", found)
     settings.report_unknown()
     options = _checked(settings, settings.fill(AmclOptions), 1)
     assert (options.laser_model_type, options.odom_model_type) == ("likelihood_field", "diff")
@@ -263,7 +263,7 @@ def test_wrong_parameters_are_told_all_at_once() -> None:
 
 def test_nav2s_names_and_defaults_are_known() -> None:
     found = Diagnostics()
-    settings = Settings(amcl_table(2), {"alpha1": 0.5, "max_beams": 20}, "/amcl", found)
+    settings = node_reader(amcl_table(2), {"alpha1": 0.5, "max_beams": 20}, "/amcl", found)
     options = settings.fill(AmclOptions)
     assert (options.odom_alpha1, options.laser_max_beams) == (0.5, 20)
     assert (options.max_particles, options.laser_z_hit) == (2000, 0.5)

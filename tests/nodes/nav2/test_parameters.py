@@ -14,8 +14,10 @@ from gazelle.nodes.nav2 import tables
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.navigation.assembling import assemble
-from gazelle.nodes.navigation.settings import Settings, nested
-from gazelle.nodes.navigation.table import Table
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 from gazelle.workspace.ament_index import get_package_share_directory
 
 _FILE = Path(get_package_share_directory("nav2_bringup")) / "params" / "nav2_params.yaml"
@@ -28,7 +30,7 @@ _SERVERS = {
     "waypoint_follower": tables.WAYPOINT_FOLLOWER,
     "velocity_smoother": tables.VELOCITY_SMOOTHER,
 }
-_PLUGINS: dict[str, Callable[[str], Table]] = {
+_PLUGINS: dict[str, Callable[[str], ParameterTable]] = {
     "planner_plugins": tables.planner_table,
     "controller_plugins": tables.controller_table,
     "goal_checker_plugins": tables.GOAL_CHECKERS.__getitem__,
@@ -42,7 +44,7 @@ def _values(name: str) -> dict[str, Any]:
     return nested(section["ros__parameters"])
 
 
-def _check(settings: Settings) -> None:
+def _check(settings: ParameterReader) -> None:
     """Read all of a server's parameters, and those of its plug-ins by their own tables."""
     below: list[str] = []
     for key, table in _PLUGINS.items():
@@ -60,7 +62,7 @@ def _check(settings: Settings) -> None:
 @pytest.mark.parametrize("name", sorted(_SERVERS))
 def test_the_default_file_has_only_what_a_server_knows(name: str) -> None:
     diagnostics = Diagnostics()
-    _check(Settings(_SERVERS[name], _values(name), name, diagnostics))
+    _check(node_reader(_SERVERS[name], _values(name), name, diagnostics))
     assert [str(item) for item in diagnostics] == []
 
 
@@ -76,7 +78,7 @@ def test_the_default_file_has_only_what_a_costmap_knows(name: str) -> None:
 
 def test_the_default_file_has_only_what_collision_monitor_knows() -> None:
     diagnostics = Diagnostics()
-    settings = Settings(COLLISION_MONITOR, _values("collision_monitor"), "c", diagnostics)
+    settings = node_reader(COLLISION_MONITOR, _values("collision_monitor"), "c", diagnostics)
     assert len(read_zones(settings)) == len(read_sources(settings)) == 1
     report_others(settings)
     assert [str(item) for item in diagnostics] == []
@@ -85,6 +87,6 @@ def test_the_default_file_has_only_what_collision_monitor_knows() -> None:
 def test_zones_that_polygons_do_not_name_are_told_once() -> None:
     diagnostics = Diagnostics()
     tree = {"polygons": [], "limit": {"type": "circle", "radius": 1.0, "action_type": "limit"}}
-    report_others(Settings(COLLISION_MONITOR, tree, "/collision_monitor", diagnostics))
+    report_others(node_reader(COLLISION_MONITOR, tree, "/collision_monitor", diagnostics))
     (found,) = diagnostics
     assert "'limit' has parameters and is not one of polygons" in str(found)

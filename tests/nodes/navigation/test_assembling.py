@@ -150,7 +150,7 @@ def test_layers_that_plugins_do_not_name_are_told_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("size", "cells"), [({"width": "inf"}, "inf"), ({"width": 1e6, "height": 1e6}, "4e+14")]
+    ("size", "cells"), [({"width": float("inf")}, "inf"), ({"width": 1e6, "height": 1e6}, "4e+14")]
 )
 def test_a_costmap_of_more_cells_than_can_be_held_has_the_usual_size(
     size: dict[str, Any], cells: str

@@ -13,10 +13,11 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
-from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.reading import node_reader
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import SlamOptions, options_of
+from gazelle.parameters.trees import nested
 
 POSES = [(0.1 * k - 1, 0.05 * k - 0.5, 0.05 * k) for k in range(20)]
 STEP_NS = 50_000_000
@@ -25,7 +26,7 @@ STEP_NS = 50_000_000
 def told(family: str, values: Mapping[str, Any]) -> SlamOptions:
     """Options of a flavour with some parameters set; none of them may be complained of."""
     found = Diagnostics()
-    settings = Settings(FLAVOURS[family].table, nested(values), "/slam", found)
+    settings = node_reader(FLAVOURS[family].table, nested(values), "/slam", found)
     options = options_of(FLAVOURS[family], settings)
     settings.report_unknown()
     assert not list(found)

@@ -14,11 +14,12 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.slam import SlamParameters, save_graph
-from gazelle.nodes.navigation.settings import Settings, nested
+from gazelle.nodes.reading import node_reader
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.options import SlamOptions
 from gazelle.nodes.slam.page import page
+from gazelle.parameters.trees import nested
 
 ROOT = Path(__file__).parents[3]
 
@@ -84,7 +85,7 @@ def test_a_parameter_arrives_under_its_name(family: str, key: str) -> None:
 @pytest.mark.parametrize(("family", "row"), IDLE, ids=lambda one: getattr(one, "key", one))
 def test_a_parameter_without_effect_is_refused_with_its_reason(family: str, row: Any) -> None:
     found = Diagnostics()
-    settings = Settings(FLAVOURS[family].table, nested({row.key: 1}), "/slam", found)
+    settings = node_reader(FLAVOURS[family].table, nested({row.key: 1}), "/slam", found)
     settings.report_unknown()
     assert [row.meaning in str(one) and row.key in str(one) for one in found] == [True]
 
@@ -299,7 +300,7 @@ def test_cartographers_file_is_read_and_what_has_no_effect_is_told(tmp_path: Pat
     words = ("-configuration_directory", str(tmp_path), "-configuration_basename", "robot.lua")
     given = read_configuration(flags_of(words))
     found = Diagnostics()
-    settings = Settings(FLAVOURS["cartographer"].table, nested(given), "/cartographer", found)
+    settings = node_reader(FLAVOURS["cartographer"].table, nested(given), "/cartographer", found)
     settings.report_unknown()
     assert given["tracking_frame"] == "imu_link"
     assert given["max_range"] == 3.5

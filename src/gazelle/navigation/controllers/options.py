@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.navigation.options import flag, integer, number, text, texts
+from gazelle.parameters.options import flag, integer, number, text, texts
 
 __all__ = ["DwaOptions", "DwbOptions", "TrajectoryPlannerOptions"]
 
@@ -20,14 +20,14 @@ _TURN = "turn between points of a trajectory that are checked"
 class DwaOptions:
     """``dwa_local_planner/DWAPlannerROS`` (ROS 1)."""
 
-    max_vel_trans: float = number(0.55, "highest speed", "m/s", 0, names=("max_trans_vel",))
-    min_vel_trans: float = number(0.1, "lowest speed", "m/s", names=("min_trans_vel",))
+    max_vel_trans: float = number(0.55, "highest speed", "m/s", 0, aliases=("max_trans_vel",))
+    min_vel_trans: float = number(0.1, "lowest speed", "m/s", aliases=("min_trans_vel",))
     max_vel_x: float = number(0.55, "highest velocity along x", "m/s")
     min_vel_x: float = number(0.0, "lowest velocity along x, negative for backwards", "m/s")
     max_vel_y: float = number(0.1, "highest velocity along y", "m/s")
     min_vel_y: float = number(-0.1, "lowest velocity along y", "m/s")
-    max_vel_theta: float = number(1.0, "fastest turn", "rad/s", 0, names=("max_rot_vel",))
-    min_vel_theta: float = number(0.4, "slowest turn", "rad/s", names=("min_rot_vel",))
+    max_vel_theta: float = number(1.0, "fastest turn", "rad/s", 0, aliases=("max_rot_vel",))
+    min_vel_theta: float = number(0.4, "slowest turn", "rad/s", aliases=("min_rot_vel",))
     acc_lim_x: float = number(2.5, "acceleration along x", "m/s²", 0)
     acc_lim_y: float = number(2.5, "acceleration along y", "m/s²", 0)
     acc_lim_theta: float = number(3.2, "angular acceleration", "rad/s²", 0)
@@ -35,7 +35,7 @@ class DwaOptions:
     yaw_goal_tolerance: float = number(0.1, "how well the direction has to fit", "rad", 0)
     trans_stopped_vel: float = number(0.1, "below it the robot stands", "m/s", 0)
     theta_stopped_vel: float = number(0.1, "below it the robot does not turn", "rad/s", 0,
-                                      names=("rot_stopped_vel",))  # fmt: skip
+                                      aliases=("rot_stopped_vel",))  # fmt: skip
     latch_xy_goal_tolerance: bool = flag(False, "once in the goal the robot only turns")
     prune_plan: bool = flag(False, "what was passed by a metre is forgotten")
     sim_time: float = number(1.7, _TRAJECTORY, "s", 0.01)
@@ -82,15 +82,15 @@ class TrajectoryPlannerOptions:
     max_vel_x: float = number(0.55, "highest velocity along x", "m/s", 0)
     min_vel_x: float = number(0.0, "lowest velocity along x", "m/s")
     max_vel_theta: float = number(1.0, "fastest turn", "rad/s", 0,
-                                  names=("max_rotational_vel",))  # fmt: skip
+                                  aliases=("max_rotational_vel",))  # fmt: skip
     min_vel_theta: float = number(-1.0, "fastest turn to the right", "rad/s", high=0)
     min_in_place_vel_theta: float = number(0.4, "slowest turn on the spot", "rad/s", 0,
-                                           names=("min_in_place_rotational_vel",))  # fmt: skip
+                                           aliases=("min_in_place_rotational_vel",))  # fmt: skip
     acc_lim_x: float = number(2.5, "acceleration along x", "m/s²", 0)
     acc_lim_y: float = number(2.5, "acceleration along y", "m/s²", 0)
-    acc_lim_theta: float = number(3.2, "angular acceleration", "rad/s²", 0, names=("acc_lim_th",))
+    acc_lim_theta: float = number(3.2, "angular acceleration", "rad/s²", 0, aliases=("acc_lim_th",))
     escape_vel: float = number(-0.1, "velocity of backing up when nothing else is left", "m/s",
-                               names=("backup_vel",))  # fmt: skip
+                               aliases=("backup_vel",))  # fmt: skip
     escape_reset_dist: float = number(0.1, "distance after which it drives ahead again", "m", 0)
     escape_reset_theta: float = number(1.5708, "turn after which it drives ahead again", "rad", 0)
     holonomic_robot: bool = flag(True, "the robot can drive sideways")
@@ -109,9 +109,9 @@ class TrajectoryPlannerOptions:
     vx_samples: int = integer(20, "velocities along x", 1)
     vtheta_samples: int = integer(20, "turning velocities", 1)
     path_distance_bias: float = number(0.6, "weight of keeping to the path", "", 0,
-                                       names=("pdist_scale",))  # fmt: skip
+                                       aliases=("pdist_scale",))  # fmt: skip
     goal_distance_bias: float = number(0.8, "weight of getting to the local goal", "", 0,
-                                       names=("gdist_scale",))  # fmt: skip
+                                       aliases=("gdist_scale",))  # fmt: skip
     occdist_scale: float = number(0.01, "weight of keeping away from obstacles", "", 0)
     oscillation_reset_dist: float = number(0.05, "distance after which it may turn back", "m", 0)
     heading_lookahead: float = number(0.325, "how far ahead turns on the spot are told apart", "m",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from gazelle.navigation.options import flag, number
+from gazelle.parameters.options import flag, number
 
 __all__ = ["PursuitOptions"]
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.navigation.options import flag, integer, number, text, texts
+from gazelle.parameters.options import flag, integer, number, text, texts
 
 __all__ = [
     "LAYER_TYPES",
@@ -108,10 +108,10 @@ class SourceOptions:
     marking: bool = flag(True, "points are obstacles")
     clearing: bool = flag(False, "the way to points is free")
     obstacle_range: float = number(2.5, "farthest point that is an obstacle", "m", 0,
-                                   names=("obstacle_max_range",))  # fmt: skip
+                                   aliases=("obstacle_max_range",))  # fmt: skip
     obstacle_min_range: float = number(0.0, "nearest point that is an obstacle", "m", 0)
     raytrace_range: float = number(3.0, "how far is cleared", "m", 0,
-                                   names=("raytrace_max_range",))  # fmt: skip
+                                   aliases=("raytrace_max_range",))  # fmt: skip
     raytrace_min_range: float = number(0.0, "from where on is cleared", "m", 0)
 
     NAV2_DEFAULTS: ClassVar[Mapping[str, Any]] = {"max_obstacle_height": 0.0}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import Any, ClassVar
 
-from gazelle.navigation.options import flag, integer, number, text
+from gazelle.parameters.options import flag, integer, number, text
 
 __all__ = ["AmclOptions"]
 
@@ -22,8 +22,8 @@ class AmclOptions:
     min_particles: int = integer(100, "fewest particles", 1)
     max_particles: int = integer(5000, "most particles", 1, 1_000_000)
     kld_err: float = number(0.01, "error of the distribution that is allowed", "", 1e-6,
-                            names=("pf_err",))  # fmt: skip
-    kld_z: float = number(0.99, "quantile of that error", "", 0, names=("pf_z",))
+                            aliases=("pf_err",))  # fmt: skip
+    kld_z: float = number(0.99, "quantile of that error", "", 0, aliases=("pf_z",))
     update_min_d: float = number(0.2, "way after which a scan counts", "m", 0)
     update_min_a: float = number(pi / 6, "turn after which a scan counts", "rad", 0)
     resample_interval: int = integer(2, "updates per resampling", 1)
@@ -39,27 +39,27 @@ class AmclOptions:
                                               "count", "", 0, 1)  # fmt: skip
     laser_min_range: float = number(-1.0, "shortest range that counts, −1 for the lidar's", "m")
     laser_max_range: float = number(-1.0, "longest range that counts, −1 for the lidar's", "m",
-                                    names=())  # fmt: skip
-    laser_max_beams: int = integer(30, "beams that are looked at", 2, names=("max_beams",))
-    laser_z_hit: float = number(0.95, "weight of hits", "", 0, 1, names=("z_hit",))
+                                    aliases=())  # fmt: skip
+    laser_max_beams: int = integer(30, "beams that are looked at", 2, aliases=("max_beams",))
+    laser_z_hit: float = number(0.95, "weight of hits", "", 0, 1, aliases=("z_hit",))
     laser_z_short: float = number(0.1, "weight of what stands before walls", "", 0, 1,
-                                  names=("z_short",))  # fmt: skip
-    laser_z_max: float = number(0.05, "weight of the longest range", "", 0, 1, names=("z_max",))
-    laser_z_rand: float = number(0.05, "weight of anything", "", 0, 1, names=("z_rand",))
-    laser_sigma_hit: float = number(0.2, "spread of hits", "m", 1e-6, names=("sigma_hit",))
+                                  aliases=("z_short",))  # fmt: skip
+    laser_z_max: float = number(0.05, "weight of the longest range", "", 0, 1, aliases=("z_max",))
+    laser_z_rand: float = number(0.05, "weight of anything", "", 0, 1, aliases=("z_rand",))
+    laser_sigma_hit: float = number(0.2, "spread of hits", "m", 1e-6, aliases=("sigma_hit",))
     laser_lambda_short: float = number(0.1, "decay of what stands before walls", "1/m", 0,
-                                       names=("lambda_short",))  # fmt: skip
+                                       aliases=("lambda_short",))  # fmt: skip
     laser_likelihood_max_dist: float = number(2.0, "how far from walls hits are told apart", "m",
                                               1e-3)  # fmt: skip
     laser_model_type: str = text("likelihood_field", "beam, likelihood_field or "
                                  "likelihood_field_prob")  # fmt: skip
     odom_model_type: str = text("diff", "diff, omni, diff-corrected or omni-corrected",
-                                names=("robot_model_type",))  # fmt: skip
-    odom_alpha1: float = number(0.2, _NOISE.format("turns", "turns"), "", 0, names=("alpha1",))
-    odom_alpha2: float = number(0.2, _NOISE.format("turns", "ways"), "", 0, names=("alpha2",))
-    odom_alpha3: float = number(0.2, _NOISE.format("ways", "ways"), "", 0, names=("alpha3",))
-    odom_alpha4: float = number(0.2, _NOISE.format("ways", "turns"), "", 0, names=("alpha4",))
-    odom_alpha5: float = number(0.2, "noise sideways, omni only", "", 0, names=("alpha5",))
+                                aliases=("robot_model_type",))  # fmt: skip
+    odom_alpha1: float = number(0.2, _NOISE.format("turns", "turns"), "", 0, aliases=("alpha1",))
+    odom_alpha2: float = number(0.2, _NOISE.format("turns", "ways"), "", 0, aliases=("alpha2",))
+    odom_alpha3: float = number(0.2, _NOISE.format("ways", "ways"), "", 0, aliases=("alpha3",))
+    odom_alpha4: float = number(0.2, _NOISE.format("ways", "turns"), "", 0, aliases=("alpha4",))
+    odom_alpha5: float = number(0.2, "noise sideways, omni only", "", 0, aliases=("alpha5",))
     initial_pose_x: float = number(0.0, "where the robot is at the start", "m")
     initial_pose_y: float = number(0.0, "where the robot is at the start", "m")
     initial_pose_a: float = number(0.0, "where it looks at the start", "rad")

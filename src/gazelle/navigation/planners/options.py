@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from gazelle.navigation.options import flag, integer, number
+from gazelle.parameters.options import flag, integer, number
 
 __all__ = [
     "GlobalPlannerOptions",

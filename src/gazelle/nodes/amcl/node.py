@@ -29,8 +29,10 @@ from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.reconfigure import offer
-from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 
 __all__ = ["AmclNode", "run", "run_ros2"]
 
@@ -91,7 +93,7 @@ class AmclNode:
         """Read the parameters; nothing is listened to before `start`."""
         found = Diagnostics()
         self._node, self._generation = node, generation
-        self._settings = Settings(amcl_table(generation), tree, node.resolve_name("~"), found)
+        self._settings = node_reader(amcl_table(generation), tree, node.resolve_name("~"), found)
         self._settings.report_unknown("initial_pose")
         self._options = _checked(self._settings, self._settings.fill(AmclOptions), generation)
         s = self._settings
@@ -191,7 +193,7 @@ class AmclNode:
     def _reconfigure(self, values: dict[str, Any]) -> None:
         found = Diagnostics()
         tree = {**self._settings.tree, **values}
-        self._settings = Settings(
+        self._settings = node_reader(
             amcl_table(self._generation), tree, self._node.resolve_name("~"), found
         )
         with self._lock:
@@ -388,7 +390,7 @@ def _triple(pose: Any) -> PlanePose:
     return x, y, yaw
 
 
-def _checked(settings: Settings, options: AmclOptions, generation: int) -> AmclOptions:
+def _checked(settings: ParameterReader, options: AmclOptions, generation: int) -> AmclOptions:
     """Return options whose models exist and whose limits go together."""
     from dataclasses import replace
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.navigation.localisation import AmclOptions
-from gazelle.nodes.navigation.table import Row, Table, refused, table_of
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.options import table_of
 
 __all__ = ["amcl_table"]
 
@@ -40,11 +41,11 @@ _LIVE = (
 )
 
 _SHARED = (
-    Row("odom_frame_id", "text", "odom", "frame of odometry"),
-    Row("global_frame_id", "text", "map", "frame of the map"),
-    Row("tf_broadcast", "flag", True, "publish the transform from map to odometry"),
-    Row("first_map_only", "flag", False, "maps after the first one are not looked at"),
-    Row(
+    Parameter("odom_frame_id", "text", "odom", "frame of odometry"),
+    Parameter("global_frame_id", "text", "map", "frame of the map"),
+    Parameter("tf_broadcast", "flag", True, "publish the transform from map to odometry"),
+    Parameter("first_map_only", "flag", False, "maps after the first one are not looked at"),
+    Parameter(
         "save_pose_rate",
         "number",
         0.5,
@@ -54,30 +55,34 @@ _SHARED = (
     ),
 )
 _ROS1 = (
-    Row("base_frame_id", "text", "base_link", "frame of the robot"),
-    Row("transform_tolerance", "number", 0.1, "how far ahead the transform is dated", "s", 0),
-    Row("use_map_topic", "flag", False, "take maps from the topic map; else ask static_map once"),
-    Row(
+    Parameter("base_frame_id", "text", "base_link", "frame of the robot"),
+    Parameter("transform_tolerance", "number", 0.1, "how far ahead the transform is dated", "s", 0),
+    Parameter(
+        "use_map_topic", "flag", False, "take maps from the topic map; else ask static_map once"
+    ),
+    Parameter(
         "force_update_after_initialpose",
         "flag",
         False,
         "the first scan after initialpose counts although the robot stands",
     ),
-    Row("force_update_after_set_map", "flag", False, "the same after set_map"),
+    Parameter("force_update_after_set_map", "flag", False, "the same after set_map"),
 )
 _ROS2 = (
-    Row("base_frame_id", "text", "base_footprint", "frame of the robot"),
-    Row("transform_tolerance", "number", 1.0, "how far ahead the transform is dated", "s", 0),
-    Row("scan_topic", "text", "scan", "topic of the scans"),
-    Row("map_topic", "text", "map", "topic of the map"),
-    Row("set_initial_pose", "flag", False, "begin at initial_pose; else wait for initialpose"),
-    Row("initial_pose.x", "number", 0.0, "where the robot is at the start", "m"),
-    Row("initial_pose.y", "number", 0.0, "where the robot is at the start", "m"),
-    Row("initial_pose.yaw", "number", 0.0, "where it looks at the start", "rad"),
+    Parameter("base_frame_id", "text", "base_footprint", "frame of the robot"),
+    Parameter("transform_tolerance", "number", 1.0, "how far ahead the transform is dated", "s", 0),
+    Parameter("scan_topic", "text", "scan", "topic of the scans"),
+    Parameter("map_topic", "text", "map", "topic of the map"),
+    Parameter(
+        "set_initial_pose", "flag", False, "begin at initial_pose; else wait for initialpose"
+    ),
+    Parameter("initial_pose.x", "number", 0.0, "where the robot is at the start", "m"),
+    Parameter("initial_pose.y", "number", 0.0, "where the robot is at the start", "m"),
+    Parameter("initial_pose.yaw", "number", 0.0, "where it looks at the start", "rad"),
 )
 
 
-def amcl_table(generation: int) -> Table:
+def amcl_table(generation: int) -> ParameterTable:
     """Return the table of ``amcl`` (1) or ``nav2_amcl`` (2)."""
     defaults = AmclOptions.NAV2_DEFAULTS if generation == 2 else {}
     types = ("nav2_amcl/amcl",) if generation == 2 else ("amcl/amcl",)

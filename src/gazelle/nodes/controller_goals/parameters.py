@@ -12,8 +12,8 @@ from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.parameters.trees import nested
 
 __all__ = ["GoalParameters", "are_numbers", "start"]
 

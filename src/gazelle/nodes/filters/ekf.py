@@ -28,8 +28,8 @@ from gazelle.nodes.filters.measuring import (
 )
 from gazelle.nodes.filters.tables import report_ekf, threshold_owners
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.parameters.trees import nested
 
 __all__ = ["config_of", "matrix_of", "run"]
 

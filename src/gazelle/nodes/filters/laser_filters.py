@@ -23,8 +23,8 @@ from gazelle.navigation.filters import (
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import start_node
+from gazelle.parameters.trees import nested
 
 __all__ = ["chain_of", "run"]
 

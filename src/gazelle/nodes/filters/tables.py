@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row, Table, refused
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["POSE_EKF", "SWITCHES", "ekf_table", "report_ekf", "report_pose_ekf", "threshold_owners"]
 
@@ -32,17 +32,17 @@ SWITCHES = frozenset(
     }
 )  # fmt: skip
 _EKF_ROWS = (
-    Row("frequency", "number", 30.0, "states a second", "Hz"),
-    Row("two_d_mode", "flag", False, "the robot stays in the plane"),
-    Row("map_frame", "text", "map", "the map's frame"),
-    Row("odom_frame", "text", "odom", "odometry's frame"),
-    Row("base_link_frame", "text", "base_link", "the robot's frame"),
-    Row("world_frame", "text", "odom", "the frame of the state: odometry's or the map's"),
-    Row("publish_tf", "flag", True, "whether the transform is sent"),
-    Row("transform_time_offset", "number", 0.0, "transforms are dated so far ahead", "s"),
-    Row("process_noise_covariance", "any", None, "growth of the state's covariance"),
-    Row("initial_estimate_covariance", "any", None, "the state's covariance at the start"),
-    Row("initial_state", "any", None, "the state at the start"),
+    Parameter("frequency", "number", 30.0, "states a second", "Hz"),
+    Parameter("two_d_mode", "flag", False, "the robot stays in the plane"),
+    Parameter("map_frame", "text", "map", "the map's frame"),
+    Parameter("odom_frame", "text", "odom", "odometry's frame"),
+    Parameter("base_link_frame", "text", "base_link", "the robot's frame"),
+    Parameter("world_frame", "text", "odom", "the frame of the state: odometry's or the map's"),
+    Parameter("publish_tf", "flag", True, "whether the transform is sent"),
+    Parameter("transform_time_offset", "number", 0.0, "transforms are dated so far ahead", "s"),
+    Parameter("process_noise_covariance", "any", None, "growth of the state's covariance"),
+    Parameter("initial_estimate_covariance", "any", None, "the state's covariance at the start"),
+    Parameter("initial_state", "any", None, "the state at the start"),
     *refused(_COMMANDS, "use_control", "stamped_control", "control_timeout", "control_config",
              "acceleration_limits", "deceleration_limits", "acceleration_gains",
              "deceleration_gains"),
@@ -59,17 +59,17 @@ _EKF_ROWS = (
              "base_link_frame_output"),
 )  # fmt: skip
 
-POSE_EKF = Table(
+POSE_EKF = ParameterTable(
     "robot_pose_ekf",
     "Fuses wheel odometry, IMU and visual odometry.",
     ("robot_pose_ekf/robot_pose_ekf",),
     (
-        Row("freq", "number", 30.0, "states a second", "Hz"),
-        Row("base_footprint_frame", "text", "base_footprint", "the robot's frame"),
-        Row("output_frame", "text", "odom_combined", "the frame of the state"),
-        Row("odom_used", "flag", True, "whether wheel odometry counts"),
-        Row("imu_used", "flag", True, "whether the IMU counts"),
-        Row("vo_used", "flag", True, "whether visual odometry counts"),
+        Parameter("freq", "number", 30.0, "states a second", "Hz"),
+        Parameter("base_footprint_frame", "text", "base_footprint", "the robot's frame"),
+        Parameter("output_frame", "text", "odom_combined", "the frame of the state"),
+        Parameter("odom_used", "flag", True, "whether wheel odometry counts"),
+        Parameter("imu_used", "flag", True, "whether the IMU counts"),
+        Parameter("vo_used", "flag", True, "whether visual odometry counts"),
         *refused(
             "positions of satellites are not fused; robot_localization's pose0 takes them",
             "gps_used",
@@ -81,11 +81,11 @@ POSE_EKF = Table(
 )
 
 
-def ekf_table(tree: Mapping[str, Any]) -> Table:
+def ekf_table(tree: Mapping[str, Any]) -> ParameterTable:
     """Return the parameters of ``ekf_localization_node`` with the inputs that a tree gives."""
     names = sorted({found[0] for key in tree if (found := _INPUT.match(key))})
     rows = [row for name in names or ("odom0",) for row in _input_rows(name)]
-    return Table(
+    return ParameterTable(
         "robot_localization",
         "Fuses odometry, IMU and poses.",
         ("robot_localization/ekf_localization_node", "robot_localization/ekf_node"),
@@ -110,24 +110,30 @@ def threshold_owners(name: str) -> dict[str, str]:
     return {f"{name}_pose": "pose", f"{name}_twist": "twist"}
 
 
-def _report(table: Table, tree: Mapping[str, Any], name: str, diagnostics: Diagnostics) -> None:
+def _report(
+    table: ParameterTable, tree: Mapping[str, Any], name: str, diagnostics: Diagnostics
+) -> None:
     asked = {key: value for key, value in tree.items() if value or key not in SWITCHES}
-    Settings(table, asked, name, diagnostics).report_unknown()
+    node_reader(table, asked, name, diagnostics).report_unknown()
 
 
-def _input_rows(name: str) -> tuple[Row, ...]:
+def _input_rows(name: str) -> tuple[Parameter, ...]:
     kind = name.rstrip("0123456789")
     poses = () if kind == "twist" else (
-        Row(f"{name}_differential", "flag", False, "poses count as velocities between them"),
-        Row(f"{name}_relative", "flag", False, "poses count from the first one"),
+        Parameter(f"{name}_differential", "flag", False, "poses count as velocities between them"),
+        Parameter(f"{name}_relative", "flag", False, "poses count from the first one"),
     )  # fmt: skip
-    gravity = Row(f"{name}_remove_gravitational_acceleration", "flag", False, "gravity is no part")
+    gravity = Parameter(
+        f"{name}_remove_gravitational_acceleration", "flag", False, "gravity is no part"
+    )
     return (
-        Row(name, "text", None, "topic of the input"),
-        Row(f"{name}_config", "any", None, "which of the 15 states count"),
+        Parameter(name, "text", None, "topic of the input"),
+        Parameter(f"{name}_config", "any", None, "which of the 15 states count"),
         *poses,
         *(
-            Row(f"{owner}_rejection_threshold", "number", None, "beyond it messages are left out")
+            Parameter(
+                f"{owner}_rejection_threshold", "number", None, "beyond it messages are left out"
+            )
             for owner in threshold_owners(name)
         ),
         *((gravity,) if kind == "imu" else ()),

@@ -27,20 +27,20 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row, Table, refused
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["run"]
 
 _WRENCH = "geometry_msgs/msg/WrenchStamped"
 _WHY = "the original declares it and does not read it; topics are remapped"
-_TABLE = Table(
+_TABLE = ParameterTable(
     "wrench_transformer_node",
     "turns wrenches into other frames",
     ("force_torque_sensor_broadcaster/wrench_transformer_node",),
     (
-        Row("target_frames", "texts", (), "frames"),
-        Row("tf_timeout", "number", 0.1, "how long a transform is waited for", "s", low=0),
+        Parameter("target_frames", "words", (), "frames"),
+        Parameter("tf_timeout", "number", 0.1, "how long a transform is waited for", "s", low=0),
         *refused(_WHY, "broadcaster_namespace", "use_filtered_input", "output_topic_prefix"),
     ),
 )
@@ -54,7 +54,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """
     node, tree = start(arguments, graph)
     found = Diagnostics()
-    settings = Settings(_TABLE, tree, node.name, found)
+    settings = node_reader(_TABLE, tree, node.name, found)
     frames = arguments.rest or settings.texts("target_frames")
     timeout_s = settings.number("tf_timeout")
     settings.report_unknown()

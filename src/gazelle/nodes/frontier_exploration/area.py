@@ -19,7 +19,7 @@ from gazelle.nodes.navigation.assembling import assemble
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -55,7 +55,7 @@ class Area:
         own = self._tree.pop(self.layer, None)
         name = f"{node.name}/{_NAME}/{self.layer}"
         values = own if isinstance(own, Mapping) else {}
-        self.settings = Settings(BOUNDED_EXPLORE, values, name, diagnostics)
+        self.settings = node_reader(BOUNDED_EXPLORE, values, name, diagnostics)
         self._travels_to = self._travel_point()
         self.settings.report_unknown()
         self.corners: Corners = np.zeros((0, 2))

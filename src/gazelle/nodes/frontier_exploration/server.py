@@ -21,9 +21,11 @@ from gazelle.nodes.frontier_exploration.area import Area, Corners
 from gazelle.nodes.frontier_exploration.services import Services
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
 from gazelle.nodes.navigation.frames import PlanePose
-from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 
 if TYPE_CHECKING:
     from gazelle.nodes.navigation.live import LiveCostmap
@@ -44,7 +46,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     tree = nested(node.parameters.get(node.name, {}) or {})
     tree.update(nested(arguments.params))
     found = Diagnostics()
-    settings = Settings(EXPLORE_SERVER, tree, node.name, found)
+    settings = node_reader(EXPLORE_SERVER, tree, node.name, found)
     area = Area(node, tree, found)
     explorer = _Explorer(node, settings, area, stop)
     settings.report_unknown()
@@ -59,7 +61,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 
 class _Explorer:
-    def __init__(self, node: Node, settings: Settings, area: Area, stop: threading.Event) -> None:
+    def __init__(
+        self, node: Node, settings: ParameterReader, area: Area, stop: threading.Event
+    ) -> None:
         self._node, self._area, self._stop = node, area, stop
         self._frequency_hz = settings.number("frequency")
         self._same_m = settings.number("goal_aliasing") / 2

@@ -20,26 +20,27 @@ from pathlib import Path
 from typing import Any, Literal
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row, Table, refused
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["JoyOptions", "read_options"]
 
 _FULL = 32767.0
 _MOST_DEADZONE = 0.9
 _ROWS = (
-    Row("dev", "text", "/dev/input/js0", "the device"),
-    Row("device_name", "text", "", "the first device of this name", names=("dev_name",)),
-    Row("device_id", "integer", 0, "the n-th device", low=0),
-    Row("deadzone", "number", 0.05, "share of full deflection that counts as none"),
-    Row("autorepeat_rate", "number", 0.0, "the state is sent again so often", "Hz", 0, 1000),
-    Row("coalesce_interval", "number", 0.001, "events of axes become one message", "s", 0),
-    Row("coalesce_interval_ms", "number", 1.0, "the same, ROS 2's name", "ms", 0),
-    Row("default_trig_val", "flag", False, "take what axes say at the opening"),
-    Row("sticky_buttons", "flag", False, "a press toggles"),
+    Parameter("dev", "text", "/dev/input/js0", "the device"),
+    Parameter("device_name", "text", "", "the first device of this name", aliases=("dev_name",)),
+    Parameter("device_id", "integer", 0, "the n-th device", low=0),
+    Parameter("deadzone", "number", 0.05, "share of full deflection that counts as none"),
+    Parameter("autorepeat_rate", "number", 0.0, "the state is sent again so often", "Hz", 0, 1000),
+    Parameter("coalesce_interval", "number", 0.001, "events of axes become one message", "s", 0),
+    Parameter("coalesce_interval_ms", "number", 1.0, "the same, ROS 2's name", "ms", 0),
+    Parameter("default_trig_val", "flag", False, "take what axes say at the opening"),
+    Parameter("sticky_buttons", "flag", False, "a press toggles"),
     *refused("the joystick is not shaken here", "dev_ff"),
 )
-_TABLE = Table("joy_node", "a joystick of the Linux kernel", ("joy/joy_node",), _ROWS)
+_TABLE = ParameterTable("joy_node", "a joystick of the Linux kernel", ("joy/joy_node",), _ROWS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,7 @@ def read_options(
         generation: of ROS.
         found: receives what is wrong.
     """
-    settings = Settings(_TABLE, tree, name, found)
+    settings = node_reader(_TABLE, tree, name, found)
     is_ros2 = generation == 2
     path = Path(settings.text("dev"))
     if is_ros2 and not settings.has("dev"):
@@ -104,7 +105,7 @@ def read_options(
     )
 
 
-def _deadzone(settings: Settings) -> float:
+def _deadzone(settings: ParameterReader) -> float:
     value = settings.number("deadzone")
     used = value / _FULL if value >= 1 else value
     used = min(max(used, 0.0), _MOST_DEADZONE)

@@ -23,8 +23,9 @@ from gazelle.nodes.move_base.planner import short_name
 from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row, Table, table_of
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.options import table_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -33,12 +34,12 @@ __all__ = ["LocalPlanner", "local_planner_tables"]
 
 _DEFAULT = "base_local_planner/TrajectoryPlannerROS"
 _OWN_ROWS = (
-    Row("odom_topic", "text", "odom", "topic of odometry"),
-    Row("controller_frequency", "refused", None, "move_base's own counts"),
+    Parameter("odom_topic", "text", "odom", "topic of odometry"),
+    Parameter("controller_frequency", "refused", None, "move_base's own counts"),
 )
 
 
-def local_planner_tables() -> tuple[Table, ...]:
+def local_planner_tables() -> tuple[ParameterTable, ...]:
     """Return the parameters of all local planners of ROS 1."""
     return tuple(_table(name) for name in CONTROLLERS if _is_ros1(name))
 
@@ -72,7 +73,7 @@ class LocalPlanner:
         self._period_s = period_s
         below = tree.get(self.name)
         own = below if isinstance(below, Mapping) else {}
-        self.settings = Settings(_table(plugin), own, f"{node.name}/{self.name}", diagnostics)
+        self.settings = node_reader(_table(plugin), own, f"{node.name}/{self.name}", diagnostics)
         self.odometry = Odometry(node, self.settings.text("odom_topic"))
         self._controller: Controller = self._made()
         self.settings.report_unknown()
@@ -162,7 +163,7 @@ def _is_ros1(name: str) -> bool:
     return "::" not in name and not name.startswith(("nav2_", "dwb_"))
 
 
-def _table(plugin: str) -> Table:
+def _table(plugin: str) -> ParameterTable:
     kind = CONTROLLERS[plugin]
     summary = "Drives along the plan." + (f" {kind.note}." if kind.note else "")
     live = [row.key for row in table_of(kind.options, "", "").rows if row.kind != "refused"]

@@ -30,9 +30,10 @@ from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.reconfigure import offer
-from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.trees import nested
 
 __all__ = ["MoveBase", "run"]
 
@@ -70,7 +71,7 @@ class MoveBase:
     def __init__(self, node: Node, tree: Mapping[str, Any], diagnostics: Diagnostics) -> None:
         """Bring everything up; what is wrong with the parameters is reported."""
         self.node = node
-        self.settings = Settings(MOVE_BASE, tree, node.name, diagnostics)
+        self.settings = node_reader(MOVE_BASE, tree, node.name, diagnostics)
         self.frames = Frames(node)
         self.costmaps = {
             name: self._costmap(name, tree, diagnostics) for name in reversed(_COSTMAPS)

@@ -12,8 +12,9 @@ from gazelle.interfaces.poses import unit_pose_of
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS, NoPlan, Plan, make_plan
 from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.live import LiveCostmap
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Table, table_of
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.options import table_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -28,7 +29,7 @@ def short_name(plugin: str) -> str:
     return plugin.replace("::", "/").rpartition("/")[2]
 
 
-def planner_tables() -> tuple[Table, ...]:
+def planner_tables() -> tuple[ParameterTable, ...]:
     """Return the parameters of all planners of ROS 1."""
     return tuple(
         _table(name) for name, kind in PLANNERS.items() if not name.startswith("nav2_") and kind
@@ -59,7 +60,7 @@ class GlobalPlanner:
         self._costmap = costmap
         below = tree.get(self.name)
         own = below if isinstance(below, Mapping) else {}
-        self._settings = Settings(_table(plugin), own, f"{node.name}/{self.name}", diagnostics)
+        self._settings = node_reader(_table(plugin), own, f"{node.name}/{self.name}", diagnostics)
         self._options = self._settings.fill(PLANNERS[plugin].options)
         self._settings.report_unknown()
         kind = message_type("nav_msgs/msg/Path")
@@ -110,7 +111,7 @@ class GlobalPlanner:
         return at if all(map(math.isfinite, at)) else None
 
 
-def _table(plugin: str) -> Table:
+def _table(plugin: str) -> ParameterTable:
     kind = PLANNERS[plugin]
     summary = "Plans over the whole costmap." + (f" {kind.note}." if kind.note else "")
     return table_of(kind.options, short_name(plugin), summary, (plugin,))

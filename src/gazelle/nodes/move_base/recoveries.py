@@ -11,7 +11,8 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.navigation.costmap import footprint_cost
 from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
 from gazelle.nodes.navigation.live import LiveCostmap
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Behaviour", "Surroundings", "make_behaviours"]
 
@@ -124,12 +125,12 @@ def _make(
         return None
     table, make = makers[kind]
     tree = own if isinstance(own, Mapping) else {}
-    settings = Settings(table, tree, f"{name}/{key}", diagnostics)
+    settings = node_reader(table, tree, f"{name}/{key}", diagnostics)
     settings.report_unknown()
     return Behaviour(key, kind, make(settings, around))
 
 
-def _clearing(settings: Settings, around: Surroundings) -> Callable[[], None]:
+def _clearing(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
     size_m = settings.number("reset_distance")
     inside, updates = settings.flag("invert_area_to_clear"), settings.flag("force_updating")
     which = settings.text("affected_maps")
@@ -154,7 +155,7 @@ def _clearing(settings: Settings, around: Surroundings) -> Callable[[], None]:
     return run
 
 
-def _turning(settings: Settings, around: Surroundings) -> Callable[[], None]:
+def _turning(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
     step_rad = settings.number("sim_granularity")
     period_s = 1.0 / settings.number("frequency")
     tolerance_rad = settings.number("yaw_goal_tolerance")
@@ -202,7 +203,7 @@ def _blocked(
     return ""
 
 
-def _slowing(settings: Settings, around: Surroundings) -> Callable[[], None]:
+def _slowing(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
     radius_m = settings.number("clearing_distance")
     speed, distance_m = settings.number("limited_trans_speed"), settings.number("limited_distance")
 

@@ -10,8 +10,8 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.nodes.move_base.planner import GlobalPlanner
 from gazelle.nodes.navigation.live import LiveCostmap
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -28,7 +28,7 @@ class Services:
         planner: GlobalPlanner,
         costmaps: Mapping[str, LiveCostmap],
         goals: SingleGoal,
-        settings: Settings,
+        settings: ParameterReader,
     ) -> None:
         """Offer them below the node's name."""
         self._planner = planner

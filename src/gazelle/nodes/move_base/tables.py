@@ -2,34 +2,34 @@
 
 from __future__ import annotations
 
-from gazelle.nodes.navigation.table import Row, Table, refused
+from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["CLEAR", "MOVE_BASE", "ROTATE", "SLOW"]
 
-MOVE_BASE = Table(
+MOVE_BASE = ParameterTable(
     "move_base",
     "Drives to goals. Plans, controls and recovers as ROS 1's node of this name.",
     ("move_base/move_base",),
     (
-        Row(
+        Parameter(
             "base_global_planner",
             "text",
             "navfn/NavfnROS",
             "global planner, see below",
         ),
-        Row(
+        Parameter(
             "base_local_planner",
             "text",
             "base_local_planner/TrajectoryPlannerROS",
             "local planner, see below",
         ),
-        Row(
+        Parameter(
             "recovery_behaviors",
             "any",
             None,
             "list of {name, type}; without it conservative reset, rotate, aggressive reset, rotate",
         ),
-        Row(
+        Parameter(
             "planner_frequency",
             "number",
             0.0,
@@ -39,7 +39,7 @@ MOVE_BASE = Table(
             100,
             live=True,
         ),
-        Row(
+        Parameter(
             "controller_frequency",
             "number",
             20.0,
@@ -49,7 +49,7 @@ MOVE_BASE = Table(
             1000,
             live=True,
         ),
-        Row(
+        Parameter(
             "planner_patience",
             "number",
             5.0,
@@ -59,7 +59,7 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "controller_patience",
             "number",
             15.0,
@@ -69,7 +69,7 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "max_planning_retries",
             "integer",
             -1,
@@ -79,7 +79,7 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "conservative_reset_dist",
             "number",
             3.0,
@@ -89,22 +89,24 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "recovery_behavior_enabled",
             "flag",
             True,
             "whether anything is tried before a goal is given up",
             live=True,
         ),
-        Row(
+        Parameter(
             "clearing_rotation_allowed",
             "flag",
             True,
             "whether the default behaviours turn on the spot",
             live=True,
         ),
-        Row("shutdown_costmaps", "flag", False, "costmaps rest while there is no goal", live=True),
-        Row(
+        Parameter(
+            "shutdown_costmaps", "flag", False, "costmaps rest while there is no goal", live=True
+        ),
+        Parameter(
             "oscillation_timeout",
             "number",
             0.0,
@@ -114,7 +116,7 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "oscillation_distance",
             "number",
             0.5,
@@ -124,28 +126,28 @@ MOVE_BASE = Table(
             None,
             live=True,
         ),
-        Row(
+        Parameter(
             "make_plan_clear_costmap",
             "flag",
             True,
             "the service make_plan clears around the start first",
             live=True,
         ),
-        Row(
+        Parameter(
             "make_plan_add_unreachable_goal",
             "flag",
             True,
             "make_plan appends the goal asked for to a plan that ends near it",
             live=True,
         ),
-        Row(
+        Parameter(
             "restore_defaults",
             "flag",
             False,
             "set live: go back to what the parameters were at the start",
             live=True,
         ),
-        Row(
+        Parameter(
             "clearing_radius",
             "number",
             None,
@@ -160,12 +162,12 @@ MOVE_BASE = Table(
     ),
 )
 
-CLEAR = Table(
+CLEAR = ParameterTable(
     "clear_costmap_recovery",
     "Forgets what the obstacle layers saw, farther than a distance from the robot.",
     ("clear_costmap_recovery/ClearCostmapRecovery",),
     (
-        Row(
+        Parameter(
             "reset_distance",
             "number",
             3.0,
@@ -174,21 +176,23 @@ CLEAR = Table(
             0,
             None,
         ),
-        Row("invert_area_to_clear", "flag", False, "clear inside of the square instead"),
-        Row("force_updating", "flag", False, "update the costmaps at once"),
-        Row("affected_maps", "text", "both", "local, global or both"),
-        Row("layer_names", "any", None, "layers that are cleared, obstacle_layer by default"),
+        Parameter("invert_area_to_clear", "flag", False, "clear inside of the square instead"),
+        Parameter("force_updating", "flag", False, "update the costmaps at once"),
+        Parameter("affected_maps", "text", "both", "local, global or both"),
+        Parameter("layer_names", "any", None, "layers that are cleared, obstacle_layer by default"),
     ),
 )
 
-ROTATE = Table(
+ROTATE = ParameterTable(
     "rotate_recovery",
     "Turns once around on the spot.",
     ("rotate_recovery/RotateRecovery",),
     (
-        Row("sim_granularity", "number", 0.017, "step of the check for collisions", "rad", 1e-3),
-        Row("frequency", "number", 20.0, "velocity commands a second", "Hz", 0.1),
-        Row(
+        Parameter(
+            "sim_granularity", "number", 0.017, "step of the check for collisions", "rad", 1e-3
+        ),
+        Parameter("frequency", "number", 20.0, "velocity commands a second", "Hz", 0.1),
+        Parameter(
             "yaw_goal_tolerance",
             "number",
             0.10,
@@ -196,7 +200,7 @@ ROTATE = Table(
             "rad",
             1e-3,
         ),
-        Row(
+        Parameter(
             "acc_lim_th",
             "number",
             3.2,
@@ -204,8 +208,10 @@ ROTATE = Table(
             "rad/s²",
             1e-3,
         ),
-        Row("max_rotational_vel", "number", 1.0, "fastest; see yaw_goal_tolerance", "rad/s", 1e-3),
-        Row(
+        Parameter(
+            "max_rotational_vel", "number", 1.0, "fastest; see yaw_goal_tolerance", "rad/s", 1e-3
+        ),
+        Parameter(
             "min_in_place_rotational_vel",
             "number",
             0.4,
@@ -216,14 +222,14 @@ ROTATE = Table(
     ),
 )
 
-SLOW = Table(
+SLOW = ParameterTable(
     "move_slow_and_clear",
     "Clears around the robot and limits the local planner's speed until the robot has gone on.",
     ("move_slow_and_clear/MoveSlowAndClear",),
     (
-        Row("clearing_distance", "number", 0.5, "radius that is cleared", "m", 0, None),
-        Row("limited_trans_speed", "number", 0.25, "speed from then on", "m/s", 0, None),
-        Row("limited_distance", "number", 0.3, "how far the robot goes slowly", "m", 0, None),
+        Parameter("clearing_distance", "number", 0.5, "radius that is cleared", "m", 0, None),
+        Parameter("limited_trans_speed", "number", 0.25, "speed from then on", "m/s", 0, None),
+        Parameter("limited_distance", "number", 0.3, "how far the robot goes slowly", "m", 0, None),
         *refused(
             "the speed is limited in the local planner directly, whichever it is",
             "planner_namespace",

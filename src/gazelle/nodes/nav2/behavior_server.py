@@ -22,9 +22,9 @@ from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.frames import Frames, PlanePose
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.reading import node_reader
 
 __all__ = ["run"]
 
@@ -59,7 +59,7 @@ class _BehaviorServer:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._parameters = offer_parameters(node, tree)
-        self._settings = Settings(BEHAVIOR_SERVER, tree, node.name, Diagnostics())
+        self._settings = node_reader(BEHAVIOR_SERVER, tree, node.name, Diagnostics())
         self._frames = Frames(node)
         self._out = VelocityOutput(node, stamped=self._settings.flag("enable_stamped_cmd_vel"))
         self._grid: CostGrid | None = None
@@ -69,7 +69,7 @@ class _BehaviorServer:
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        settings = Settings(BEHAVIOR_SERVER, self._tree, self._node.name, diagnostics)
+        settings = node_reader(BEHAVIOR_SERVER, self._tree, self._node.name, diagnostics)
         self._settings = settings
         names = self._names()
         for name in names:

@@ -26,8 +26,8 @@ from gazelle.nodes.nav2.trees.messages import path_length_m, plane_pose
 from gazelle.nodes.nav2.trees.node import Status, TreeNode
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.reading import node_reader
 from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["run"]
@@ -63,7 +63,7 @@ class _Navigator:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._parameters = offer_parameters(node, tree)
-        self._settings = Settings(BT_NAVIGATOR, tree, node.name, Diagnostics())
+        self._settings = node_reader(BT_NAVIGATOR, tree, node.name, Diagnostics())
         self._frames = Frames(node)
         self._world: GraphWorld | None = None
         self._files: dict[str, TreeFile] = {}
@@ -77,7 +77,7 @@ class _Navigator:
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        settings = Settings(BT_NAVIGATOR, self._tree, self._node.name, diagnostics)
+        settings = node_reader(BT_NAVIGATOR, self._tree, self._node.name, diagnostics)
         self._settings = settings
         settings.report_unknown(*settings.texts("navigators"))
         self._world = GraphWorld(

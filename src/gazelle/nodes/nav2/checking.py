@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gazelle.nodes.navigation.frames import PlanePose
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["GoalChecker", "ProgressChecker", "goal_checker", "progress_checker"]
 
@@ -81,7 +81,7 @@ class ProgressChecker:
         return (now_ns - self._since_ns) / _NANO <= self.allowance_s
 
 
-def goal_checker(settings: Settings) -> GoalChecker:
+def goal_checker(settings: ParameterReader) -> GoalChecker:
     """Make a goal checker of its settings."""
     known = {row.key for row in settings.table.rows}
     stopped = (math.inf, math.inf)
@@ -96,7 +96,7 @@ def goal_checker(settings: Settings) -> GoalChecker:
     )  # fmt: skip
 
 
-def progress_checker(settings: Settings, now_ns: Callable[[], int]) -> ProgressChecker:
+def progress_checker(settings: ParameterReader, now_ns: Callable[[], int]) -> ProgressChecker:
     """Make a progress checker of its settings."""
     known = {row.key for row in settings.table.rows}
     turns = "required_movement_angle" in known

@@ -20,7 +20,8 @@ from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
@@ -52,7 +53,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 class _Monitor:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
-        self._settings = Settings(COLLISION_MONITOR, tree, node.name, Diagnostics())
+        self._settings = node_reader(COLLISION_MONITOR, tree, node.name, Diagnostics())
         self._frames = Frames(node)
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._base = self._settings.text("base_frame_id").removeprefix("/")
@@ -70,7 +71,7 @@ class _Monitor:
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        settings = Settings(COLLISION_MONITOR, self._tree, self._node.name, diagnostics)
+        settings = node_reader(COLLISION_MONITOR, self._tree, self._node.name, diagnostics)
         self._settings, text = settings, settings.text
         zones = read_zones(settings)
         fixed = text("odom_frame_id") if settings.flag("base_shift_correction") else ""
@@ -116,7 +117,7 @@ class _Monitor:
         self._out = self._state_out = None
         return True
 
-    def _connect(self, zone: Zone, own: Settings) -> None:
+    def _connect(self, zone: Zone, own: ParameterReader) -> None:
         """Let a topic give a zone's outline, and show it, where that is asked for."""
         if zone.radius_m is None and zone.outline is None and not zone.bands:
             topic = own.text("polygon_sub_topic")

@@ -42,10 +42,11 @@ from gazelle.nodes.nav2.tables import (
 )
 from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.navigation.table import Table
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
@@ -81,7 +82,7 @@ class _ControllerServer:
         self._node, self._tree = node, tree
         self._arguments, self._graph = arguments, graph
         self._parameters = offer_parameters(node, tree)
-        self._settings = Settings(CONTROLLER_SERVER, tree, node.name, Diagnostics())
+        self._settings = node_reader(CONTROLLER_SERVER, tree, node.name, Diagnostics())
         self._costmap: Nav2Costmap | None = None
         self._controllers: dict[str, Controller] = {}
         self._goal_checkers: dict[str, GoalChecker] = {}
@@ -101,7 +102,7 @@ class _ControllerServer:
     def configure(self) -> bool:
         diagnostics = Diagnostics()
         self._costmap = Nav2Costmap("local_costmap", self._arguments, self._graph, diagnostics)
-        settings = Settings(CONTROLLER_SERVER, self._tree, self._node.name, diagnostics)
+        settings = node_reader(CONTROLLER_SERVER, self._tree, self._node.name, diagnostics)
         self._settings = settings
         old_progress = settings.text("progress_checker_plugin").split()
         old_goal = settings.text("goal_checker_plugin").split()
@@ -155,8 +156,8 @@ class _ControllerServer:
         return True
 
     def _plugins(
-        self, what: str, names: list[str], tables: Mapping[str, Table]
-    ) -> list[tuple[str, Settings]]:
+        self, what: str, names: list[str], tables: Mapping[str, ParameterTable]
+    ) -> list[tuple[str, ParameterReader]]:
         """Return settings of plug-ins by name; types that are not known are reported."""
         found = []
         for name in names:
@@ -175,7 +176,7 @@ class _ControllerServer:
             found.append((name, settings))
         return found
 
-    def _controller(self, settings: Settings) -> Controller:
+    def _controller(self, settings: ParameterReader) -> Controller:
         kind = CONTROLLERS[settings.table.types[0]]
         critics = {key: value for key, value in settings.tree.items() if isinstance(value, dict)}
         # Scores of critics stand beside the controller's own parameters, by the critic's name.

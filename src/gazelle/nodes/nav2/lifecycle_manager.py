@@ -16,7 +16,7 @@ from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.nav2.tables import LIFECYCLE_MANAGER
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
 
 __all__ = ["run"]
 
@@ -54,7 +54,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 class _Manager:
     def __init__(self, node: Node, tree: dict[str, Any], stop: threading.Event) -> None:
         diagnostics = Diagnostics()
-        settings = Settings(LIFECYCLE_MANAGER, tree, node.name, diagnostics)
+        settings = node_reader(LIFECYCLE_MANAGER, tree, node.name, diagnostics)
         self._node, self._stop = node, stop
         self._names = self._present(settings.texts("node_names"))
         self._away_s = settings.number("bond_timeout")

@@ -28,8 +28,9 @@ from gazelle.nodes.nav2.costmaps import Nav2Costmap
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import PLANNER_SERVER, planner_table
 from gazelle.nodes.navigation.frames import PlanePose, path_message
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
@@ -74,7 +75,7 @@ class _PlannerServer:
     def configure(self) -> bool:
         diagnostics = Diagnostics()
         self._costmap = Nav2Costmap("global_costmap", self._arguments, self._graph, diagnostics)
-        settings = Settings(PLANNER_SERVER, self._tree, self._node.name, diagnostics)
+        settings = node_reader(PLANNER_SERVER, self._tree, self._node.name, diagnostics)
         names = settings.texts("planner_plugins")
         self._planners = {}
         for name in names:
@@ -223,7 +224,9 @@ class _PlannerServer:
         return response
 
 
-def _options(name: str, tree: Mapping[str, Any], settings: Settings) -> PlannerOptions | None:
+def _options(
+    name: str, tree: Mapping[str, Any], settings: ParameterReader
+) -> PlannerOptions | None:
     plugin = str(tree.get("plugin", _DEFAULT))
     if plugin not in PLANNERS:
         why = REFUSED_PLANNERS.get(plugin) or did_you_mean(plugin, PLANNERS)

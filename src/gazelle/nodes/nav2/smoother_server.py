@@ -20,8 +20,9 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import SMOOTHER, SMOOTHER_SERVER
 from gazelle.nodes.navigation.frames import path_message
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run", "smoothed"]
 
@@ -75,14 +76,14 @@ class _SmootherServer:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._parameters = offer_parameters(node, tree)
-        self._smoothers: dict[str, Settings] = {}
+        self._smoothers: dict[str, ParameterReader] = {}
         self._grid: CostGrid | None = None
         self._action: SingleGoal | None = None
         self._ending = threading.Event()
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        settings = Settings(SMOOTHER_SERVER, self._tree, self._node.name, diagnostics)
+        settings = node_reader(SMOOTHER_SERVER, self._tree, self._node.name, diagnostics)
         names = settings.texts("smoother_plugins")
         for name in names:
             below = self._tree.get(name)
@@ -159,7 +160,9 @@ class _SmootherServer:
             return
         action.succeed(result)
 
-    def _smooth(self, points: NDArray[np.float64], settings: Settings) -> NDArray[np.float64]:
+    def _smooth(
+        self, points: NDArray[np.float64], settings: ParameterReader
+    ) -> NDArray[np.float64]:
         rounds = settings.integer("refinement_num") if settings.flag("do_refinement") else 0
         for _ in range(1 + max(rounds, 0)):
             points = smoothed(

@@ -11,9 +11,9 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
-from gazelle.nodes.navigation.settings import nested
 from gazelle.nodes.parameters import node_parameters, start_node
 from gazelle.nodes.ros2_words import file_params
+from gazelle.parameters.trees import nested
 
 __all__ = ["offer_parameters", "serve", "start", "tree_of_node"]
 

@@ -14,8 +14,8 @@ from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import VELOCITY_SMOOTHER
 from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.reading import node_reader
 
 __all__ = ["limited", "run"]
 
@@ -71,7 +71,7 @@ class _Smoother:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._parameters = offer_parameters(node, tree)
-        self._settings = Settings(VELOCITY_SMOOTHER, tree, node.name, Diagnostics())
+        self._settings = node_reader(VELOCITY_SMOOTHER, tree, node.name, Diagnostics())
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._out = VelocityOutput(node, stamped=self._stamped, topic="cmd_vel_smoothed")
         self._odometry = Odometry(node, self._settings.text("odom_topic"))
@@ -83,7 +83,7 @@ class _Smoother:
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        settings = Settings(VELOCITY_SMOOTHER, self._tree, self._node.name, diagnostics)
+        settings = node_reader(VELOCITY_SMOOTHER, self._tree, self._node.name, diagnostics)
         self._settings = settings
         for key in ("max_velocity", "min_velocity", "max_accel", "max_decel", "deadband_velocity"):
             if len(settings.numbers(key)) != 3:

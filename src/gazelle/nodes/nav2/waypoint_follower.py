@@ -14,8 +14,8 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import WAYPOINT_FOLLOWER
-from gazelle.nodes.navigation.settings import Settings
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.reading import node_reader
 
 __all__ = ["run"]
 
@@ -41,7 +41,7 @@ class _Follower:
     def __init__(self, node: Node, tree: dict[str, Any]) -> None:
         self._node, self._tree = node, tree
         self._parameters = offer_parameters(node, tree)
-        self._settings = Settings(WAYPOINT_FOLLOWER, tree, node.name, Diagnostics())
+        self._settings = node_reader(WAYPOINT_FOLLOWER, tree, node.name, Diagnostics())
         self._client = ActionClient(
             node, "navigate_to_pose", "nav2_msgs/NavigateToPose", generation=2
         )
@@ -51,7 +51,7 @@ class _Follower:
 
     def configure(self) -> bool:
         diagnostics = Diagnostics()
-        self._settings = Settings(WAYPOINT_FOLLOWER, self._tree, self._node.name, diagnostics)
+        self._settings = node_reader(WAYPOINT_FOLLOWER, self._tree, self._node.name, diagnostics)
         name = self._settings.text("waypoint_task_executor_plugin")
         self._settings.report_unknown(name)
         below = self._tree.get(name)

@@ -23,8 +23,10 @@ from gazelle.navigation.costmap import (
     StaticOptions,
     VoxelOptions,
 )
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Table, table_of
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.options import table_of
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["COSTMAP_TABLES", "INHERITED", "Assembly", "assemble", "costmap_table", "layer_table"]
 
@@ -79,8 +81,8 @@ class Assembly:
 
     costmap: LayeredCostmap
     base_footprint: Footprint
-    settings: Settings
-    layers: dict[str, Settings] = field(default_factory=dict)
+    settings: ParameterReader
+    layers: dict[str, ParameterReader] = field(default_factory=dict)
 
     @property
     def sources(self) -> dict[tuple[str, str], SourceOptions]:
@@ -93,17 +95,17 @@ class Assembly:
         }
 
 
-def costmap_table(generation: Generation = 1) -> Table:
+def costmap_table(generation: Generation = 1) -> ParameterTable:
     """Return the parameters of a costmap as a whole."""
     return _table(CostmapOptions, generation)
 
 
-def layer_table(options: type, generation: Generation = 1) -> Table:
+def layer_table(options: type, generation: Generation = 1) -> ParameterTable:
     """Return the parameters of a layer or of a sensor."""
     return _table(options, generation)
 
 
-COSTMAP_TABLES: tuple[Table, ...] = ()
+COSTMAP_TABLES: tuple[ParameterTable, ...] = ()
 """The tables of ROS 1, for the documentation; filled below."""
 
 
@@ -138,7 +140,7 @@ def assemble(
     outline = own.get("footprint")
     if isinstance(outline, list):
         own["footprint"] = repr(outline)
-    settings = Settings(costmap_table(generation), own, name, diagnostics)
+    settings = node_reader(costmap_table(generation), own, name, diagnostics)
     options = _sized(
         settings, settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
     )
@@ -164,7 +166,7 @@ class _LayerRow:
     tree: dict[str, Any]
 
 
-def _table(options: type, generation: Generation) -> Table:
+def _table(options: type, generation: Generation) -> ParameterTable:
     family, summary = _FAMILIES[options]
     names = tuple(name for name, kind in LAYER_TYPES.items() if kind is options)
     defaults = getattr(options, "NAV2_DEFAULTS", {}) if generation == 2 else {}
@@ -204,7 +206,7 @@ _NAV2_DEFAULT_TYPES = {
 }
 
 
-def _left_out(settings: Settings) -> list[str]:
+def _left_out(settings: ParameterReader) -> list[str]:
     """Tell of layers with parameters that ``plugins`` does not name, as Nav2's own files have."""
     names = [
         key
@@ -271,7 +273,7 @@ def _layer(
 ) -> Layer:
     name = f"{made.settings.name}/{row.name}"
     table = _table(row.options, generation)
-    settings = Settings(table, row.tree, name, diagnostics)
+    settings = node_reader(table, row.tree, name, diagnostics)
     made.layers[row.name] = settings
     if row.options is StaticOptions:
         settings.report_unknown()
@@ -291,7 +293,7 @@ def _layer(
 
 
 def _source(
-    source: str, layer: Settings, generation: Generation, trees: Sequence[Mapping[str, Any]]
+    source: str, layer: ParameterReader, generation: Generation, trees: Sequence[Mapping[str, Any]]
 ) -> SourceOptions:
     """Return a sensor; ranges that it does not say are those of the layer or above."""
     settings = layer.below(source, _table(SourceOptions, generation))
@@ -309,7 +311,7 @@ def _source(
     return options
 
 
-def _sized(settings: Settings, options: CostmapOptions) -> CostmapOptions:
+def _sized(settings: ParameterReader, options: CostmapOptions) -> CostmapOptions:
     """Return options of a costmap that has no more cells than a machine can hold."""
     cells = options.width / options.resolution * (options.height / options.resolution)
     if cells <= _MOST_CELLS:
@@ -325,7 +327,7 @@ def _sized(settings: Settings, options: CostmapOptions) -> CostmapOptions:
     return replace(options, width=usual.width, height=usual.height)
 
 
-def _footprint(settings: Settings, options: CostmapOptions) -> Footprint:
+def _footprint(settings: ParameterReader, options: CostmapOptions) -> Footprint:
     text = options.footprint.strip()
     if text in ("", "[]"):
         return Footprint.of_radius(options.robot_radius)

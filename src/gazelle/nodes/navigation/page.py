@@ -15,9 +15,10 @@ from gazelle.nodes.nav2 import tables as nav2
 from gazelle.nodes.nav2.collision.tables import BAND, COLLISION_MONITOR, SOURCE, ZONE
 from gazelle.nodes.nav2.trees.loading import NODE_TYPES
 from gazelle.nodes.navigation.assembling import COSTMAP_TABLES
-from gazelle.nodes.navigation.table import Row, Table
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.markdown import table_section
 
-__all__ = ["page", "section"]
+__all__ = ["page"]
 
 _INTRODUCTION = (
     "# Navigation: parameters\n\nGenerated from the tables that the nodes read; do not edit"
@@ -31,17 +32,17 @@ def page() -> str:
     """Return the page."""
     parts = [_INTRODUCTION, "## ROS 1"]
     tables = (MOVE_BASE, *planner_tables(), *local_planner_tables(), CLEAR, ROTATE, SLOW)
-    parts += [section(table) for table in tables]
+    parts += [table_section(table) for table in tables]
     parts += ["## Costmaps of both generations"]
-    parts += [section(table) for table in COSTMAP_TABLES]
+    parts += [table_section(table) for table in COSTMAP_TABLES]
     parts += ["## Nav2"]
-    parts += [section(table) for table in _nav2_tables()]
+    parts += [table_section(table) for table in _nav2_tables()]
     parts += ["## What is not there", _refused()]
     parts += ["## Nodes of behaviour trees", _nodes()]
     return "\n\n".join(parts) + "\n"
 
 
-def _nav2_tables() -> list[Table]:
+def _nav2_tables() -> list[ParameterTable]:
     servers = [
         nav2.PLANNER_SERVER, nav2.CONTROLLER_SERVER, *nav2.GOAL_CHECKERS.values(),
         *nav2.PROGRESS_CHECKERS.values(), nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR,
@@ -51,28 +52,6 @@ def _nav2_tables() -> list[Table]:
     planners = [nav2.planner_table(name) for name in PLANNERS if "::" in name]
     controllers = [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]
     return [*servers, *planners, *controllers]
-
-
-def section(table: Table) -> str:
-    """Return the section of one table."""
-    lines = [f"### {table.family}", "", table.summary, ""]
-    if table.types:
-        lines += ["Types: " + ", ".join(f"`{name}`" for name in table.types), ""]
-    honoured = [row for row in table.rows if row.kind != "refused"]
-    idle = [row for row in table.rows if row.kind == "refused"]
-    lines += ["| parameter | default | unit | meaning |", "| --- | --- | --- | --- |"]
-    lines += [_line(row) for row in honoured]
-    if idle:
-        lines += ["", "Without effect:", ""]
-        lines += [f"- `{row.key}`: {row.meaning}" for row in idle]
-    return "\n".join(lines)
-
-
-def _line(row: Row) -> str:
-    names = ", ".join(f"`{name}`" for name in (row.key, *row.names))
-    default = "" if row.default is None else f"`{row.default}`"
-    meaning = row.meaning.replace("|", "\\|") + (" *(live)*" if row.live else "")
-    return f"| {names} | {default} | {row.unit} | {meaning} |"
 
 
 def _refused() -> str:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.reconfigure import DynamicParameter, ReconfigureServer
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row
+from gazelle.parameters import Parameter
+from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -18,7 +18,7 @@ _TYPES = {"number": "double", "integer": "int", "flag": "bool", "text": "str"}
 
 
 def offer(
-    node: Node, namespace: str, settings: Settings, changed: Callable[[dict[str, Any]], None]
+    node: Node, namespace: str, settings: ParameterReader, changed: Callable[[dict[str, Any]], None]
 ) -> ReconfigureServer | None:
     """Offer the live parameters; None when there are none.
 
@@ -39,7 +39,7 @@ def offer(
     return ReconfigureServer(node, namespace, group, on_change)
 
 
-def _parameter(row: Row, value: Any) -> DynamicParameter:
+def _parameter(row: Parameter, value: Any) -> DynamicParameter:
     kind = _TYPES[row.kind]
     low, high = (None, None) if kind in ("bool", "str") else (row.low, row.high)
     meaning = f"{row.meaning} [{row.unit}]" if row.unit else row.meaning

@@ -17,9 +17,11 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.settings import Settings, nested
-from gazelle.nodes.navigation.table import Row, Table, refused
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 
 __all__ = ["EXPLORE", "run_explore"]
 
@@ -30,20 +32,23 @@ _ACTIONS = (
     ("navigate_to_pose", "nav2_msgs/NavigateToPose", "pose"),
 )
 
-EXPLORE = Table(
+EXPLORE = ParameterTable(
     "explore_lite",
     "Drives to the border of the unknown, by move_base or Nav2, until there is none.",
     ("explore_lite/explore",),
     (
-        Row("robot_base_frame", "text", "base_link", "the robot's frame"),
-        Row("costmap_topic", "text", "costmap", "map or costmap to explore"),
-        Row("planner_frequency", "number", 1.0, "how often frontiers are looked for", "Hz", 0.01),
-        Row("progress_timeout", "number", 30.0, "a goal is given up after so long without coming"
+        Parameter("robot_base_frame", "text", "base_link", "the robot's frame"),
+        Parameter("costmap_topic", "text", "costmap", "map or costmap to explore"),
+        Parameter("planner_frequency", "number", 1.0, "how often frontiers are looked for", "Hz",
+                  0.01),
+        Parameter("progress_timeout", "number", 30.0,
+                  "a goal is given up after so long without coming"
             " nearer", "s", 0.0),
-        Row("potential_scale", "number", 1e-3, "weight of the distance", "", 0.0),
-        Row("gain_scale", "number", 1.0, "weight of the frontier's size", "", 0.0),
-        Row("transform_tolerance", "number", 0.3, "how old the robot's pose may be", "s", 0.0),
-        Row("min_frontier_size", "number", 0.5, "smaller frontiers are left out", "m", 0.0),
+        Parameter("potential_scale", "number", 1e-3, "weight of the distance", "", 0.0),
+        Parameter("gain_scale", "number", 1.0, "weight of the frontier's size", "", 0.0),
+        Parameter("transform_tolerance", "number", 0.3, "how old the robot's pose may be", "s",
+                  0.0),
+        Parameter("min_frontier_size", "number", 0.5, "smaller frontiers are left out", "m", 0.0),
         *refused("maps are taken whole", "costmap_updates_topic"),
         *refused("frontiers are not drawn", "visualize"),
         *refused("the original reads it and does not use it", "orientation_scale"),
@@ -57,7 +62,7 @@ def run_explore(arguments: NodeArguments, graph: Graph, stop: threading.Event) -
     tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
     tree.update(nested(arguments.params))
     found = Diagnostics()
-    settings = Settings(EXPLORE, tree, node.resolve_name("~"), found)
+    settings = node_reader(EXPLORE, tree, node.resolve_name("~"), found)
     explorer = _Explorer(node, settings)
     settings.report_unknown()
     log_findings(node, found)
@@ -72,7 +77,7 @@ def run_explore(arguments: NodeArguments, graph: Graph, stop: threading.Event) -
 
 
 class _Explorer:
-    def __init__(self, node: Node, settings: Settings) -> None:
+    def __init__(self, node: Node, settings: ParameterReader) -> None:
         self._node, self._frames = node, Frames(node)
         self._base = settings.text("robot_base_frame").removeprefix("/")
         self._tolerance_s = settings.number("transform_tolerance")

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gazelle.nodes.navigation.table import Row, Table
 from gazelle.nodes.slam.options import Flavour, SlamOptions, used, why_not
+from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["FLAVOURS"]
 
@@ -24,14 +24,14 @@ _SHOWS = "drawings and timings of the original's inside"
 def _flavour(
     family: str,
     types: tuple[str, ...],
-    uses: tuple[tuple[Row, str], ...],
-    idle: tuple[Row, ...],
+    uses: tuple[tuple[Parameter, str], ...],
+    idle: tuple[Parameter, ...],
     base: SlamOptions = _DEFAULTS,
     *,
     services: bool = False,
 ) -> Flavour:
     rows = (*(row for row, _ in uses), *idle)
-    table = Table(family, f"SLAM under the names of {family}.", types, rows)
+    table = ParameterTable(family, f"SLAM under the names of {family}.", types, rows)
     return Flavour(table, {row.key: option for row, option in uses}, base, services)
 
 

@@ -19,14 +19,15 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.navigation.settings import Settings, nested
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.reading import node_reader
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import Flavour, SlamOptions, options_of
 from gazelle.nodes.slam.toolbox import ToolboxServices
+from gazelle.parameters.trees import nested
 from gazelle.workspace.ament_index import known_workspace
 
 __all__ = [
@@ -137,7 +138,7 @@ def _options(
     tree.update(nested(node.parameters.get(node.resolve_name("~"), {}) or {}))
     tree.update(nested(arguments.params))
     found = Diagnostics()
-    settings = Settings(flavour.table, tree, node.resolve_name("~"), found)
+    settings = node_reader(flavour.table, tree, node.resolve_name("~"), found)
     options = options_of(flavour, settings)
     settings.report_unknown()
     log_findings(node, found)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from gazelle.mapping.slam import SlamParameters
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Row, Table, refused
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Flavour", "SlamOptions", "options_of", "used", "why_not"]
 
@@ -65,7 +65,7 @@ class Flavour:
         services: it answers as slam_toolbox does.
     """
 
-    table: Table
+    table: ParameterTable
     uses: Mapping[str, str]
     base: SlamOptions = SlamOptions()
     services: bool = False
@@ -78,18 +78,18 @@ _FARTHEST_M = 30.0
 
 def used(
     key: str, default: Any, option: str, meaning: str, low: float | None = None, unit: str = ""
-) -> tuple[Row, str]:
+) -> tuple[Parameter, str]:
     """Return the row of a parameter that is an option, and that option."""
     kind = {str: "text", bool: "flag", int: "integer", list: "numbers"}.get(type(default), "number")
-    return Row(key, kind, default, meaning, unit, low), option  # type: ignore[arg-type]
+    return Parameter(key, kind, default, meaning, unit, low), option  # type: ignore[arg-type]
 
 
-def why_not(why: str, *keys: str) -> tuple[Row, ...]:
+def why_not(why: str, *keys: str) -> tuple[Parameter, ...]:
     """Return rows of parameters that have no effect, for one reason."""
     return refused(why, *keys)
 
 
-def options_of(flavour: Flavour, settings: Settings) -> SlamOptions:
+def options_of(flavour: Flavour, settings: ParameterReader) -> SlamOptions:
     """Return the options that parameters name; others keep the engine's values."""
     own: dict[str, Any] = {}
     engine: dict[str, Any] = {}

@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 
 from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, EXPLORE_SERVER
-from gazelle.nodes.navigation.page import section
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
+from gazelle.parameters.markdown import table_section
 
 __all__ = ["page"]
 
@@ -23,7 +23,7 @@ def page() -> str:
     """Return the page."""
     tables = [one.table for one in FLAVOURS.values()]
     tables += [EXPLORE, EXPLORE_SERVER, BOUNDED_EXPLORE]
-    return "\n\n".join([_INTRODUCTION, *map(section, tables)]) + "\n"
+    return "\n\n".join([_INTRODUCTION, *map(table_section, tables)]) + "\n"
 
 
 if __name__ == "__main__":

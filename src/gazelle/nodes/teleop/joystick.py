@@ -30,9 +30,10 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.navigation.settings import Settings, nested
-from gazelle.nodes.navigation.table import Row, Table
 from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.trees import nested
 
 __all__ = ["JoyDriving", "read_driving", "run"]
 
@@ -55,14 +56,16 @@ _SCALES = {
     "scale_angular_turbo.yaw": 1.0,
 }
 _ROWS = (
-    Row("enable_button", "integer", 5, "held, the axes count"),
-    Row("enable_turbo_button", "integer", -1, "held, they count with the turbo's scales"),
-    Row("require_enable_button", "flag", True, "the axes count while the button is held only"),
-    Row("inverted_reverse", "flag", False, "turn the other way when driving backwards"),
-    Row("publish_stamped_twist", "flag", False, "send TwistStamped"),
-    Row("frame", "text", "teleop_twist_joy", "frame of TwistStamped"),
+    Parameter("enable_button", "integer", 5, "held, the axes count"),
+    Parameter("enable_turbo_button", "integer", -1, "held, they count with the turbo's scales"),
+    Parameter(
+        "require_enable_button", "flag", True, "the axes count while the button is held only"
+    ),
+    Parameter("inverted_reverse", "flag", False, "turn the other way when driving backwards"),
+    Parameter("publish_stamped_twist", "flag", False, "send TwistStamped"),
+    Parameter("frame", "text", "teleop_twist_joy", "frame of TwistStamped"),
     *(
-        Row(
+        Parameter(
             f"{group}.{field}",
             "integer" if group.startswith("axis") else "number",
             _ROS2.get(f"{group}.{field}", -1)
@@ -74,7 +77,9 @@ _ROWS = (
         for field in fields
     ),
 )
-_TABLE = Table("teleop_node", "axes as velocities", ("teleop_twist_joy/teleop_node",), _ROWS)
+_TABLE = ParameterTable(
+    "teleop_node", "axes as velocities", ("teleop_twist_joy/teleop_node",), _ROWS
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +136,7 @@ def read_driving(
         is_ros2: its defaults are ROS 2's.
     """
     whole = dict(tree) if is_ros2 else _ros1_tree(tree)
-    settings = Settings(_TABLE, whole, name, found)
+    settings = node_reader(_TABLE, whole, name, found)
 
     def by_field(read: Any, linear: str, angular: str) -> dict[str, Any]:
         return {field: read(f"{linear if field in _LINEAR else angular}.{field}")

@@ -11,14 +11,15 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action
-from gazelle.nodes.navigation.settings import Settings
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 _CIRCLE = {"type": "circle", "action_type": "stop", "radius": 0.3}
 
 
-def _settings(**values: Any) -> tuple[Settings, Diagnostics]:
+def _settings(**values: Any) -> tuple[ParameterReader, Diagnostics]:
     diagnostics = Diagnostics()
-    return Settings(COLLISION_MONITOR, values, "/collision_monitor", diagnostics), diagnostics
+    return node_reader(COLLISION_MONITOR, values, "/collision_monitor", diagnostics), diagnostics
 
 
 def _said(diagnostics: Diagnostics) -> str:

@@ -12,8 +12,8 @@ from gazelle.navigation.costmap import Footprint
 from gazelle.nodes.nav2.collision.sources import SOURCE_TYPES, SourceOptions
 from gazelle.nodes.nav2.collision.tables import BAND, SOURCE, ZONE
 from gazelle.nodes.nav2.collision.zones import Action, Band, Points, Zone
-from gazelle.nodes.navigation.settings import Settings
-from gazelle.nodes.navigation.table import Table
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["read_sources", "read_zones", "report_others"]
 
@@ -21,7 +21,7 @@ _ACTIONS = {one.name.lower(): one for one in Action}
 _SHAPES = ("polygon", "circle", "velocity_polygon")
 
 
-def read_zones(settings: Settings) -> list[tuple[Zone, Settings]]:
+def read_zones(settings: ParameterReader) -> list[tuple[Zone, ParameterReader]]:
     """Return the zones of ``polygons`` with their settings; wrong ones are reported and left out.
 
     A polygon that a topic gives has no outline yet.
@@ -35,7 +35,7 @@ def read_zones(settings: Settings) -> list[tuple[Zone, Settings]]:
     return found
 
 
-def read_sources(settings: Settings) -> list[SourceOptions]:
+def read_sources(settings: ParameterReader) -> list[SourceOptions]:
     """Return the sensors of ``observation_sources``; wrong ones are reported and left out."""
     found = []
     for name, own in _below(settings, "observation_sources", SOURCE):
@@ -58,7 +58,7 @@ def read_sources(settings: Settings) -> list[SourceOptions]:
     return found
 
 
-def report_others(settings: Settings) -> None:
+def report_others(settings: ParameterReader) -> None:
     """Tell of parameters of the node that are not known, and of zones that nobody names."""
     named = {*settings.texts("polygons"), *settings.texts("observation_sources")}
     idle = [
@@ -72,14 +72,16 @@ def report_others(settings: Settings) -> None:
     settings.report_unknown(*named, *idle)
 
 
-def _below(settings: Settings, key: str, table: Table) -> Iterator[tuple[str, Settings]]:
+def _below(
+    settings: ParameterReader, key: str, table: ParameterTable
+) -> Iterator[tuple[str, ParameterReader]]:
     for name in settings.texts(key):
         below = settings.tree.get(name)
         tree = below if isinstance(below, Mapping) else {}
         yield name, settings.with_table(table, tree, name)
 
 
-def _zone(name: str, own: Settings) -> Zone | None:
+def _zone(name: str, own: ParameterReader) -> Zone | None:
     shape, word = own.text("type"), own.text("action_type")
     for what, given, known in (("type", shape, _SHAPES), ("action_type", word, _ACTIONS)):
         if given not in known:
@@ -112,7 +114,7 @@ def _zone(name: str, own: Settings) -> Zone | None:
     return zone
 
 
-def _bands(own: Settings) -> Iterator[Band]:
+def _bands(own: ParameterReader) -> Iterator[Band]:
     for _, below in _below(own, "velocity_polygons", BAND):
         outline, number = _outline(below), below.number
         below.report_unknown()
@@ -126,7 +128,7 @@ def _bands(own: Settings) -> Iterator[Band]:
             )
 
 
-def _outline(own: Settings) -> Points | None:
+def _outline(own: ParameterReader) -> Points | None:
     value: Any = own.raw("points")
     if isinstance(value, list | tuple) and value and not isinstance(value[0], list | tuple):
         # Humble has x and y one after the other.

@@ -8,29 +8,32 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.navigation.costmap import CostmapOptions, SourceOptions
-from gazelle.nodes.navigation.settings import Settings, nested
-from gazelle.nodes.navigation.table import Row, Table, refused, table_of
+from gazelle.nodes.reading import node_reader
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.options import table_of
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 
-_TABLE = Table(
+_TABLE = ParameterTable(
     "thing",
     "A thing.",
     ("pkg/Thing",),
     (
-        Row("rate", "number", 5.0, "how often", "Hz", 0, 10),
-        Row("count", "integer", 3, "how many"),
-        Row("on", "flag", True, "whether"),
-        Row("frame", "text", "map", "where"),
-        Row("names", "texts", ("a",), "who"),
-        Row("inner", "group", None, "more"),
-        Row("<any>.plugin", "text", "", "of each"),
+        Parameter("rate", "number", 5.0, "how often", "Hz", 0, 10),
+        Parameter("count", "integer", 3, "how many"),
+        Parameter("on", "flag", True, "whether"),
+        Parameter("frame", "text", "map", "where"),
+        Parameter("names", "words", ("a",), "who"),
+        Parameter("inner", "group", None, "more"),
+        Parameter("<any>.plugin", "text", "", "of each"),
         *refused("there is no such thing here", "ghost"),
     ),
 )
 
 
-def _settings(tree: dict[str, Any]) -> tuple[Settings, Diagnostics]:
+def _settings(tree: dict[str, Any]) -> tuple[ParameterReader, Diagnostics]:
     diagnostics = Diagnostics()
-    return Settings(_TABLE, tree, "/node", diagnostics), diagnostics
+    return node_reader(_TABLE, tree, "/node", diagnostics), diagnostics
 
 
 def test_values_and_defaults() -> None:
@@ -66,6 +69,23 @@ def test_values_that_do_not_fit_are_told(key, value, used, words) -> None:
     assert found.code == "parameter.bad-value"
 
 
+def test_a_number_that_is_written_as_text_is_taken_and_told() -> None:
+    settings, diagnostics = _settings({"rate": "1e-3"})
+    assert settings.number("rate") == 0.001
+    (found,) = diagnostics
+    assert found.code == "parameter.number-as-text"
+    assert found.message == (
+        "/node: parameter 'rate' is the text '1e-3', used as the number 0.001; real ROS would not"
+        " take it (YAML 1.1 reads 1e-3 as a text)"
+    )
+
+
+def test_what_a_table_has_no_row_for_cannot_be_read() -> None:
+    settings, _ = _settings({})
+    with pytest.raises(KeyError, match="thing has no parameter speed"):
+        settings.number("speed")
+
+
 def test_unknown_and_idle_parameters_are_told_with_what_is_near() -> None:
     settings, diagnostics = _settings(
         {"rat": 1, "ghost": 2, "inner": {"x": 1}, "a": {"plugin": "p"}, "use_sim_time": True}
@@ -96,12 +116,12 @@ def test_option_classes_are_tables_and_are_filled() -> None:
     table = table_of(SourceOptions, "sensor", "A sensor.", defaults={"raytrace_range": 4.0})
     diagnostics = Diagnostics()
     tree = {"obstacle_max_range": 1.5, "data_type": "PointCloud2", "transport_type": "raw"}
-    settings = Settings(table, tree, "/costmap/scan", diagnostics)
+    settings = node_reader(table, tree, "/costmap/scan", diagnostics)
     options = settings.fill(SourceOptions, marking=False)
     assert (options.obstacle_range, options.raytrace_range) == (1.5, 4.0)
     assert (options.data_type, options.marking) == ("PointCloud2", False)
     settings.report_unknown()
     assert [item.code for item in diagnostics] == ["parameter.idle"]
-    assert Settings(
+    assert node_reader(
         table_of(CostmapOptions, "costmap", ""), {}, "", Diagnostics()
     ).fill(CostmapOptions) == CostmapOptions()  # fmt: skip
