@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import yaml
-
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.graph import Qos
 
 __all__ = ["offered_qos", "read_qos"]
@@ -31,7 +29,7 @@ def read_qos(text: str) -> Qos:
     """Return what the first profile asks for; the default where the text says nothing."""
     try:
         profiles = load_yaml(text) if text else None
-    except yaml.YAMLError:
+    except YamlError:
         profiles = None
     if not isinstance(profiles, list) or not profiles or not isinstance(profiles[0], dict):
         return Qos()

@@ -229,27 +229,19 @@ def _change(
         print(f"error updating parameters: {error}")
 
 
-class _Tagged(dict[str, Any]):
-    """A dictionary that is written as the original writes its class ``Config``."""
-
-
 def _as_yaml(found: dict[str, Any]) -> str:
     """Return the file that the original's ``yaml.dump`` writes, with the tags of its class."""
-    import yaml
+    from gazelle.documents.yaml import TaggedMapping, dump_yaml
 
-    class Dumper(yaml.SafeDumper):
-        pass
+    def tagged(tree: dict[str, Any]) -> TaggedMapping:
+        items = {key: tagged(one) if isinstance(one, dict) else one for key, one in tree.items()}
+        return TaggedMapping(_TAG, {**({"dictitems": items} if items else {}), "state": []})
 
-    def represent(dumper: yaml.SafeDumper, value: _Tagged) -> yaml.Node:
-        items = {"dictitems": dict(value)} if value else {}
-        return dumper.represent_mapping(_TAG, {**items, "state": []})
-
-    Dumper.add_representer(_Tagged, represent)
-    return yaml.dump(_tagged(found), Dumper=Dumper)
+    return dump_yaml(tagged(found))
 
 
-def _tagged(tree: dict[str, Any]) -> _Tagged:
-    return _Tagged({k: _tagged(v) if isinstance(v, dict) else v for k, v in tree.items()})
+def _dict_items(state: dict[Any, Any]) -> Any:
+    return state.get("dictitems", {})
 
 
 def _from_yaml(path: str) -> dict[str, Any]:
@@ -258,24 +250,16 @@ def _from_yaml(path: str) -> dict[str, Any]:
     Raises:
         ToolError: the file cannot be read, or is no YAML dictionary.
     """
-    import yaml
-
     from gazelle.documents import read_text_limited
-    from gazelle.documents.yaml.loader import LimitedLoader
+    from gazelle.documents.yaml import Dialect, YamlError, load_yaml_documents
 
-    class Loader(LimitedLoader):
-        pass
-
-    def construct(loader: yaml.SafeLoader, node: yaml.MappingNode) -> Any:
-        return loader.construct_mapping(node, deep=True).get("dictitems", {})
-
-    Loader.add_constructor(_TAG, construct)
+    dialect = Dialect(tags=((_TAG, _dict_items),))
     found: dict[str, Any] = {}
     try:
-        for document in yaml.load_all(read_text_limited(path), Loader=Loader):
+        for document in load_yaml_documents(read_text_limited(path), dialect):
             found.update(document)
     except OSError as error:
         raise ToolError(f"cannot read '{path}': {error.strerror}") from None
-    except (yaml.YAMLError, UnicodeDecodeError, TypeError, ValueError) as error:
+    except (YamlError, UnicodeDecodeError, TypeError, ValueError) as error:
         raise ToolError(f"'{path}' is not a YAML dictionary of parameters: {error}") from None
     return found

@@ -186,13 +186,11 @@ def parse_command_line(arguments: Sequence[str]) -> CommandLine:
 
 
 def _yaml_value(text: str) -> Any:
-    import yaml
-
-    from gazelle.documents.yaml import load_yaml
+    from gazelle.documents.yaml import YamlError, load_yaml
 
     try:
         return load_yaml(text) if text else ""
-    except yaml.YAMLError:
+    except YamlError:
         return text
 
 

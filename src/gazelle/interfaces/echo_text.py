@@ -108,15 +108,15 @@ def _python_number(value: Any) -> Any:
 
 
 def _quoted(text: str) -> str:
-    import yaml
+    from gazelle.documents.yaml import dump_yaml
 
-    return yaml.dump(text, default_style='"').rstrip("\n")
+    return dump_yaml(text, quoted=True, objects=True).rstrip("\n")
 
 
 def _string_list(values: Iterable[Any], indent: str) -> str:
-    import yaml
+    from gazelle.documents.yaml import dump_yaml
 
-    text = yaml.dump(list(values)).rstrip("\n")
+    text = dump_yaml(list(values), objects=True).rstrip("\n")
     if text.startswith("["):
         return text
     return "\n" + "\n".join(indent + line for line in text.splitlines())

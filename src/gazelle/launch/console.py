@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from typing import Any, TextIO
 
-import yaml
-
+from gazelle.documents.yaml import dump_yaml
 from gazelle.ending import drop_output, when_nobody_reads
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.xml1.values import flatten
@@ -96,4 +95,4 @@ def dump_text(config: LaunchConfig) -> str:
     leaves: dict[str, Any] = {}
     for name, value in config.params.items():
         leaves.update(flatten(name, value))
-    return yaml.safe_dump(leaves, default_flow_style=False)
+    return dump_yaml(leaves)

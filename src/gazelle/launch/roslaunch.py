@@ -11,8 +11,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.description.text_place import (
     TEXT_FILES_VARIABLE,
     TEXT_NAME,
@@ -20,6 +18,7 @@ from gazelle.description.text_place import (
     place_of_text,
 )
 from gazelle.diagnostics import Diagnostics, render
+from gazelle.documents.yaml import dump_yaml
 from gazelle.errors import GraphError, LaunchError
 from gazelle.folders import ros_home
 from gazelle.graph import Graph, NoGraphError
@@ -292,7 +291,7 @@ def _set_params(config: LaunchConfig, graph: Graph, run_id: str) -> None:
     for name, value in {**core, "/run_id": run_id, **config.params}.items():
         store.set(name, value)
     for dump in config.dumps:
-        text = yaml.safe_dump(store.get(dump.namespace), default_flow_style=False)
+        text = dump_yaml(store.get(dump.namespace))
         Path(dump.file).write_text(text, encoding="utf-8")
 
 

@@ -9,11 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
-import yaml
-
-from gazelle.documents import read_text_limited
 from gazelle.documents.names import is_file
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml_file
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import anonymous_name
@@ -224,8 +221,8 @@ class _Spawner:
                 names.append(word)
                 continue
             try:
-                found = load_yaml(read_text_limited(word))
-            except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+                found = load_yaml_file(word)
+            except YamlError as error:
                 raise LaunchError(f"cannot read controllers from '{word}': {error}") from error
             for name, values in (found or {}).items():
                 self._node.parameters.set(self._node.resolve_name(name), values)

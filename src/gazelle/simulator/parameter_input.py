@@ -7,10 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml_file
 from gazelle.errors import GazelleError
 from gazelle.simulator.control_registry import ControlRegistry
 from gazelle.simulator.ports import ParameterPort
@@ -87,8 +84,8 @@ def _is_ros2(tree: Mapping[str, Any]) -> bool:
 
 def _read(path: Path) -> Mapping[str, Any]:
     try:
-        tree = load_yaml(read_text_limited(path))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        tree = load_yaml_file(path)
+    except YamlError as error:
         raise GazelleError(f"parameter file '{path}' cannot be read: {error}") from error
     if not isinstance(tree, Mapping):
         kind = "nothing" if tree is None else f"a {type(tree).__name__}"

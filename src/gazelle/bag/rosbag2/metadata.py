@@ -7,10 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
 from gazelle.bag.records import BagError, Connection, Storage, Summary
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, dump_yaml, load_yaml_file
 
 __all__ = ["METADATA", "FileSummary", "Metadata", "read_metadata", "write_metadata"]
 
@@ -56,7 +54,7 @@ def read_metadata(folder: Path) -> Metadata | None:
     if not path.is_file():
         return None
     try:
-        root = load_yaml(path.read_text(encoding="utf-8"))[_ROOT]
+        root = load_yaml_file(path)[_ROOT]
         return Metadata(
             str(root["storage_identifier"]),
             tuple(map(str, root["relative_file_paths"])),
@@ -65,7 +63,7 @@ def read_metadata(folder: Path) -> Metadata | None:
             str(root.get("ros_distro") or ""),
             root.get("custom_data") or {},
         )
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
+    except (YamlError, KeyError, TypeError) as error:
         text = f"{path}: this is no metadata of rosbag2: {error}"
         raise BagError(f"{text}; `ros2 bag reindex {folder}` writes it anew") from None
 
@@ -103,7 +101,7 @@ def write_metadata(
         "custom_data": custom_data or None,
         "ros_distro": os.environ.get("ROS_DISTRO", "unknown"),
     }
-    text = yaml.safe_dump({_ROOT: root}, sort_keys=False, default_flow_style=False)
+    text = dump_yaml({_ROOT: root}, sort_keys=False)
     part = folder / f"{METADATA}.part"
     part.write_text(text, encoding="utf-8")
     part.replace(folder / METADATA)

@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
 from gazelle.documents import read_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, dump_yaml, load_yaml
 from gazelle.workspace.building.catkin_space import CatkinSpaces
 from gazelle.workspace.building.packages import BuildError
 
@@ -67,7 +65,7 @@ def load_profile(folder: Path, *, may_make: bool = False) -> Profile:
     file = root / _MARKER / _CONFIG
     try:
         values = load_yaml(read_limited(file, _MOST_BYTES)) if file.is_file() else {}
-    except (OSError, ValueError, yaml.YAMLError) as error:
+    except (OSError, ValueError, YamlError) as error:
         raise BuildError(f"cannot read '{file}': {error}; remove it to start anew") from error
     return Profile(root, values if isinstance(values, dict) else {})
 
@@ -86,4 +84,4 @@ def save_profile(profile: Profile) -> None:
     """Store the configuration."""
     file = profile.root / _MARKER / _CONFIG
     file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(yaml.safe_dump(dict(profile.values), sort_keys=True), encoding="utf-8")
+    file.write_text(dump_yaml(dict(profile.values)), encoding="utf-8")

@@ -7,13 +7,12 @@ import sys
 import threading
 from typing import Any
 
-import yaml
-
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.text.ros2_filling import yaml_values
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
+from gazelle.documents.yaml import dump_yaml
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ActionInfo, ClientGoal, CommState
@@ -181,7 +180,7 @@ def _follow(goal: ClientGoal, is_told: threading.Event) -> int:
 
 
 def _yaml(message: Any) -> str:
-    return str(yaml.safe_dump(to_plain(message), sort_keys=False, allow_unicode=True))
+    return dump_yaml(to_plain(message), sort_keys=False, allow_unicode=True)
 
 
 def _global(name: str) -> str:

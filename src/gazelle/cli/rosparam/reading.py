@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
+from gazelle.documents.yaml import dump_yaml
 from gazelle.graph import Graph
 
 __all__ = ["dump", "get", "leaves", "listing"]
@@ -50,7 +49,7 @@ def get(words: list[str]) -> int:
         print("\n".join(_pretty(value)))
     else:
         # A scalar's document is ended by "...", which the original takes off.
-        text = yaml.dump(value).removesuffix("\n...\n")
+        text = dump_yaml(value, objects=True).removesuffix("\n...\n")
         print(text)
     return 0
 
@@ -70,7 +69,7 @@ def dump(words: list[str]) -> int:
         value = _value(graph, name)
     if options.verbose:
         print("\n".join(f"{leaf}={item}" for leaf, item in leaves(name, value)))
-    text = yaml.dump(value)
+    text = dump_yaml(value, objects=True)
     if not file:
         sys.stdout.write(text)
         return 0
@@ -110,5 +109,5 @@ def _pretty(tree: dict[str, Any], indent: str = "") -> Iterator[str]:
         elif isinstance(value, str):
             yield f"{indent}{key}: {value}"
         else:
-            text = yaml.dump(value).removesuffix("\n...\n").rstrip("\n")
+            text = dump_yaml(value, objects=True).removesuffix("\n...\n").rstrip("\n")
             yield f"{indent}{key}: {text}"

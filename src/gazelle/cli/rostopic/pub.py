@@ -155,10 +155,8 @@ def _wait_for_listener(job: _Job) -> None:
 
 
 def _file_documents(name: str) -> list[Any]:
-    import yaml
-
     from gazelle.documents import read_text_limited
-    from gazelle.documents.yaml import load_yaml_documents
+    from gazelle.documents.yaml import YamlError, load_yaml_documents
 
     path = Path(name)
     if not path.is_file():
@@ -167,7 +165,7 @@ def _file_documents(name: str) -> list[Any]:
         found = load_yaml_documents(read_text_limited(path))
     except OSError as error:
         raise ToolError(f"cannot read {name}: {error.strerror}") from None
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except (YamlError, UnicodeDecodeError) as error:
         raise ToolError(f"invalid YAML in file: {error}") from None
     return [one for one in found if one is not None]
 

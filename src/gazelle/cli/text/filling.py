@@ -22,13 +22,11 @@ def yaml_words(words: list[str]) -> list[Any]:
     Raises:
         ToolError: one is not YAML.
     """
-    import yaml
-
-    from gazelle.documents.yaml import load_yaml
+    from gazelle.documents.yaml import YamlError, load_yaml
 
     try:
         return [load_yaml(word) if word else "" for word in words]
-    except yaml.YAMLError as error:
+    except YamlError as error:
         raise ToolError(
             f"Argument error: {error}\n  write YAML in quotes, with a blank behind each colon: "
             "'{linear: {x: 0.5}}'"

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import yaml
-
 from gazelle.cli.tool import ToolError
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import FieldType, Message, fill, message_type, time_keys
 from gazelle.interfaces.definition import FORMATS, Array, Generation
@@ -25,7 +23,7 @@ def yaml_values(text: str) -> dict[str, Any]:
     """
     try:
         found = load_yaml(text)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         raise ToolError(
             f"the values are not YAML: {error}\n  write them in quotes, with a blank behind each "
             "colon: '{linear: {x: 0.5}}'"

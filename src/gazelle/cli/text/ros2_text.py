@@ -6,7 +6,6 @@ The rules are those of rosidl_runtime_py's ``message_to_yaml`` and ``message_to_
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -91,30 +90,17 @@ def value_text(value: Any, kind: FieldType | None) -> str:
 
 
 def _dumped(plain: dict[str, Any], *, flow_style: bool) -> str:
-    import yaml
+    from gazelle.documents.yaml import dump_yaml
 
-    text: str = yaml.dump(
+    # Each field has a line, also where lists are written in one.
+    return dump_yaml(
         plain,
-        Dumper=_dumper(),
         allow_unicode=True,
         width=_NO_WRAP,
-        default_flow_style=flow_style,
+        flow_style=flow_style,
+        blocks=True,
         sort_keys=False,
     )
-    return text
-
-
-@cache
-def _dumper() -> Any:
-    """A dumper that gives each field a line, also where lists are written in one."""
-    import yaml
-
-    def represent(dumper: Any, fields: dict[str, Any]) -> Any:
-        return dumper.represent_mapping("tag:yaml.org,2002:map", fields, flow_style=False)
-
-    made = type("Dumper", (yaml.SafeDumper,), {})
-    yaml.add_representer(dict, represent, Dumper=made)
-    return made
 
 
 def _plain(message: Message, how: Shortening) -> dict[str, Any]:

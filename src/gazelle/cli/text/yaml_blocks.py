@@ -80,10 +80,10 @@ def _float(value: float) -> str:
 
 @lru_cache(maxsize=4096)
 def _quoted(text: str) -> str:
-    import yaml
+    from gazelle.documents.yaml import dump_yaml
 
-    dumped = yaml.safe_dump([text], allow_unicode=True, width=_NO_WRAP, default_flow_style=False)
+    dumped = dump_yaml([text], allow_unicode=True, width=_NO_WRAP)
     # YAML has more line breaks than the newline; splitlines knows them all.
     if len(dumped.splitlines()) != 1:
         raise NotSimpleError
-    return str(dumped[2:-1])
+    return dumped[2:-1]

@@ -7,11 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.compat.rospy import client
 from gazelle.compat.rospy.binary import as_bytes
-from gazelle.documents.yaml import ROSPARAM, YamlError, load_yaml
+from gazelle.documents.yaml import ROSPARAM, YamlError, dump_yaml, load_yaml
 from gazelle.errors import GazelleError
 from gazelle.graph.names import join, resolve
 
@@ -176,7 +174,7 @@ def dump_params(filename: str, param: str, verbose: bool = False) -> None:
     tree = get_param(param)
     if verbose:
         _say(f"dumping namespace [{param}] to file [{filename}]")
-    Path(filename).write_text(yaml.safe_dump(as_bytes(tree)), encoding="utf-8")
+    Path(filename).write_text(dump_yaml(as_bytes(tree)), encoding="utf-8")
 
 
 def _documents(text: str) -> Iterator[str]:

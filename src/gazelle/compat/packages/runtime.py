@@ -7,8 +7,8 @@ from collections import OrderedDict
 from typing import Any
 
 import numpy as np
-import yaml
 
+from gazelle.documents.yaml import dump_yaml
 from gazelle.interfaces import (
     Message,
     action_type,
@@ -165,12 +165,13 @@ def message_to_yaml(
     plain = message_to_ordereddict(
         msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
     )
-    return yaml.dump(
+    return dump_yaml(
         _as_dict(plain),
         allow_unicode=True,
         width=sys.maxsize,
-        default_flow_style=flow_style,
+        flow_style=flow_style,
         sort_keys=False,
+        objects=True,
     )
 
 

@@ -98,13 +98,11 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 def get_parameter_value(string_value: str) -> Any:
     """Return ``ParameterValue`` of a text as the command line takes it: YAML, or the text."""
-    import yaml
-
-    from gazelle.documents.yaml import load_yaml
+    from gazelle.documents.yaml import YamlError, load_yaml
 
     try:
         return value_message(load_yaml(string_value))
-    except (yaml.YAMLError, GraphError):
+    except (YamlError, GraphError):
         return value_message(string_value)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 from xml.sax.saxutils import escape, quoteattr
 
-import yaml
+from gazelle.documents.yaml import dump_yaml
 
 __all__ = [
     "SelectiveReflection",
@@ -112,5 +112,4 @@ class YamlReflection(SelectiveReflection):
         return to_yaml({name: getattr(self, name) for name in self.get_refl_vars()})
 
     def __str__(self) -> str:
-        text: str = yaml.dump(self.to_yaml())
-        return text.rstrip()
+        return dump_yaml(self.to_yaml(), objects=True).rstrip()

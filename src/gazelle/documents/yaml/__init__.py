@@ -6,7 +6,7 @@ aliases are bounded, and nothing but plain values is made.
 
 from __future__ import annotations
 
-from gazelle.documents.yaml.dialects import RCL, ROSPARAM, YAML_1_1, Dialect
+from gazelle.documents.yaml.dialects import RCL, ROSPARAM, YAML_1_1, Dialect, PlacedMapping
 from gazelle.documents.yaml.document import (
     YamlDocument,
     load_yaml,
@@ -33,14 +33,17 @@ from gazelle.documents.yaml.problems import (
     YamlProblem,
     problem_of,
 )
+from gazelle.documents.yaml.writing import TaggedMapping, dump_yaml
 
 __all__ = [
     "RCL",
     "ROSPARAM",
     "YAML_1_1",
     "Dialect",
+    "PlacedMapping",
     "ProblemKind",
     "PyYamlError",
+    "TaggedMapping",
     "YamlDocument",
     "YamlEntry",
     "YamlError",
@@ -49,6 +52,7 @@ __all__ = [
     "YamlProblem",
     "YamlScalar",
     "YamlSequence",
+    "dump_yaml",
     "duplicates",
     "entries",
     "load_yaml",

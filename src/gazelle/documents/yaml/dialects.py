@@ -4,24 +4,38 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 import yaml
 
+from gazelle.diagnostics import SourceSpan
 from gazelle.documents.budget import Budget
 from gazelle.documents.expressions import compile_limited
 from gazelle.documents.yaml.loader import LimitedLoader
 
-__all__ = ["RCL", "ROSPARAM", "YAML_1_1", "Dialect", "loader_of"]
+__all__ = ["RCL", "ROSPARAM", "YAML_1_1", "Dialect", "PlacedMapping", "loader_of"]
 
+_MAP_TAG = "tag:yaml.org,2002:map"
 _FLOAT_TAG = "tag:yaml.org,2002:float"
 _ANGLE = re.compile(r"^(?P<unit>deg|rad)\((?P<expression>[^()]*)\)$")
 _ANGLE_TEXT = re.compile(r"^[0-9pi\s.eE+*/-]*$")
 # rcl reads these with strtod; YAML 1.1, as PyYAML has it, wants a dot and a sign.
 _STRTOD = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", re.ASCII)
+
+
+class PlacedMapping(dict[Any, Any]):
+    """A mapping that knows where it is written.
+
+    Attributes:
+        place: where it begins.
+    """
+
+    def __init__(self, place: SourceSpan) -> None:
+        super().__init__()
+        self.place = place
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,11 +45,13 @@ class Dialect:
     Attributes:
         has_angles: ``deg(90)``, ``rad(pi/2)`` and the tag ``!angle`` are numbers, in rad.
         has_strtod: ``1e-3`` and ``5e2`` are numbers.
+        has_places: mappings are `PlacedMapping`.
         tags: further tags of mappings, and what makes a value of such a mapping.
     """
 
     has_angles: bool = False
     has_strtod: bool = False
+    has_places: bool = False
     tags: tuple[tuple[str, Callable[[dict[Any, Any]], Any]], ...] = ()
 
 
@@ -59,11 +75,20 @@ def loader_of(dialect: Dialect) -> type[LimitedLoader]:
     if dialect.has_angles:
         _Loader.add_constructor("!angle", _angle)
         _Loader.add_implicit_resolver("!angle", _ANGLE, ["d", "r"])
+    if dialect.has_places:
+        _Loader.add_constructor(_MAP_TAG, _placed)
     if dialect.has_strtod:
         _Loader.add_implicit_resolver(_FLOAT_TAG, _STRTOD, list("-+.0123456789"))
     for tag, made in dialect.tags:
         _Loader.add_constructor(tag, _constructor(made))
     return _Loader
+
+
+def _placed(loader: LimitedLoader, node: yaml.MappingNode) -> Iterator[PlacedMapping]:
+    mark = node.start_mark
+    found = PlacedMapping(SourceSpan(str(mark.name), mark.line + 1, mark.column + 1))
+    yield found
+    found.update(loader.construct_mapping(node))
 
 
 def _constructor(

@@ -6,10 +6,8 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import dump_yaml, load_yaml
 from gazelle.launch.ros2.condition import Condition
 from gazelle.launch.ros2.nodes.temporary import write_temporary
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
@@ -66,7 +64,7 @@ class RewrittenYaml(Substitution):
 
         Raises:
             OSError: the file cannot be read.
-            yaml.YAMLError: it is no YAML.
+            YamlError: it is no YAML.
         """
         data = load_yaml(read_text_limited(perform_substitutions(context, self.name))) or {}
         values = {
@@ -79,7 +77,7 @@ class RewrittenYaml(Substitution):
         keys = {key: perform_substitutions(context, subs) for key, subs in self.__keys.items()}
         data = _renamed(data, keys)
         root = perform_substitutions(context, self.__root) if self.__root else ""
-        return str(write_temporary(yaml.safe_dump({root: data} if root else data)))
+        return str(write_temporary(dump_yaml({root: data} if root else data)))
 
     def __typed(self, text: str) -> Any:
         if self.__convert_types:

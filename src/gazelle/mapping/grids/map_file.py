@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents import read_text_limited
 from gazelle.documents.names import exists, is_folder
-from gazelle.documents.yaml.loader import LimitedLoader
+from gazelle.documents.yaml import ProblemKind, YamlError, YamlMapping, read_yaml_file, value_of
 from gazelle.mapping.grids.pixels import MapMode
 
 __all__ = ["MapFile", "read_map_file", "report_bad_image", "report_missing_image"]
@@ -113,34 +110,29 @@ def _words_of_image(path: Path, problem: str, generation: int) -> tuple[str, str
 def _entries(path: Path, diagnostics: Diagnostics) -> dict[str, tuple[Any, SourceSpan]] | None:
     """Return value and place by key."""
     span = SourceSpan(str(path))
-    try:
-        text = read_text_limited(path)
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not a text"
+    document = read_yaml_file(path)
+    problem = document.problem
+    if problem is not None and problem.kind in {ProblemKind.UNREADABLE, ProblemKind.NOT_UTF8}:
+        is_text = problem.kind is ProblemKind.UNREADABLE
+        reason = problem.what if is_text else "it is not a text"
         hint = "give the .yaml, not the picture" if path.suffix in (".pgm", ".png") else ""
         diagnostics.report(
             "map.unreadable", f"the map '{path}' cannot be read: {reason}", span, fix=hint
         )
         return None
+    what = "it is no mapping of names to values"
     try:
-        loader = LimitedLoader(text)
-        root = loader.get_single_node()
-        if not isinstance(root, yaml.MappingNode):
-            raise yaml.YAMLError("it is no mapping of names to values")
-        return {
-            str(loader.construct_object(key, deep=True)): (
-                loader.construct_object(value, deep=True),
-                SourceSpan(str(path), key.start_mark.line + 1, key.start_mark.column + 1),
-            )
-            for key, value in root.value
-        }
-    except yaml.YAMLError as error:
-        place = getattr(error, "problem_mark", None)
-        if place is not None:
-            span = SourceSpan(str(path), place.line + 1, place.column + 1)
-        problem = getattr(error, "problem", None) or error
-        diagnostics.report("map.no-yaml", f"this is no YAML of a map: {problem}", span)
-        return None
+        if problem is None and isinstance(document.root, YamlMapping):
+            return {
+                str(value_of(key)): (value_of(value), key.span)
+                for key, value in document.root.pairs
+            }
+    except YamlError as error:
+        problem = error.problem
+    if problem is not None:
+        what, span = problem.what, problem.span
+    diagnostics.report("map.no-yaml", f"this is no YAML of a map: {what}", span)
+    return None
 
 
 class _Reader:

@@ -9,11 +9,9 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import LaunchError
 
 __all__ = ["Direction", "ServiceRow", "TopicRow", "read_file", "read_word"]
@@ -99,7 +97,7 @@ def read_file(path: Path) -> tuple[list[TopicRow | ServiceRow], list[str]]:
         raise LaunchError(
             f"Could not parse config: failed to open file [{path}]: {error}"
         ) from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
+    except (UnicodeDecodeError, YamlError) as error:
         raise LaunchError(f"Could not parse config: {path}: {error}") from error
     if not isinstance(rows, list):
         what = "file empty" if rows is None else "top level must be a YAML sequence"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import yaml
-
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.interfaces import Generation, Message, definition, fill, time_keys
 from gazelle.interfaces.definition import Array, Field
 from gazelle.studio.errors import StudioError
@@ -69,6 +67,6 @@ def _one(item: Field, value: Any, keys: Any, path: str) -> Any:
 def _yaml(text: str, path: str) -> Any:
     try:
         return load_yaml(text)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         reason = str(error).splitlines()[0]
         raise StudioError(f"field '{path.rstrip('.')}': '{text}' is not YAML: {reason}") from None

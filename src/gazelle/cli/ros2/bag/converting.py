@@ -6,13 +6,10 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.bag import BagError, BagMessage, Storage, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml_file
 
 __all__ = ["main"]
 
@@ -39,8 +36,8 @@ def main(argv: list[str]) -> int:
 
 def _outputs(path: Path) -> list[dict[str, Any]]:
     try:
-        bags = load_yaml(read_text_limited(path))["output_bags"]
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
+        bags = load_yaml_file(path)["output_bags"]
+    except (YamlError, KeyError, TypeError) as error:
         raise BagError(f"{path}: it must hold `output_bags:`, a list: {error}") from None
     for one in bags:
         unknown = sorted(set(one) - _KNOWN)

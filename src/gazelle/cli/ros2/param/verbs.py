@@ -90,14 +90,14 @@ def run_describe(options: argparse.Namespace) -> int:
 
 def run_dump(options: argparse.Namespace) -> int:
     """Print all parameters as a parameter file, or write one."""
-    import yaml
+    from gazelle.documents.yaml import dump_yaml
 
     with joined() as graph:
         parameters = remote(graph, options.node)
         names = parameters.names([])
         values = dict(zip(names, parameters.get_all(names), strict=True))
     tree = {parameters.node: {"ros__parameters": _branches(values)}}
-    text = yaml.safe_dump(tree, default_flow_style=False)
+    text = dump_yaml(tree)
     if options.output_dir is None:
         print(text)
         return 0
@@ -147,13 +147,11 @@ def _told(reason: str, good: str, bad: str) -> int:
 
 
 def _from_yaml(text: str) -> Any:
-    import yaml
-
-    from gazelle.documents.yaml import load_yaml
+    from gazelle.documents.yaml import YamlError, load_yaml
 
     try:
         value = load_yaml(text)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         raise ToolError(f"the value is not YAML: {error}") from None
     if isinstance(value, str):
         # YAML 1.1 takes 1e-3 for a text.

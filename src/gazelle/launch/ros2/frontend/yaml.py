@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import yaml
-
 from gazelle.diagnostics import SourceSpan, did_you_mean
-from gazelle.documents.yaml.loader import LimitedLoader
+from gazelle.documents import read_text_limited
+from gazelle.documents.yaml import Dialect, YamlError, read_yaml
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
@@ -20,25 +17,7 @@ from gazelle.launch.ros2.utilities.type_utils import is_instance_of
 __all__ = ["Entity", "Parser"]
 
 
-class _Mapping(dict[Any, Any]):
-    """A mapping that knows where it is written."""
-
-    place: SourceSpan | None = None
-
-
-class _Loader(LimitedLoader):
-    """Reads plain values; mappings keep their places."""
-
-
-def _construct_mapping(loader: _Loader, node: yaml.MappingNode) -> Iterator[_Mapping]:
-    found = _Mapping()
-    mark = node.start_mark
-    found.place = SourceSpan(str(mark.name), mark.line + 1, mark.column + 1)
-    yield found
-    found.update(loader.construct_mapping(node))
-
-
-_Loader.add_constructor("tag:yaml.org,2002:map", _construct_mapping)
+_PLACED = Dialect(has_places=True)
 
 
 class Entity(BaseEntity):
@@ -166,22 +145,25 @@ class Parser(BaseParser):
 
         Raises:
             OSError: the file cannot be read.
-            yaml.YAMLError: it is no YAML.
+            YamlError: it is no YAML.
             RuntimeError: it has not one root.
         """
         if isinstance(file, str | bytes | os.PathLike):
-            with Path(os.fsdecode(file)).open(encoding="utf-8") as stream:
-                return cls.load(stream)
+            name = os.fsdecode(file)
+            return cls.__of_text(read_text_limited(name), name)
+        return cls.__of_text(file.read(), str(getattr(file, "name", "<string>")))
+
+    @classmethod
+    def __of_text(cls, text: str | bytes, name: str) -> tuple[Entity, Parser]:
         try:
-            tree = _read(file)
-        except yaml.MarkedYAMLError as error:
-            mark = error.problem_mark
-            if mark is not None:
-                keep_place(error, SourceSpan(str(mark.name), mark.line + 1, mark.column + 1))
+            tree = read_yaml(text, name, _PLACED, name=name).value
+        except YamlError as error:
+            if error.problem.has_place:
+                keep_place(error, error.problem.span)
             raise
         if not isinstance(tree, dict) or len(tree) != 1:
             problem = RuntimeError("Expected only one root")
-            begin = SourceSpan(str(getattr(file, "name", "<string>")), 1)
+            begin = SourceSpan(name, 1)
             keep_place(problem, getattr(tree, "place", None) or begin)
             raise problem
         [(name, value)] = tree.items()
@@ -193,12 +175,3 @@ class Parser(BaseParser):
     def get_file_extensions(cls) -> set[str]:
         """Return the extensions of such files."""
         return {"launch.yaml", "launch.yml", "yaml", "yml", "launch"}
-
-
-def _read(stream: Any) -> Any:
-    loader = _Loader(stream.read())
-    loader.name = str(getattr(stream, "name", "<string>"))
-    try:
-        return loader.get_single_data()
-    finally:
-        loader.dispose()

@@ -6,9 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.launch.ros2.nodes.temporary import write_temporary
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
@@ -167,7 +165,7 @@ def _substituted(path: Path, context: LaunchContext) -> Path:
     text = perform_substitutions(context, parts)
     try:
         load_yaml(text)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         raise SubstitutionFailure(
             f"The substituted parameter file is not a valid yaml file: {path}: {error}"
         ) from error

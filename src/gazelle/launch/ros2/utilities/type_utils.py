@@ -5,9 +5,7 @@ from __future__ import annotations
 import collections.abc
 from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
-import yaml
-
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.utilities.classes import ensure_argument_type
 from gazelle.launch.ros2.utilities.normalizing import (
@@ -176,7 +174,7 @@ def _from_yaml(value: str, how: str, can_be_str: bool) -> Any:
         return value
     try:
         found = load_yaml(value)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         if can_be_str:
             return value
         raise ValueError(f"Failed to convert '{value}' {how}: {error}") from error

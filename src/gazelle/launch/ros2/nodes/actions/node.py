@@ -7,10 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import yaml
-
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.yaml import dump_yaml
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
@@ -231,7 +230,7 @@ class Node(ExecuteProcess):
         name = self.node_name if self.is_node_name_fully_specified() else "/**"
         plain = {key: _plain(value) for key, value in values.items()}
         data = {name: {"ros__parameters": plain}}
-        return write_temporary(yaml.dump(data, default_flow_style=False, allow_unicode=True))
+        return write_temporary(dump_yaml(data, allow_unicode=True, objects=True))
 
     def __expand_remaps(self, context: LaunchContext) -> list[tuple[str, str]]:
         found: list[tuple[str, str]] = []
@@ -319,7 +318,8 @@ def _plain(value: Any) -> Any:
 
 
 def _yaml_word(value: Any) -> str:
-    text = yaml.dump(_plain(value), default_flow_style=True, width=1 << 30, allow_unicode=True)
+    plain = _plain(value)
+    text = dump_yaml(plain, flow_style=True, width=1 << 30, allow_unicode=True, objects=True)
     return text.removesuffix("\n").removesuffix("\n...")
 
 

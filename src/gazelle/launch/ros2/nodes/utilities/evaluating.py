@@ -6,10 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import (
     Parameter,
     ParameterFile,
@@ -100,7 +98,7 @@ def _typed(name: str, text: str) -> Any:
 def _loaded(name: str, text: str) -> Any:
     try:
         return load_yaml(text)
-    except yaml.YAMLError as error:
+    except YamlError as error:
         message = f"Unable to parse the value of parameter {name} as yaml. {_VALUE_HINT}"
         raise TypeError(message) from error
 

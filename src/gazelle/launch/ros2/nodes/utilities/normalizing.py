@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-import yaml
-
+from gazelle.documents.yaml import dump_yaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import (
     Parameter,
     ParameterFile,
@@ -30,7 +29,6 @@ __all__ = [
 ]
 
 _Rule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
-_DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 
 
 def normalize_parameters(parameters: Any) -> tuple[Any, ...]:
@@ -115,7 +113,7 @@ def _item(value: Any) -> Any:
 
 
 def _as_yaml(value: Any) -> str:
-    return yaml.dump(value, Dumper=_DUMPER, allow_unicode=True)
+    return dump_yaml(value, allow_unicode=True, libyaml=True)
 
 
 def normalize_remap_rule(remap_rule: Any) -> _Rule:
