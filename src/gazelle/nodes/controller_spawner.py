@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from gazelle.documents.names import is_file
 from gazelle.documents.yaml import YamlError, load_yaml_file
@@ -19,7 +19,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
 from gazelle.nodes.parameters import start_node
 
-__all__ = ["is_ros2", "run", "run_unspawner", "spawner_parser"]
+__all__ = ["controllers_in_file", "is_ros2", "run", "run_unspawner", "spawner_parser"]
 
 _ROS2_WORDS = frozenset(
     {
@@ -121,6 +121,23 @@ def spawner_parser() -> ArgumentParser:
     return parser
 
 
+def controllers_in_file(path: str) -> dict[str, Any]:
+    """Return the parameters in a file by the controllers' names.
+
+    Raises:
+        LaunchError: it cannot be read, or holds no names with parameters.
+    """
+    try:
+        found = load_yaml_file(path)
+    except YamlError as error:
+        raise LaunchError(f"cannot read controllers from '{path}': {error}") from error
+    if found is not None and not isinstance(found, dict):
+        kind = type(found).__name__
+        text = f"cannot read controllers from '{path}': it holds a {kind}, not names with values"
+        raise LaunchError(text)
+    return {str(name): values for name, values in (found or {}).items()}
+
+
 class _Spawner:
     """One run of ROS 1's spawner."""
 
@@ -220,11 +237,7 @@ class _Spawner:
             if not is_file(Path(word)):
                 names.append(word)
                 continue
-            try:
-                found = load_yaml_file(word)
-            except YamlError as error:
-                raise LaunchError(f"cannot read controllers from '{word}': {error}") from error
-            for name, values in (found or {}).items():
+            for name, values in controllers_in_file(word).items():
                 self._node.parameters.set(self._node.resolve_name(name), values)
                 names.append(name)
         return names

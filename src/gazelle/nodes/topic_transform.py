@@ -9,7 +9,7 @@ from importlib import import_module
 from types import CodeType
 from typing import Any
 
-from gazelle.documents.yaml import load_yaml
+from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import (
@@ -56,7 +56,11 @@ def run_relay_field(arguments: NodeArguments, graph: Graph, stop: threading.Even
     parser = _parser("relay_field", "Relay data of fields from one topic to another.")
     options = parser.parse_args(list(arguments.rest))
     node = start_node(arguments, graph)
-    kind, values = _output(options.output_type), load_yaml(options.expression)
+    kind = _output(options.output_type)
+    try:
+        values = load_yaml(options.expression)
+    except YamlError as error:
+        raise LaunchError(f"'{options.expression}' is not YAML: {error}") from None
     if not isinstance(values, dict):
         text = f"'{options.expression}' names no fields of {options.output_type}"
         raise LaunchError(f"{text}\n  fix: write YAML such as 'frame_id: m.data'")

@@ -13,7 +13,7 @@ from gazelle.description.xacro import expand_xacro
 from gazelle.description.xacro.session import run_session
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import YamlError, read_yaml
+from gazelle.documents.yaml import YamlError, problem_of, read_yaml
 from gazelle.errors import UserFileError
 from gazelle.workspace.ament_index import get_package_share_directory, known_workspace
 
@@ -84,13 +84,13 @@ def load_yaml(file_path: Path, mappings: Mapping[str, Any] | None = None) -> Any
         ParameterBuilderFileNotFoundError: it is not there.
         UserFileError: it is not YAML; with line and column.
     """
-    text = load_file(file_path, mappings or {})
     try:
+        text = load_file(file_path, mappings or {})
         return None if text is None else read_yaml(text, str(file_path)).value
-    except YamlError as error:
+    except (UnicodeDecodeError, YamlError) as error:
         diagnostics = Diagnostics()
-        message = f"not YAML: {error.problem.what}"
-        diagnostics.report("moveit.bad-yaml", message, error.problem.span)
+        problem = problem_of(error, str(file_path))
+        diagnostics.report("moveit.bad-yaml", f"not YAML: {problem.what}", problem.span)
         raise UserFileError(tuple(diagnostics)) from error
 
 

@@ -23,6 +23,9 @@ _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
+_ERRORS: tuple[type[Exception], ...]
+_ERRORS = (ValueError, KeyError, TypeError, SyntaxError, ArithmeticError)
+_ERRORS += (RecursionError, MemoryError)
 _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "radians": math.radians,
     "degrees": math.degrees,
@@ -57,14 +60,16 @@ def _simple(text: str, mappings: Mapping[str, Any], file: str) -> str:
     def value(match: re.Match[str]) -> str:
         try:
             return str(_worked_out(ast.parse(match[1].strip(), mode="eval").body, mappings))
-        except (ValueError, KeyError, TypeError, SyntaxError, ArithmeticError) as error:
+        except _ERRORS as error:
             line = text.count("\n", 0, match.start()) + 1
             reason = f"'{match[0]}' cannot be worked out ({error!r})"
             raise LaunchError(f"{file}:{line}: {reason}; pip install jinja2 may help") from error
 
     if "{%" in text or "{#" in text:
         raise LaunchError(f"{file}: it has statements of Jinja2: pip install jinja2")
-    return _EXPRESSION.sub(value, text)
+    # Behind the last end there is none to be looked for, again and again.
+    end = text.rfind("}}") + len("}}") if "}}" in text else 0
+    return _EXPRESSION.sub(value, text[:end]) + text[end:]
 
 
 def _worked_out(node: ast.expr, mappings: Mapping[str, Any]) -> Any:

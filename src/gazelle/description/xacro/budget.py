@@ -14,6 +14,7 @@ from gazelle.documents.yaml import ProblemKind, YamlError, read_yaml
 __all__ = ["ExpansionLimitError", "Spending"]
 
 _MOST_SECONDS = 10
+_SLOW = {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP}
 _MOST_CALLS = 5_000
 _MOST_COPIES = 20_000
 _MOST_TEXTS = 200_000
@@ -88,11 +89,11 @@ class Spending:
 
         Raises:
             OSError: it cannot be read.
-            YamlError: it is nested so deep that PyYAML would take for ever.
+            YamlError: it is so long or nested so deep that PyYAML would take for ever.
         """
         text = read_text_limited(name)
         problem = read_yaml(text, name).problem
-        if problem is not None and problem.kind is ProblemKind.TOO_DEEP:
+        if problem is not None and problem.kind in _SLOW:
             raise YamlError(problem)
         return io.StringIO(text)
 

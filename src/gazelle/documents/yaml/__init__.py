@@ -17,6 +17,7 @@ from gazelle.documents.yaml.document import (
     read_yaml_file,
     value_of,
 )
+from gazelle.documents.yaml.loader import MOST_CHARACTERS
 from gazelle.documents.yaml.nodes import (
     YamlEntry,
     YamlMapping,
@@ -36,6 +37,7 @@ from gazelle.documents.yaml.problems import (
 from gazelle.documents.yaml.writing import TaggedMapping, dump_yaml
 
 __all__ = [
+    "MOST_CHARACTERS",
     "RCL",
     "ROSPARAM",
     "YAML_1_1",

@@ -9,9 +9,17 @@ import yaml
 
 from gazelle.documents.scale import HOW_TO_RAISE, LimitError, scaled
 
-__all__ = ["LimitedLoader", "YamlDepthError", "YamlLimitError"]
+__all__ = [
+    "MOST_CHARACTERS",
+    "LimitedLoader",
+    "YamlDepthError",
+    "YamlLengthError",
+    "YamlLimitError",
+]
 
-_MOST_CHARACTERS = 8 << 20
+MOST_CHARACTERS = 8 << 20
+"""Length of the longest YAML text that is read."""
+
 _MOST_NODES = 1_000_000
 _DEEPEST = 64
 # Python prints no whole number that has more decimal digits.
@@ -24,7 +32,11 @@ _UNREADABLE += (LimitError, NameError)
 
 
 class YamlLimitError(yaml.MarkedYAMLError):
-    """The text is too long, or its aliases stand for too much."""
+    """What aliases stand for is too much, or goes on without end."""
+
+
+class YamlLengthError(YamlLimitError):
+    """The text is too long."""
 
 
 class YamlDepthError(YamlLimitError):
@@ -36,8 +48,9 @@ class LimitedLoader(yaml.SafeLoader):
 
     def __init__(self, stream: str | bytes) -> None:
         """Check the length of a text; see ``yaml.SafeLoader``."""
-        if len(stream) > scaled(_MOST_CHARACTERS):
-            raise _error(f"{len(stream)} characters", scaled(_MOST_CHARACTERS), None)
+        if len(stream) > scaled(MOST_CHARACTERS):
+            text = _above(f"{len(stream)} characters", scaled(MOST_CHARACTERS))
+            raise YamlLengthError(None, None, text)
         self._depth = 0
         self._most_nodes = scaled(_MOST_NODES)
         self._nodes = 0
@@ -68,7 +81,8 @@ class LimitedLoader(yaml.SafeLoader):
             raise _too_deep(place)
         if self._nodes > self._most_nodes:
             place = self.peek_event().start_mark  # type: ignore[no-untyped-call]
-            raise _error(f"{self._nodes} values and more", self._most_nodes, place)
+            text = _above(f"{self._nodes} values and more", self._most_nodes)
+            raise YamlLengthError(None, None, text, place)
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node
@@ -79,7 +93,8 @@ class LimitedLoader(yaml.SafeLoader):
         self._nodes_of_documents += _size(root, {}, ())
         if self._nodes_of_documents > self._most_nodes:
             count = self._nodes_of_documents
-            raise _error(f"{count} values, aliases followed", self._most_nodes, root.start_mark)
+            text = _above(f"{count} values, aliases followed", self._most_nodes)
+            raise YamlLimitError(None, None, text, root.start_mark)
         return root
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
@@ -127,7 +142,5 @@ def _too_deep(place: Any) -> YamlDepthError:
     )
 
 
-def _error(what: str, most: int, place: Any) -> YamlLimitError:
-    return YamlLimitError(
-        None, None, f"{what} are above the limit of {most}; {HOW_TO_RAISE}", place
-    )
+def _above(what: str, most: int) -> str:
+    return f"{what} are above the limit of {most}; {HOW_TO_RAISE}"

@@ -8,7 +8,7 @@ from enum import Enum, auto
 import yaml
 
 from gazelle.diagnostics import SourceSpan
-from gazelle.documents.yaml.loader import YamlDepthError, YamlLimitError
+from gazelle.documents.yaml.loader import YamlDepthError, YamlLengthError, YamlLimitError
 
 __all__ = ["ProblemKind", "PyYamlError", "YamlError", "YamlProblem", "problem_of"]
 
@@ -25,6 +25,7 @@ class ProblemKind(Enum):
     TAB = auto()
     MAPPING_VALUE = auto()
     SYNTAX = auto()
+    TOO_LONG = auto()
     TOO_DEEP = auto()
     TOO_MUCH = auto()
     VALUE = auto()
@@ -35,6 +36,15 @@ _FIXES = {
     ProblemKind.TAB: "indent with spaces",
     ProblemKind.MAPPING_VALUE: "put the value in quotes, or correct the indentation",
 }
+
+
+# The narrower ones first.
+_KINDS: tuple[tuple[type[Exception], ProblemKind], ...] = (
+    (YamlLengthError, ProblemKind.TOO_LONG),
+    (YamlDepthError, ProblemKind.TOO_DEEP),
+    (YamlLimitError, ProblemKind.TOO_MUCH),
+    (yaml.constructor.ConstructorError, ProblemKind.VALUE),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +75,7 @@ class YamlProblem:
     @property
     def is_limit(self) -> bool:
         """Whether the text may be YAML, and asks for too much."""
-        return self.kind in {ProblemKind.TOO_DEEP, ProblemKind.TOO_MUCH}
+        return self.kind in {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP, ProblemKind.TOO_MUCH}
 
     @property
     def has_place(self) -> bool:
@@ -115,11 +125,9 @@ def problem_of(error: Exception, file: str) -> YamlProblem:
 
 def _kind(error: yaml.MarkedYAMLError) -> ProblemKind:
     problem = error.problem or ""
-    if isinstance(error, YamlLimitError):
-        too_deep = isinstance(error, YamlDepthError)
-        return ProblemKind.TOO_DEEP if too_deep else ProblemKind.TOO_MUCH
-    if isinstance(error, yaml.constructor.ConstructorError):
-        return ProblemKind.VALUE
+    for kind, number in _KINDS:
+        if isinstance(error, kind):
+            return number
     if "\t" in _indentation(error.problem_mark):
         return ProblemKind.TAB_INDENT
     if "'\\t'" in problem:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import importlib.util
+import io
 import itertools
 import os
 import traceback
@@ -11,6 +12,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.documents import read_text_limited
 from gazelle.launch.ros2.frontend.entity import Entity
 from gazelle.launch.ros2.frontend.expose import instantiate_action
 from gazelle.launch.ros2.frontend.parse_substitution import (
@@ -183,8 +185,7 @@ class Parser:
             InvalidFrontendLaunchFileError: no reader can make sense of it.
         """
         if isinstance(file, str | bytes | os.PathLike):
-            with Path(os.fsdecode(file)).open(encoding="utf-8") as stream:
-                return cls._load_stream(stream)
+            return cls._load_stream(_opened(os.fsdecode(file)))
         return cls._load_stream(file)
 
     @classmethod
@@ -206,6 +207,17 @@ class Parser:
     def get_file_extensions(cls) -> set[str]:
         """Return the extensions of files that this reader takes."""
         return set()
+
+
+def _opened(path: str) -> io.StringIO:
+    """Return a file's text, which has an end, as an open file."""
+    try:
+        stream = io.StringIO(read_text_limited(path))
+    except UnicodeDecodeError as error:
+        extension = Path(path).suffix[1:]
+        raise InvalidFrontendLaunchFileError(extension, likely_errors=[error]) from error
+    stream.name = path
+    return stream
 
 
 def _load(group: str) -> dict[str, Any]:
