@@ -172,11 +172,9 @@ def unknown_word(word: RosWord) -> RosArgumentError:
 def yaml_value(text: str) -> Any:
     """Return the value of a parameter: YAML, or the text where it is none."""
     # Most nodes are given no values.
-    import yaml
-
-    from gazelle.documents.yaml import load_yaml
+    from gazelle.documents.yaml import YamlError, load_yaml
 
     try:
         return load_yaml(text)
-    except yaml.YAMLError:
+    except YamlError:
         return text
