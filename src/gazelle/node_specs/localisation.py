@@ -250,6 +250,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.pose_ekf:run",
         does="fuses wheel odometry, IMU and visual odometry",
         is_light=False,
+        parameters="gazelle.nodes.filters.tables:POSE_EKF",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("~odom_combined", "geometry_msgs/msg/PoseWithCovarianceStamped"),

@@ -24,6 +24,7 @@ NAVIGATION = (
         entry="gazelle.nodes.move_base.node:run",
         does="drives to goals around obstacles",
         is_light=False,
+        parameters="gazelle.nodes.move_base.tables:MOVE_BASE",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
             publishes("~NavfnROS/plan", "nav_msgs/msg/Path"),
@@ -95,6 +96,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.planner_server:run",
         does="plans paths (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:PLANNER_SERVER",
         topics=(
             publishes("plan", "nav_msgs/msg/Path"),
             *LIFECYCLE_TOPICS,
@@ -115,6 +117,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.controller_server:run",
         does="follows paths (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:CONTROLLER_SERVER",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
             publishes("local_plan", "nav_msgs/msg/Path"),
@@ -133,6 +136,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.behavior_server:run",
         does="spins, backs up, waits (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:BEHAVIOR_SERVER",
         aliases=(NodeName("nav2_recoveries", "recoveries_server", ROS_2),),
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
@@ -159,6 +163,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.bt_navigator:run",
         does="drives to poses by behaviour trees (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:BT_NAVIGATOR",
         topics=(
             publishes("behavior_tree_log", "nav2_msgs/msg/BehaviorTreeLog"),
             listens("goal_pose", "geometry_msgs/msg/PoseStamped"),
@@ -179,6 +184,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.waypoint_follower:run",
         does="drives to one pose after another (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:WAYPOINT_FOLLOWER",
         topics=(*LIFECYCLE_TOPICS,),
         services=(*LIFECYCLE_SERVICES,),
         actions=(
@@ -195,6 +201,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.smoother_server:run",
         does="smooths paths (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:SMOOTHER_SERVER",
         topics=(
             listens("{~costmap_topic|global_costmap/costmap_raw}", "nav2_msgs/msg/Costmap"),
             *LIFECYCLE_TOPICS,
@@ -209,6 +216,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.velocity_smoother:run",
         does="limits accelerations of commands (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:VELOCITY_SMOOTHER",
         topics=(
             publishes("cmd_vel_smoothed", "geometry_msgs/msg/Twist"),
             listens("cmd_vel", "geometry_msgs/msg/Twist"),
@@ -224,6 +232,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.collision_monitor:run",
         does="slows or stops commands by what sensors see (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.collision.tables:COLLISION_MONITOR",
         topics=(
             publishes("{~cmd_vel_out_topic|cmd_vel}", "geometry_msgs/msg/Twist"),
             listens("{~cmd_vel_in_topic|cmd_vel_smoothed}", "geometry_msgs/msg/Twist"),
@@ -242,6 +251,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.lifecycle_manager:run",
         does="brings managed nodes up and down (Nav2)",
         is_light=False,
+        parameters="gazelle.nodes.nav2.tables:LIFECYCLE_MANAGER",
         services=(
             offers("~is_active", "std_srvs/srv/Trigger"),
             offers("~manage_nodes", "nav2_msgs/srv/ManageLifecycleNodes"),

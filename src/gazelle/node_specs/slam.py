@@ -23,6 +23,7 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_explore",
         does="drives to frontiers until all is known",
         is_light=False,
+        parameters="gazelle.nodes.slam.explore:EXPLORE",
         topics=(
             listens("{~costmap_topic|costmap}", "nav_msgs/msg/OccupancyGrid"),
             *TF_LISTENED,
@@ -163,6 +164,7 @@ SLAM = (
         entry="gazelle.nodes.frontier_exploration.server:run",
         does="explores what lies inside of a polygon, by move_base",
         is_light=False,
+        parameters="gazelle.nodes.frontier_exploration.tables:EXPLORE_SERVER",
         topics=(
             publishes("~explore_costmap/costmap", "nav_msgs/msg/OccupancyGrid"),
             publishes("~explore_costmap/costmap_updates", "map_msgs/msg/OccupancyGridUpdate"),

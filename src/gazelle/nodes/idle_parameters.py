@@ -18,6 +18,7 @@ from gazelle.navigation.costmap.options import (
     VoxelOptions,
 )
 from gazelle.navigation.planners import PLANNERS
+from gazelle.node_specs.all_specs import node_specs
 from gazelle.nodes.amcl.tables import amcl_table
 from gazelle.nodes.filters.tables import POSE_EKF, SWITCHES, ekf_table
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
@@ -38,12 +39,10 @@ Generation = Literal[1, 2]
 
 _COSTMAPS = ("local_costmap", "global_costmap")
 _LAYERS = (StaticOptions, ObstacleOptions, VoxelOptions, InflationOptions)
-# What launch files of ROS 2 call nodes whose executable has another name.
+# What launch files of ROS 2 call nodes besides the names that they have of themselves.
 _NAMES = {
-    "ekf_filter_node": "robot_localization/ekf_node",
     "lifecycle_manager_localization": "nav2_lifecycle_manager/lifecycle_manager",
     "lifecycle_manager_navigation": "nav2_lifecycle_manager/lifecycle_manager",
-    "slam_toolbox": "slam_toolbox/async_slam_toolbox_node",
 }
 
 
@@ -79,7 +78,9 @@ def node_of_name(name: str) -> str:
         return "costmap"
     if own in _NAMES:
         return _NAMES[own]
-    return next((node for node in _tables(2) if node.rpartition("/")[2] == own), "")
+    named = (f"{spec.package}/{spec.executable}" for spec in node_specs() if spec.name == own)
+    found = next((node for node in named if node in _tables(2)), "")
+    return found or next((node for node in _tables(2) if node.rpartition("/")[2] == own), "")
 
 
 def _walk(
