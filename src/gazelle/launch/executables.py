@@ -12,8 +12,8 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
-from gazelle.launch.elsewhere import missing_node, missing_package
 from gazelle.node_specs.all_specs import builtin_executables, node_spec
+from gazelle.node_specs.elsewhere import missing_node, missing_package
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists

@@ -14,6 +14,7 @@ __all__ = [
     "BUILTIN",
     "PackageSource",
     "ResourceFolders",
+    "builtin_package_names",
     "package_sources",
     "resource_folders",
 ]
@@ -101,6 +102,12 @@ def resource_folders(environ: Mapping[str, str]) -> ResourceFolders:
     return ResourceFolders(
         tuple(dict.fromkeys(models)), tuple(fuel), tuple(dict.fromkeys(resources))
     )
+
+
+@cache
+def builtin_package_names() -> frozenset[str]:
+    """Return the names of Gazelle's own packages, which are those of their folders."""
+    return frozenset(path.name for path in (BUILTIN / "packages").iterdir() if path.is_dir())
 
 
 @cache

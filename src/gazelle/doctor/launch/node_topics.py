@@ -7,14 +7,27 @@ from dataclasses import dataclass
 
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch.builtin_topics import builtin_topics
-from gazelle.doctor.launch.known_nodes import KnownNode, known_node
 from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.launch.script_reading import read_script
 from gazelle.graph.names import resolve
+from gazelle.node_specs.all_specs import node_specs
+from gazelle.node_specs.elsewhere import what_it_sends
+from gazelle.node_specs.elsewhere_rows import Sends
 
-__all__ = ["NodeTopics", "topics_of"]
+__all__ = ["KnownNode", "NodeTopics", "topics_of"]
 
 _JOINT_STATE = "sensor_msgs/msg/JointState"
+
+
+@dataclass(frozen=True, slots=True)
+class KnownNode:
+    """A node that sends no joint states, or known ones.
+
+    Attributes:
+        transforms: parent and child of each it sends; None when they cannot be told.
+    """
+
+    transforms: tuple[tuple[str, str], ...] | None = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +95,26 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             KnownNode(builtin.transforms) if builtin.joints is not None else None,
             builtin.joints or frozenset(),
         )
-    known = known_node(node, launched)
+    known = _elsewhere(node)
     return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=known)
+
+
+def _elsewhere(node: LaunchedNode) -> KnownNode | None:
+    """Return what is known of a node of ROS that is not here; None when it may send anything.
+
+    All of its topics are not listed, so nothing is said of remaps and topics.
+    """
+    package = [spec for spec in node_specs() if spec.package == node.spec.package]
+    if package and all(spec.frames == () and spec.joints == () for spec in package):
+        # A program that its package does not have: none of its others sends anything.
+        return KnownNode()
+    match what_it_sends(node.spec.package, node.spec.type):
+        case Sends.NOTHING:
+            return KnownNode()
+        case Sends.TRANSFORMS:
+            return KnownNode(None)
+        case Sends.ANYTHING:
+            return None
 
 
 def _named(

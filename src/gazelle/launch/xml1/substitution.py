@@ -14,7 +14,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.documents import Budget, LimitError, compile_limited
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
-from gazelle.launch.elsewhere import replacement_of
+from gazelle.node_specs.elsewhere import replacement_of
 from gazelle.workspace import Workspace
 
 __all__ = ["TOLD", "UNREADABLE", "Substitution", "SubstitutionError"]

@@ -190,7 +190,7 @@ def test_composition_loads_builtin_nodes_into_a_container(context: LaunchContext
         for both in ((node.package, node.node_plugin)
                      for node in load._LoadComposableNodes__nodes)  # type: ignore[attr-defined]
     ]  # fmt: skip
-    assert [one.type for one in names if one is not None] == [
+    assert [one.executable for one in names if one is not None] == [
         "map_server", "amcl", "lifecycle_manager", *_NAVIGATION, "collision_monitor",
         "lifecycle_manager",
     ]  # fmt: skip
