@@ -4,32 +4,30 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import Any
 
-import numpy as np
-
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.commands import VelocityOutput
+from gazelle.nodes.nav2.costmaps import grid_of_costmap
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.outlines import outline_in_base
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.nav2.tables import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import ticks
-from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
 _NANO = 1_000_000_000
-_WAIT_S = 0.2
 _TYPES = {
     "Spin": ("spin", "Spin"),
     "BackUp": ("backup", "BackUp"),
@@ -44,33 +42,19 @@ class _EndError(Exception):
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Offer behaviours until told to stop."""
-    node, tree = start(arguments, graph)
-    server = _BehaviorServer(node, tree)
-    serve(arguments, node, stop, {
-        "configure": server.configure, "activate": server.activate,
-        "deactivate": server.deactivate, "cleanup": server.deactivate,
-    })  # fmt: skip
-    server.deactivate()
-    node.shutdown()
-    return 0
+    return run_server(_BehaviorServer, arguments, graph, stop)
 
 
-class _BehaviorServer:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
-        self._node, self._tree = node, tree
-        self._parameters = offer_parameters(node, tree)
-        self._settings = node_reader(BEHAVIOR_SERVER, tree, node.name, Diagnostics())
-        self._frames = Frames(node)
-        self._out = VelocityOutput(node, stamped=self._settings.flag("enable_stamped_cmd_vel"))
+class _BehaviorServer(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, BEHAVIOR_SERVER)
+        self._frames = Frames(self._node)
+        stamped = self._settings.flag("enable_stamped_cmd_vel")
+        self._out = VelocityOutput(self._node, stamped=stamped)
         self._grid: CostGrid | None = None
         self._footprint: Footprint | None = None
-        self._actions: list[SingleGoal] = []
-        self._ending = threading.Event()
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        settings = node_reader(BEHAVIOR_SERVER, self._tree, self._node.name, diagnostics)
-        self._settings = settings
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         names = self._names()
         for name in names:
             kind = self._kind(name)
@@ -85,29 +69,13 @@ class _BehaviorServer:
         self._node.create_subscription(costs, "nav2_msgs/msg/Costmap", self._on_costs)
         kind = "geometry_msgs/msg/PolygonStamped"
         self._node.create_subscription(outline, kind, self._on_outline)
-        return log_findings(self._node, diagnostics)
+        return True
 
-    def activate(self) -> bool:
-        self._ending.clear()
+    def _served(self) -> Iterable[ServedAction]:
         for name in self._names():
             known = _TYPES.get(self._kind(name))
-            if known is None:
-                continue
-            type_name = f"nav2_msgs/{known[1]}"
-            action = SingleGoal(self._node, name, type_name, generation=2)
-            self._actions.append(action)
-            work = threading.Thread(
-                target=self._work, args=(action, known[1]), name=name, daemon=True
-            )
-            work.start()
-        return True
-
-    def deactivate(self) -> bool:
-        self._ending.set()
-        for action in self._actions:
-            action.close()
-        self._actions.clear()
-        return True
+            if known is not None:
+                yield ServedAction(name, known[1], partial(self._behave, known[1]))
 
     def _names(self) -> list[str]:
         return list(self._settings.texts("recovery_plugins")) or list(
@@ -122,30 +90,23 @@ class _BehaviorServer:
         bare = plugin.replace("::", "/").rpartition("/")[2]
         return bare or defaults.get(name, name)
 
-    def _work(self, action: SingleGoal, kind: str) -> None:
+    def _behave(self, kind: str, action: SingleGoal, goal: ServerGoal) -> None:
+        """Work on a goal of a behaviour."""
         runs: dict[str, Callable[[SingleGoal, ServerGoal], None]] = {
             "Spin": self._spin, "BackUp": self._drive, "DriveOnHeading": self._drive,
             "Wait": self._wait,
         }  # fmt: skip
-        while not self._ending.is_set() and not self._node.closed:
-            if not action.wait(_WAIT_S):
-                continue
-            goal = action.take()
-            if goal is None:
-                continue
-            began_ns = self._node.clock.now_ns()
-            result = action.result_class()
-            word, reason = "NONE", ""
-            try:
-                runs[kind](action, goal)
-            except _EndError as end:
-                word, reason = end.args
-            if kind != "Wait":
-                self._out.stop()
-            took_ns = max(self._node.clock.now_ns() - began_ns, 0)
-            elapsed = result.total_elapsed_time
-            set_stamp(elapsed, took_ns)
-            self._finish(action, kind, result, word, reason)
+        began_ns = self._node.clock.now_ns()
+        result = action.result_class()
+        word, reason = "NONE", ""
+        try:
+            runs[kind](action, goal)
+        except _EndError as end:
+            word, reason = end.args
+        if kind != "Wait":
+            self._out.stop()
+        set_stamp(result.total_elapsed_time, max(self._node.clock.now_ns() - began_ns, 0))
+        self._finish(action, kind, result, word, reason)
 
     def _finish(self, action: SingleGoal, kind: str, result: Any, word: str, reason: str) -> None:
         if action.is_cancelled:
@@ -256,11 +217,7 @@ class _BehaviorServer:
                 raise _EndError("COLLISION_AHEAD", "Collision Ahead - Exiting")
 
     def _on_costs(self, message: Any) -> None:
-        data = message.metadata
-        costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
-        origin = (float(data.origin.position.x), float(data.origin.position.y))
-        resolution_m = float(f"{float(data.resolution):.7g}")
-        self._grid = CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
+        self._grid = grid_of_costmap(message)
 
     def _on_outline(self, message: Any) -> None:
         base = self._settings.text("robot_base_frame")

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.names import is_file
 from gazelle.errors import GazelleError
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.graph_world import GraphWorld
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import BT_NAVIGATOR
 from gazelle.nodes.nav2.trees.blackboard import Blackboard
 from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, read_trees
@@ -27,12 +28,11 @@ from gazelle.nodes.nav2.trees.node import Status, TreeNode
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["run"]
 
-_WAIT_S = 0.2
 _NANO = 1_000_000_000
 _TREES = BUILTIN / "packages" / "nav2_bt_navigator" / "behavior_trees"
 _OWN = {
@@ -48,37 +48,24 @@ _ACTIONS = {"NavigateToPose": "navigate_to_pose", "NavigateThroughPoses": "navig
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Navigate until told to stop."""
-    node, tree = start(arguments, graph)
-    navigator = _Navigator(node, tree)
-    serve(arguments, node, stop, {
-        "configure": navigator.configure, "activate": navigator.activate,
-        "deactivate": navigator.deactivate, "cleanup": navigator.deactivate,
-    })  # fmt: skip
-    navigator.deactivate()
-    node.shutdown()
-    return 0
+    return run_server(_Navigator, arguments, graph, stop)
 
 
-class _Navigator:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
-        self._node, self._tree = node, tree
-        self._parameters = offer_parameters(node, tree)
-        self._settings = node_reader(BT_NAVIGATOR, tree, node.name, Diagnostics())
+class _Navigator(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, BT_NAVIGATOR)
+        # One navigator at a time, as in Nav2.
+        self._turns = threading.Lock()
+        node = self._node
         self._frames = Frames(node)
         self._world: GraphWorld | None = None
         self._files: dict[str, TreeFile] = {}
-        self._actions: dict[str, SingleGoal] = {}
-        self._ending = threading.Event()
-        self._busy = threading.Lock()
         kind = message_type("nav2_msgs/msg/BehaviorTreeLog")
         self._log_out = node.create_publisher("behavior_tree_log", kind)
         pose = "geometry_msgs/msg/PoseStamped"
         node.create_subscription("goal_pose", pose, self._on_goal_pose)
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        settings = node_reader(BT_NAVIGATOR, self._tree, self._node.name, diagnostics)
-        self._settings = settings
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         settings.report_unknown(*settings.texts("navigators"))
         self._world = GraphWorld(
             self._node,
@@ -94,23 +81,11 @@ class _Navigator:
             found = self._file(kind, path, diagnostics)
             if found is not None:
                 self._files[kind] = found
-        return log_findings(self._node, diagnostics) and len(self._files) == len(_PARAMETERS)
+        return len(self._files) == len(_PARAMETERS)
 
-    def activate(self) -> bool:
-        self._ending.clear()
+    def _served(self) -> Iterable[ServedAction]:
         for kind, name in _ACTIONS.items():
-            action = SingleGoal(self._node, name, f"nav2_msgs/{kind}", generation=2)
-            self._actions[kind] = action
-            work = threading.Thread(target=self._work, args=(action, kind), name=name, daemon=True)
-            work.start()
-        return True
-
-    def deactivate(self) -> bool:
-        self._ending.set()
-        for action in self._actions.values():
-            action.close()
-        self._actions.clear()
-        return True
+            yield ServedAction(name, kind, partial(self._navigate, kind))
 
     def _file(self, kind: str, path: str, diagnostics: Diagnostics) -> TreeFile | None:
         """Return the trees of a file; without one, or for Nav2's own, those that Gazelle has."""
@@ -134,17 +109,7 @@ class _Navigator:
             return read_trees(own, diagnostics)
         return found
 
-    def _work(self, action: SingleGoal, kind: str) -> None:
-        while not self._ending.is_set() and not self._node.closed:
-            if not action.wait(_WAIT_S):
-                continue
-            # One navigator at a time, as in Nav2.
-            with self._busy:
-                goal = action.take()
-                if goal is not None:
-                    self._navigate(action, kind, goal)
-
-    def _navigate(self, action: SingleGoal, kind: str, goal: ServerGoal) -> None:
+    def _navigate(self, kind: str, action: SingleGoal, goal: ServerGoal) -> None:
         """Run a goal's tree to its end."""
         result = action.result_class()
         try:
@@ -161,7 +126,7 @@ class _Navigator:
                 newer = action.take()
                 if newer is not None and not self._changed(trip, kind, newer):
                     trip.tree.halt()
-                    self._navigate(action, kind, newer)
+                    self._navigate(kind, action, newer)
                     return
             if action.is_cancelled or self._ending.is_set():
                 trip.tree.halt()
@@ -266,7 +231,7 @@ class _Navigator:
         goal.publish_feedback(made)
 
     def _on_goal_pose(self, message: Any) -> None:
-        action = self._actions.get("NavigateToPose")
+        action = self._actions.get(_ACTIONS["NavigateToPose"])
         if action is not None:
             action.submit(action.goal_class(pose=message))
 

@@ -7,7 +7,7 @@ import threading
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
@@ -17,8 +17,9 @@ from gazelle.nodes.nav2.collision.sources import Source, WorldFrames
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action, Points, Velocity, Verdict, Zone, guarded
 from gazelle.nodes.nav2.commands import VelocityOutput
+from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
 from gazelle.nodes.nav2.outlines import outline_in_base
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.reading import node_reader
 from gazelle.parameters.reader import ParameterReader
@@ -39,19 +40,12 @@ _BLIND = "invalid source"
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Guard commands until told to stop."""
-    node, tree = start(arguments, graph)
-    monitor = _Monitor(node, tree)
-    serve(arguments, node, stop, {
-        "configure": monitor.configure, "activate": monitor.activate,
-        "deactivate": monitor.deactivate, "cleanup": monitor.cleanup,
-    })  # fmt: skip
-    monitor.cleanup()
-    node.shutdown()
-    return 0
+    return run_server(_Monitor, arguments, graph, stop)
 
 
 class _Monitor:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
+    def __init__(self, setup: ServerSetup) -> None:
+        node, tree, *_ = setup
         self._node, self._tree = node, tree
         self._settings = node_reader(COLLISION_MONITOR, tree, node.name, Diagnostics())
         self._frames = Frames(node)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import unit_pose_of
@@ -24,7 +24,6 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.checking import (
     GoalChecker,
     ProgressChecker,
@@ -32,8 +31,7 @@ from gazelle.nodes.nav2.checking import (
     progress_checker,
 )
 from gazelle.nodes.nav2.commands import VelocityOutput
-from gazelle.nodes.nav2.costmaps import Nav2Costmap
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import (
     CONTROLLER_SERVER,
     GOAL_CHECKERS,
@@ -44,13 +42,11 @@ from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameters import ticks
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
-_WAIT_S = 0.2
 _DEFAULTS = {
     "controller": "dwb_core::DWBLocalPlanner",
     "goal checker": "nav2_controller::SimpleGoalChecker",
@@ -64,32 +60,16 @@ class _EndError(Exception):
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Drive until told to stop."""
-    node, tree = start(arguments, graph)
-    server = _ControllerServer(node, tree, arguments, graph)
-    serve(arguments, node, stop, {
-        "configure": server.configure, "activate": server.activate,
-        "deactivate": server.deactivate, "cleanup": server.cleanup,
-    })  # fmt: skip
-    server.cleanup()
-    node.shutdown()
-    return 0
+    return run_server(_ControllerServer, arguments, graph, stop)
 
 
-class _ControllerServer:
-    def __init__(
-        self, node: Node, tree: dict[str, Any], arguments: NodeArguments, graph: Graph
-    ) -> None:
-        self._node, self._tree = node, tree
-        self._arguments, self._graph = arguments, graph
-        self._parameters = offer_parameters(node, tree)
-        self._settings = node_reader(CONTROLLER_SERVER, tree, node.name, Diagnostics())
-        self._costmap: Nav2Costmap | None = None
+class _ControllerServer(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, CONTROLLER_SERVER, "local_costmap")
+        node = self._node
         self._controllers: dict[str, Controller] = {}
         self._goal_checkers: dict[str, GoalChecker] = {}
         self._progress_checkers: dict[str, ProgressChecker] = {}
-        self._action: SingleGoal | None = None
-        self._working = threading.Event()
-        self._ending = threading.Event()
         stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._out = VelocityOutput(node, stamped=stamped)
         self._odometry = Odometry(node, self._settings.text("odom_topic"))
@@ -99,11 +79,7 @@ class _ControllerServer:
         topic = self._settings.text("speed_limit_topic")
         node.create_subscription(topic, "nav2_msgs/msg/SpeedLimit", self._on_speed_limit)
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        self._costmap = Nav2Costmap("local_costmap", self._arguments, self._graph, diagnostics)
-        settings = node_reader(CONTROLLER_SERVER, self._tree, self._node.name, diagnostics)
-        self._settings = settings
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         old_progress = settings.text("progress_checker_plugin").split()
         old_goal = settings.text("goal_checker_plugin").split()
         progress = old_progress or list(settings.texts("progress_checker_plugins"))
@@ -126,34 +102,13 @@ class _ControllerServer:
             for name, below in self._plugins("controller", names, tables)
         }
         settings.report_unknown(*goals, *progress, *names)
-        is_fine = log_findings(self._node, diagnostics)
-        every = (self._controllers, self._goal_checkers, self._progress_checkers)
-        return is_fine and all(every)
+        return all((self._controllers, self._goal_checkers, self._progress_checkers))
 
-    def activate(self) -> bool:
-        assert self._costmap is not None
-        self._costmap.live.start()
-        self._working.set()
-        self._ending.clear()
-        self._action = SingleGoal(self._node, "follow_path", "nav2_msgs/FollowPath", generation=2)
-        threading.Thread(target=self._work, name="follow_path", daemon=True).start()
-        return True
+    def _served(self) -> Iterable[ServedAction]:
+        return (ServedAction("follow_path", "FollowPath", self._answer),)
 
-    def deactivate(self) -> bool:
-        self._working.clear()
-        self._ending.set()
-        if self._action is not None:
-            self._action.close()
-            self._action = None
-            self._out.stop()
-        return True
-
-    def cleanup(self) -> bool:
-        self.deactivate()
-        if self._costmap is not None:
-            self._costmap.close()
-            self._costmap = None
-        return True
+    def _left(self) -> None:
+        self._out.stop()
 
     def _plugins(
         self, what: str, names: list[str], tables: Mapping[str, ParameterTable]
@@ -186,31 +141,24 @@ class _ControllerServer:
         setting = ControllerSetting(period_s, critics, tolerance)
         return kind.make(settings.fill(kind.options), setting)
 
-    def _work(self) -> None:
-        action = self._action
-        while action is not None and self._working.is_set() and not self._node.closed:
-            if not action.wait(_WAIT_S):
-                continue
-            try:
-                self._follow(action)
-            except _EndError as end:
-                word, reason = end.args
-                self._node.log("error", reason)
-                result = action.result_class()
-                codes = action_type("nav2_msgs/FollowPath").Result
-                result.error_code, result.error_msg = int(getattr(codes, word, 0)), reason
-                self._out.stop()
-                action.abort(result, reason)
+    def _answer(self, action: SingleGoal, goal: ServerGoal) -> None:
+        try:
+            self._follow(action, goal, self._ending)
+        except _EndError as end:
+            word, reason = end.args
+            self._node.log("error", reason)
+            result = action.result_class()
+            codes = action_type("nav2_msgs/FollowPath").Result
+            result.error_code, result.error_msg = int(getattr(codes, word, 0)), reason
+            self._out.stop()
+            action.abort(result, reason)
 
-    def _follow(self, action: SingleGoal) -> None:
+    def _follow(self, action: SingleGoal, goal: ServerGoal, ending: threading.Event) -> None:
         """Follow paths until one is at its end; a newer one takes the place of an older."""
-        goal = action.take()
-        if goal is None:
-            return
         drive = self._begin(goal)
         last_ns = self._node.clock.now_ns()
         period_ns = int(1e9 / self._settings.number("controller_frequency"))
-        for now_ns in ticks(self._node, period_ns, self._ending):
+        for now_ns in ticks(self._node, period_ns, ending):
             if action.is_cancelled:
                 drive.controller.reset()
                 self._out.stop()

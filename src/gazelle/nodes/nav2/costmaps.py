@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import join
 from gazelle.interfaces import service_type
+from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
 from gazelle.nodes.navigation.assembling import assemble
@@ -17,7 +20,17 @@ from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.ros2_console import print_ros2
 
-__all__ = ["Nav2Costmap"]
+__all__ = ["Nav2Costmap", "grid_of_costmap"]
+
+
+def grid_of_costmap(message: Any) -> CostGrid:
+    """Return the grid of a ``nav2_msgs/Costmap``."""
+    data = message.metadata
+    costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
+    origin = (float(data.origin.position.x), float(data.origin.position.y))
+    # A float32 of 0.05 is 0.0500000007…
+    resolution_m = float(f"{float(data.resolution):.7g}")
+    return CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
 
 
 class Nav2Costmap:

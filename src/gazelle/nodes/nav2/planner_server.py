@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
@@ -23,19 +24,15 @@ from gazelle.navigation.planners import (
     make_plan,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.nav2.costmaps import Nav2Costmap
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import PLANNER_SERVER, planner_table
 from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
 _DEFAULT = "nav2_navfn_planner::NavfnPlanner"
-_WAIT_S = 0.2
 _READY_S = 10.0
 
 
@@ -45,37 +42,19 @@ class _RefusedError(Exception):
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Plan until told to stop."""
-    node, tree = start(arguments, graph)
-    server = _PlannerServer(node, tree, arguments, graph)
-    serve(arguments, node, stop, {
-        "configure": server.configure, "activate": server.activate,
-        "deactivate": server.deactivate, "cleanup": server.cleanup,
-    })  # fmt: skip
-    server.cleanup()
-    node.shutdown()
-    return 0
+    return run_server(_PlannerServer, arguments, graph, stop)
 
 
-class _PlannerServer:
-    def __init__(
-        self, node: Node, tree: dict[str, Any], arguments: NodeArguments, graph: Graph
-    ) -> None:
-        self._node, self._tree = node, tree
-        self._arguments, self._graph = arguments, graph
-        self._parameters = offer_parameters(node, tree)
-        self._costmap: Nav2Costmap | None = None
+class _PlannerServer(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, PLANNER_SERVER, "global_costmap")
         self._planners: dict[str, PlannerOptions] = {}
-        self._actions: list[SingleGoal] = []
-        self._working = threading.Event()
         kind = message_type("nav_msgs/msg/Path")
-        self._out = node.create_publisher("plan", kind, queue_size=1)
+        self._out = self._node.create_publisher("plan", kind, queue_size=1)
         service = service_type("nav2_msgs/srv/IsPathValid")
-        node.create_service("is_path_valid", service, self._on_is_valid)
+        self._node.create_service("is_path_valid", service, self._on_is_valid)
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        self._costmap = Nav2Costmap("global_costmap", self._arguments, self._graph, diagnostics)
-        settings = node_reader(PLANNER_SERVER, self._tree, self._node.name, diagnostics)
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         names = settings.texts("planner_plugins")
         self._planners = {}
         for name in names:
@@ -84,51 +63,19 @@ class _PlannerServer:
             if options is not None:
                 self._planners[name] = options
         settings.report_unknown(*names)
-        return log_findings(self._node, diagnostics) and bool(self._planners)
+        return bool(self._planners)
 
-    def activate(self) -> bool:
-        assert self._costmap is not None
-        self._costmap.live.start()
-        self._working.set()
-        for name, type_name, work in (
+    def _served(self) -> Iterable[ServedAction]:
+        for name, kind, work in (
             ("compute_path_to_pose", "ComputePathToPose", self._to_pose),
             ("compute_path_through_poses", "ComputePathThroughPoses", self._through_poses),
         ):
-            action = SingleGoal(self._node, name, f"nav2_msgs/{type_name}", generation=2)
-            self._actions.append(action)
-            worker = threading.Thread(
-                target=self._work, args=(action, type_name, work), name=name, daemon=True
-            )
-            worker.start()
-        return True
+            yield ServedAction(name, kind, partial(self._answer, kind, work))
 
-    def deactivate(self) -> bool:
-        self._working.clear()
-        for action in self._actions:
-            action.close()
-        self._actions.clear()
-        return True
-
-    def cleanup(self) -> bool:
-        self.deactivate()
-        if self._costmap is not None:
-            self._costmap.close()
-            self._costmap = None
-        return True
-
-    def _work(self, action: SingleGoal, type_name: str, work: Any) -> None:
-        while self._working.is_set() and not self._node.closed:
-            if not action.wait(_WAIT_S):
-                continue
-            goal = action.take()
-            if goal is None:
-                continue
-            if action.is_cancelled:
-                action.cancel()
-                continue
-            self._answer(action, goal, type_name, work)
-
-    def _answer(self, action: SingleGoal, goal: ServerGoal, type_name: str, work: Any) -> None:
+    def _answer(self, type_name: str, work: Any, action: SingleGoal, goal: ServerGoal) -> None:
+        if action.is_cancelled:
+            action.cancel()
+            return
         result = action.result_class()
         began_ns = self._node.clock.now_ns()
         try:
@@ -190,7 +137,7 @@ class _PlannerServer:
         pause = threading.Event()
         while not live.is_ready and (live.is_updating or clock.now_ns() < deadline_ns):
             pause.wait(0.05)
-            if not self._working.is_set():
+            if self._ending.is_set():
                 break
         if not live.is_ready:
             why = "; ".join(live.stale())

@@ -3,44 +3,35 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.interfaces.stamps import set_stamp
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.costmaps import grid_of_costmap
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import SMOOTHER, SMOOTHER_SERVER
 from gazelle.nodes.navigation.frames import path_message
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run", "smoothed"]
 
-_WAIT_S = 0.2
 _SIMPLE = "nav2_smoother::SimpleSmoother"
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Smooth until told to stop."""
-    node, tree = start(arguments, graph)
-    server = _SmootherServer(node, tree)
-    serve(arguments, node, stop, {
-        "configure": server.configure, "activate": server.activate,
-        "deactivate": server.deactivate, "cleanup": server.deactivate,
-    })  # fmt: skip
-    server.deactivate()
-    node.shutdown()
-    return 0
+    return run_server(_SmootherServer, arguments, graph, stop)
 
 
 def smoothed(
@@ -72,18 +63,13 @@ def smoothed(
     return now
 
 
-class _SmootherServer:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
-        self._node, self._tree = node, tree
-        self._parameters = offer_parameters(node, tree)
+class _SmootherServer(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, SMOOTHER_SERVER)
         self._smoothers: dict[str, ParameterReader] = {}
         self._grid: CostGrid | None = None
-        self._action: SingleGoal | None = None
-        self._ending = threading.Event()
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        settings = node_reader(SMOOTHER_SERVER, self._tree, self._node.name, diagnostics)
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         names = settings.texts("smoother_plugins")
         for name in names:
             below = self._tree.get(name)
@@ -98,32 +84,13 @@ class _SmootherServer:
         settings.report_unknown(*names)
         topic = settings.text("costmap_topic")
         self._node.create_subscription(topic, "nav2_msgs/msg/Costmap", self._on_costs)
-        return log_findings(self._node, diagnostics) and bool(self._smoothers)
+        return bool(self._smoothers)
 
-    def activate(self) -> bool:
-        self._ending.clear()
-        self._action = SingleGoal(self._node, "smooth_path", "nav2_msgs/SmoothPath", generation=2)
-        threading.Thread(target=self._work, name="smooth_path", daemon=True).start()
-        return True
-
-    def deactivate(self) -> bool:
-        self._ending.set()
-        if self._action is not None:
-            self._action.close()
-            self._action = None
-        return True
+    def _served(self) -> Iterable[ServedAction]:
+        return (ServedAction("smooth_path", "SmoothPath", self._answer),)
 
     def _on_costs(self, message: Any) -> None:
-        data = message.metadata
-        costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
-        origin = (float(data.origin.position.x), float(data.origin.position.y))
-        self._grid = CostGrid(costs, float(f"{float(data.resolution):.7g}"), origin)
-
-    def _work(self) -> None:
-        action = self._action
-        while action is not None and not self._ending.is_set() and not self._node.closed:
-            if action.wait(_WAIT_S) and (goal := action.take()) is not None:
-                self._answer(action, goal)
+        self._grid = grid_of_costmap(message)
 
     def _answer(self, action: SingleGoal, goal: ServerGoal) -> None:
         result = action.result_class()

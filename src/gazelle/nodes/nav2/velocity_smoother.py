@@ -7,15 +7,14 @@ import threading
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.commands import VelocityOutput
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import VELOCITY_SMOOTHER
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.parameters import ticks
-from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["limited", "run"]
 
@@ -25,15 +24,7 @@ _STAND: Triple = (0.0, 0.0, 0.0)
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Smooth until told to stop."""
-    node, tree = start(arguments, graph)
-    smoother = _Smoother(node, tree)
-    serve(arguments, node, stop, {
-        "configure": smoother.configure, "activate": smoother.activate,
-        "deactivate": smoother.deactivate,
-    })  # fmt: skip
-    smoother.deactivate()
-    node.shutdown()
-    return 0
+    return run_server(_Smoother, arguments, graph, stop)
 
 
 def limited(
@@ -67,40 +58,32 @@ def limited(
     return moved[0], moved[1], moved[2]
 
 
-class _Smoother:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
-        self._node, self._tree = node, tree
-        self._parameters = offer_parameters(node, tree)
-        self._settings = node_reader(VELOCITY_SMOOTHER, tree, node.name, Diagnostics())
+class _Smoother(ManagedServer):
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, VELOCITY_SMOOTHER)
+        node = self._node
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._out = VelocityOutput(node, stamped=self._stamped, topic="cmd_vel_smoothed")
         self._odometry = Odometry(node, self._settings.text("odom_topic"))
         self._wanted, self._now = _STAND, _STAND
         self._heard_ns: int | None = None
-        self._ending = threading.Event()
         kind = "geometry_msgs/msg/TwistStamped" if self._stamped else "geometry_msgs/msg/Twist"
         node.create_subscription("cmd_vel", kind, self._on_command, queue_size=1)
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        settings = node_reader(VELOCITY_SMOOTHER, self._tree, self._node.name, diagnostics)
-        self._settings = settings
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         for key in ("max_velocity", "min_velocity", "max_accel", "max_decel", "deadband_velocity"):
             if len(settings.numbers(key)) != 3:
                 text = f"'{key}' has {len(settings.numbers(key))} numbers; write x, y and turn"
                 diagnostics.report("parameter.bad-value", text)
-                return log_findings(self._node, diagnostics) and False
+                return False
         settings.report_unknown()
-        return log_findings(self._node, diagnostics)
-
-    def activate(self) -> bool:
-        self._ending.clear()
-        threading.Thread(target=self._work, name="smoother", daemon=True).start()
         return True
 
-    def deactivate(self) -> bool:
-        self._ending.set()
-        return True
+    def _begun(self) -> None:
+        work = threading.Thread(
+            target=self._smooth, args=(self._ending,), name="smoother", daemon=True
+        )
+        work.start()
 
     def _on_command(self, message: Any) -> None:
         twist = message.twist if self._stamped else message
@@ -110,9 +93,9 @@ class _Smoother:
             return
         self._wanted, self._heard_ns = wanted, self._node.clock.now_ns()
 
-    def _work(self) -> None:
+    def _smooth(self, ending: threading.Event) -> None:
         period_ns = int(1e9 / self._settings.number("smoothing_frequency"))
-        for now_ns in ticks(self._node, period_ns, self._ending):
+        for now_ns in ticks(self._node, period_ns, ending):
             if self._heard_ns is not None:
                 self._round(now_ns, period_ns / 1e9)
 

@@ -4,88 +4,57 @@ from __future__ import annotations
 
 import contextlib
 import threading
+from collections.abc import Iterable
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node, TimeJumpError
+from gazelle.graph import Graph, TimeJumpError
 from gazelle.graph.actions import ActionClient, ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
+from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import WAYPOINT_FOLLOWER
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.reading import node_reader
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
 
-_WAIT_S = 0.2
 _SERVER_S = 10.0
 _WAITING = "WaitAtWaypoint"
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Follow waypoints until told to stop."""
-    node, tree = start(arguments, graph)
-    follower = _Follower(node, tree)
-    serve(arguments, node, stop, {
-        "configure": follower.configure, "activate": follower.activate,
-        "deactivate": follower.deactivate, "cleanup": follower.deactivate,
-    })  # fmt: skip
-    follower.deactivate()
-    node.shutdown()
-    return 0
+    return run_server(_Follower, arguments, graph, stop)
 
 
-class _Follower:
-    def __init__(self, node: Node, tree: dict[str, Any]) -> None:
-        self._node, self._tree = node, tree
-        self._parameters = offer_parameters(node, tree)
-        self._settings = node_reader(WAYPOINT_FOLLOWER, tree, node.name, Diagnostics())
+class _Follower(ManagedServer):
+    # Nothing that may be wrong keeps it from driving from pose to pose.
+    errors_refuse = False
+
+    def __init__(self, setup: ServerSetup) -> None:
+        super().__init__(setup, WAYPOINT_FOLLOWER)
         self._client = ActionClient(
-            node, "navigate_to_pose", "nav2_msgs/NavigateToPose", generation=2
+            self._node, "navigate_to_pose", "nav2_msgs/NavigateToPose", generation=2
         )
-        self._action: SingleGoal | None = None
-        self._ending = threading.Event()
         self._pause_s = 0.0
 
-    def configure(self) -> bool:
-        diagnostics = Diagnostics()
-        self._settings = node_reader(WAYPOINT_FOLLOWER, self._tree, self._node.name, diagnostics)
-        name = self._settings.text("waypoint_task_executor_plugin")
-        self._settings.report_unknown(name)
+    def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
+        name = settings.text("waypoint_task_executor_plugin")
+        settings.report_unknown(name)
         below = self._tree.get(name)
         own = below if isinstance(below, dict) else {}
         plugin = str(own.get("plugin", f"nav2_waypoint_follower::{_WAITING}"))
         if not plugin.endswith(_WAITING):
             text = f"task '{name}' is of type '{plugin}', which is not known; there is "
             text += f"nav2_waypoint_follower::{_WAITING}. Nothing is done at the poses"
-            self._settings.report("navigation.unknown-plugin", text)
+            settings.report("navigation.unknown-plugin", text)
         elif own.get("enabled", True):
             self._pause_s = float(own.get("waypoint_pause_duration", 0.0)) / 1000
-        log_findings(self._node, diagnostics)
         return True
 
-    def activate(self) -> bool:
-        self._ending.clear()
-        self._action = SingleGoal(
-            self._node, "follow_waypoints", "nav2_msgs/FollowWaypoints", generation=2
-        )
-        threading.Thread(target=self._work, name="follow_waypoints", daemon=True).start()
-        return True
-
-    def deactivate(self) -> bool:
-        self._ending.set()
-        if self._action is not None:
-            self._action.close()
-            self._action = None
-        return True
-
-    def _work(self) -> None:
-        action = self._action
-        while action is not None and not self._ending.is_set() and not self._node.closed:
-            if action.wait(_WAIT_S) and (goal := action.take()) is not None:
-                self._follow(action, goal)
+    def _served(self) -> Iterable[ServedAction]:
+        return (ServedAction("follow_waypoints", "FollowWaypoints", self._follow),)
 
     def _follow(self, action: SingleGoal, goal: ServerGoal) -> None:
         """Drive to all poses of a goal, as often as it says."""
