@@ -8,13 +8,14 @@ import pytest
 
 from gazelle.description.model import Model
 from gazelle.description.moveit import ControllerEntry, MoveItConfig
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.move_group.controllers import (
     ControllerKind,
     ControllerSpec,
     choose_controllers,
     controller_specs,
 )
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 FOLLOW = ControllerKind.FOLLOW_JOINT_TRAJECTORY
 
@@ -41,8 +42,8 @@ def test_controllers_that_share_a_joint_are_not_used_together() -> None:
     with pytest.raises(MoveGroupError) as caught:
         choose_controllers([_spec("x", "ab"), _spec("y", "bc")], "abc")
     assert caught.value.code is ErrorCode.CONTROL_FAILED
-    assert "can actuate the specified joints: [ a b c ]" in caught.value.why
-    assert "controller 'y' controls joints: b c" in caught.value.why
+    assert "can actuate the specified joints: [ a b c ]" in caught.value.reason
+    assert "controller 'y' controls joints: b c" in caught.value.reason
 
 
 def test_joints_without_a_controller_and_unknown_names_are_told() -> None:

@@ -12,8 +12,8 @@ from tests.patience import stretched
 
 from gazelle.description.moveit import ExecutionSettings
 from gazelle.graph.actions import ServerGoal
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.move_group.controllers import ControllerKind, ControllerSpec
-from gazelle.nodes.move_group.error_codes import ErrorCode
 from gazelle.nodes.move_group.execution import ExecutionStatus, TrajectoryExecutor
 from gazelle.nodes.move_group.state_monitor import StateMonitor
 

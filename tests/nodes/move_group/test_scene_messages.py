@@ -99,7 +99,7 @@ def test_bad_objects_are_told(scene: PlanningScene, change: dict[str, Any], text
     item = _object(**{**box_object("box", [0.1] * 3, [1.0, 0.0, 0.0]), **change})
     with pytest.raises(MoveGroupError) as caught:
         apply_object(scene, item, _frame_of)
-    assert text in caught.value.why
+    assert text in caught.value.reason
 
 
 def test_attaching_what_is_not_there_is_told(scene: PlanningScene) -> None:

@@ -6,17 +6,20 @@ import enum
 
 from gazelle.errors import GazelleError
 
-__all__ = ["ErrorCode", "PlanningError"]
+__all__ = ["CodedError", "ErrorCode", "PlanningError"]
 
 
 class ErrorCode(enum.IntEnum):
-    """The values of ``moveit_msgs/MoveItErrorCodes`` that planning can end with."""
+    """MoveIt's numbers, ``moveit_msgs/msg/MoveItErrorCodes.msg``."""
 
     SUCCESS = 1
     FAILURE = 99999
     PLANNING_FAILED = -1
     INVALID_MOTION_PLAN = -2
+    MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE = -3
+    CONTROL_FAILED = -4
     TIMED_OUT = -6
+    PREEMPTED = -7
     START_STATE_IN_COLLISION = -10
     START_STATE_VIOLATES_PATH_CONSTRAINTS = -11
     GOAL_IN_COLLISION = -12
@@ -26,12 +29,17 @@ class ErrorCode(enum.IntEnum):
     INVALID_GOAL_CONSTRAINTS = -16
     INVALID_ROBOT_STATE = -17
     INVALID_LINK_NAME = -18
+    INVALID_OBJECT_NAME = -19
     FRAME_TRANSFORM_FAILURE = -21
+    COLLISION_CHECKING_UNAVAILABLE = -22
+    ROBOT_STATE_STALE = -23
+    START_STATE_INVALID = -26
+    GOAL_STATE_INVALID = -27
     NO_IK_SOLUTION = -31
 
 
-class PlanningError(GazelleError):
-    """There is no plan.
+class CodedError(GazelleError):
+    """Something that cannot be done, with the number that MoveIt has for it.
 
     Attributes:
         code: what MoveIt answers in this case.
@@ -39,6 +47,15 @@ class PlanningError(GazelleError):
     """
 
     def __init__(self, code: ErrorCode, reason: str) -> None:
+        """Note both."""
+        super().__init__(reason)
         self.code = code
         self.reason = reason
-        super().__init__(f"{code.name}: {reason}")
+
+
+class PlanningError(CodedError):
+    """There is no plan."""
+
+    def __str__(self) -> str:
+        """Return the code's name and the reason."""
+        return f"{self.code.name}: {self.reason}"

@@ -22,8 +22,9 @@ from gazelle.motion.constraints import (
     Region,
 )
 from gazelle.motion.model import JointGroup, RobotModel
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.space import FloatArray
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = ["ConstraintReader", "Frames", "pose_of"]
 

@@ -13,10 +13,11 @@ from gazelle.geometry import Pose
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
 from gazelle.motion.model import JointKind, RobotModel
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.controllers import FAKE_TYPES, controller_specs
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.execution import TrajectoryExecutor
 from gazelle.nodes.move_group.fake_controllers import FakeControllers, initial_positions
 from gazelle.nodes.move_group.planning import RequestPlanner
@@ -99,7 +100,7 @@ class MoveGroupContext:
 
     def tell(self, what: str, error: MoveGroupError) -> None:
         """Log a failure with its code and why."""
-        self.node.log("error", f"{what}: {error.code.name}: {error.why}")
+        self.node.log("error", f"{what}: {error.code.name}: {error.reason}")
 
     def _joints(self) -> tuple[str, ...]:
         free = (joint for joint in self.robot.joints if joint.is_active and not joint.is_passive)
@@ -147,7 +148,7 @@ def _executor(
     try:
         specs = controller_specs(config)
     except MoveGroupError as error:
-        node.log("error", error.why)
+        node.log("error", error.reason)
         specs = ()
     for spec in specs:
         node.log("info", f"Added {spec.kind.value} controller for {spec.name}")

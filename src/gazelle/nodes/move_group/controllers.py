@@ -14,7 +14,8 @@ from typing import Any
 
 from gazelle.description.moveit import ControllerEntry, MoveItConfig
 from gazelle.diagnostics import did_you_mean
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.motion.planning.failure import ErrorCode
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = [
     "FAKE_TYPES",

@@ -14,9 +14,10 @@ from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces.stamps import ns_of
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.move_group.controller_goals import controller_goal, goal_end, part_of
 from gazelle.nodes.move_group.controllers import ControllerSpec, choose_controllers
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.state_monitor import StateMonitor
 
 __all__ = ["ExecutionStatus", "Outcome", "TrajectoryExecutor"]
@@ -127,7 +128,7 @@ class TrajectoryExecutor:
         try:
             return self._run(trajectory, controllers)
         except MoveGroupError as error:
-            return Outcome(ExecutionStatus.ABORTED, error.why)
+            return Outcome(ExecutionStatus.ABORTED, error.reason)
         finally:
             self._began_ns = -1
             self._turn.release()

@@ -11,11 +11,12 @@ from gazelle.interfaces.poses import set_xyz
 from gazelle.interfaces.stamps import seconds_of, set_stamp
 from gazelle.motion.constraints import Constrained
 from gazelle.motion.kinematics import link_poses
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray, Validity
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
+from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.problem import GroupProblem
 from gazelle.nodes.move_group.shape_messages import pose_message
@@ -46,7 +47,7 @@ def _ik(context: MoveGroupContext, request: Any) -> Any:
         response.error_code = code_message(ErrorCode.SUCCESS)
     except MoveGroupError as error:
         context.tell("compute_ik", error)
-        response.error_code = code_message(error.code, error.why)
+        response.error_code = code_message(error.code, error.reason)
     return response
 
 
@@ -128,7 +129,7 @@ def _fk(context: MoveGroupContext, request: Any) -> Any:
         response.error_code = code_message(ErrorCode.SUCCESS)
     except MoveGroupError as error:
         context.tell("compute_fk", error)
-        response.error_code = code_message(error.code, error.why)
+        response.error_code = code_message(error.code, error.reason)
     return response
 
 

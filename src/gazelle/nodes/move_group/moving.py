@@ -9,11 +9,11 @@ from typing import Any
 
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_stamp
-from gazelle.motion.planning import first_fault
+from gazelle.motion.planning import ErrorCode, first_fault
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.context import MoveGroupContext
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.planning import Planned
 from gazelle.nodes.move_group.trajectories import joint_trajectory, robot_trajectory
@@ -78,7 +78,7 @@ class Mover:
             scene = context.fresh_scene(options.planning_scene_diff)
             attempt.planned = context.planner.plan(scene, request, context.monitor.frame_of)
         except MoveGroupError as error:
-            attempt.code, attempt.why = error.code, error.why
+            attempt.code, attempt.why = error.code, error.reason
             return attempt
         self._tell_plan(attempt.planned)
         return attempt

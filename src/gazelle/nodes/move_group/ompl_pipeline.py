@@ -10,10 +10,10 @@ from typing import Any
 from gazelle.description.moveit import Pipeline
 from gazelle.diagnostics import Diagnostic, Diagnostics
 from gazelle.motion.constraints import Constrained, PathConstraint
-from gazelle.motion.planning import PLANNERS, Path, PlanningError, configured, plan
+from gazelle.motion.planning import PLANNERS, ErrorCode, Path, PlanningError, configured, plan
 from gazelle.motion.planning.planners import DEFAULT
 from gazelle.motion.timing import Trajectory, method_of, parameterise
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.goals import Goal, GoalSampler
 from gazelle.nodes.move_group.planning_pipeline import (
     Asked,

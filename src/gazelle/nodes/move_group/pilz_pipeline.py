@@ -17,10 +17,11 @@ from gazelle.motion.pilz import (
     PilzPlanner,
     plan_sequence,
 )
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.constraint_messages import pose_of
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.goals import Goal
 from gazelle.nodes.move_group.planning_pipeline import (
     Asked,

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.motion.planning import PlanningError
+from gazelle.motion.planning import ErrorCode, PlanningError
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.pipelines import choose_planner
 from gazelle.nodes.move_group.planning_pipeline import PlannerChoice, PlanningJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
@@ -78,7 +78,7 @@ class RequestPlanner:
             job = PlanningJob(self.maker.config, problem, choice, request, self._seed)
             trajectory, notes = choice.plans.plan(job)
         except PlanningError as error:
-            raise MoveGroupError(ErrorCode(int(error.code)), error.reason) from error
+            raise MoveGroupError(error.code, error.reason) from error
         trajectory = _slowed_to_tip_speed(trajectory, problem, request)
         took_s = time.perf_counter() - began
         name = request.group_name

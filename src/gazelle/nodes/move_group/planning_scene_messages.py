@@ -74,7 +74,7 @@ def apply_scene(
     try:
         scene = apply_robot_state(scene, message.robot_state, frame_of)
     except MoveGroupError as error:
-        problems.append(error.why)
+        problems.append(error.reason)
     return scene, tuple(problems)
 
 
@@ -162,7 +162,7 @@ def _tried(
     try:
         return change(scene, item, frame_of)  # type: ignore[no-any-return]
     except MoveGroupError as error:
-        problems.append(error.why)
+        problems.append(error.reason)
         return scene
 
 

@@ -7,11 +7,12 @@ from typing import Any
 
 from gazelle.interfaces import message_type, service_type
 from gazelle.motion.model import JointKind
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.cartesian import JumpLimits, straight_path
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
+from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.pipelines import pipeline_of, planning_pipeline
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.problem import GroupProblem
@@ -51,7 +52,7 @@ def _plan(context: MoveGroupContext, request: Any) -> Any:
         planned = context.planner.plan(scene, asked, context.monitor.frame_of)
     except MoveGroupError as error:
         context.tell("plan_kinematic_path", error)
-        answer.error_code = code_message(error.code, error.why)
+        answer.error_code = code_message(error.code, error.reason)
         return response
     for note in planned.notes:
         context.node.log("warn", note)
@@ -78,7 +79,7 @@ def _cartesian(context: MoveGroupContext, request: Any) -> Any:
             context.node.log("warn", f"compute_cartesian_path: {part}")
     except MoveGroupError as error:
         context.tell("compute_cartesian_path", error)
-        response.error_code = code_message(error.code, error.why)
+        response.error_code = code_message(error.code, error.reason)
     return response
 
 

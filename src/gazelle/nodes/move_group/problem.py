@@ -14,10 +14,11 @@ from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.constraints import PathConstraint
 from gazelle.motion.kinematics import Solver
 from gazelle.motion.model import JointGroup, RobotModel
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.constraint_messages import ConstraintReader
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.scene_messages import FrameOf
 
 __all__ = ["GroupProblem", "ProblemMaker"]

@@ -10,9 +10,10 @@ from typing import Any
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import AttachedBody, PlacedShape, PlanningScene, WorldObject
 from gazelle.nodes.move_group.constraint_messages import pose_of
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.shape_messages import (
     add_shapes,
     mesh_shape,

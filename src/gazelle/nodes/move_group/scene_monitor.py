@@ -13,8 +13,9 @@ from gazelle.graph import Node
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
 from gazelle.interfaces import message_type
 from gazelle.motion.model import RobotModel
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.planning_scene_messages import (
     Components,
     apply_scene,
@@ -170,7 +171,7 @@ class SceneMonitor:
             with self._lock:
                 self._scene = change(self.scene)
         except MoveGroupError as error:
-            self._node.log("error", f"planning scene: {error.why}")
+            self._node.log("error", f"planning scene: {error.reason}")
             return
         self._tell_change()
 

@@ -11,12 +11,13 @@ from typing import Any
 
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type, service_type
-from gazelle.motion.planning import PlanningError
+from gazelle.motion.planning import ErrorCode
+from gazelle.motion.planning.failure import CodedError
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
+from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.moving import Attempt, Mover
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
 from gazelle.nodes.move_group.planning import Planned
@@ -94,10 +95,8 @@ def _planned(context: MoveGroupContext, items: Sequence[Any]) -> tuple[list[Plan
         if plans:
             response.sequence_start = context.state_message(plans[0].start)
         code, why = ErrorCode.SUCCESS, ""
-    except PlanningError as error:
-        code, why = ErrorCode(int(error.code)), error.reason
-    except MoveGroupError as error:
-        code, why = error.code, error.why
+    except CodedError as error:
+        code, why = error.code, error.reason
     if why:
         context.tell("sequence", MoveGroupError(code, why))
         plans = []

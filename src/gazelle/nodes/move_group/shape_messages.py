@@ -10,8 +10,9 @@ from gazelle.description.model import Box, Cone, Cylinder, Plane, Sphere
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlacedShape, SceneMesh, SceneShape
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = ["add_shapes", "mesh_shape", "plane_shape", "pose_message", "primitive_shape"]
 

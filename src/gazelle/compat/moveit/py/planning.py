@@ -18,9 +18,10 @@ from gazelle.graph import Graph
 from gazelle.interfaces import convert, message_type
 from gazelle.interfaces.poses import pose_of
 from gazelle.motion.model import RobotModel as MotionRobot
+from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError, code_message
+from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.scene_interface import offer_scene_answers, offer_scene_topics
 from gazelle.workspace import Workspace
@@ -310,7 +311,7 @@ class PlanningComponent:
             planned = context.planner.plan(scene, request, context.monitor.frame_of)
         except MoveGroupError as error:
             context.tell("plan", error)
-            return MotionPlanResponse(None, code_message(error.code, error.why))
+            return MotionPlanResponse(None, code_message(error.code, error.reason))
         model = RobotModel(context.robot)
         trajectory = RobotTrajectory(model, planned.trajectory, planned.group)
         start = context.state_message(planned.start)

@@ -14,11 +14,11 @@ from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.interfaces import convert, message_type
 from gazelle.motion.collision import CollisionChecker
-from gazelle.motion.planning import FINE_STEP
+from gazelle.motion.planning import FINE_STEP, ErrorCode
 from gazelle.motion.scene import PlanningScene as MotionScene
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.context import MoveGroupContext
-from gazelle.nodes.move_group.error_codes import ErrorCode, MoveGroupError
+from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.planning_scene_messages import (
     Components,
     apply_scene,
