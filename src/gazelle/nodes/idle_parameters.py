@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any, Literal, NamedTuple
 
-from gazelle.control.sources.trees import leaves
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.costmap.options import (
     InflationOptions,
@@ -31,7 +30,7 @@ from gazelle.nodes.navigation.assembling import costmap_table, layer_table
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.parameters import ParameterTable
-from gazelle.parameters.trees import nested
+from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["IdleParameter", "idle_parameters", "node_of_name"]
 
@@ -93,7 +92,7 @@ def _walk(
             if below is not None:
                 yield from _walk(below, value, f"{prefix}{key}.", generation)
                 continue
-        for name, leaf in leaves({key: value}):
+        for name, leaf in values_only(flattened({key: value})):
             row = table.row_for(name)
             if row is not None and row.kind == "refused" and (leaf or name not in SWITCHES):
                 yield IdleParameter(f"{prefix}{name}", row.meaning)

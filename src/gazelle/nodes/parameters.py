@@ -6,7 +6,6 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from gazelle.control.sources.trees import leaves
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
@@ -14,7 +13,7 @@ from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
 from gazelle.nodes.ros2_console import print_ros2
-from gazelle.parameters.trees import nested
+from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = [
     "node_parameters",
@@ -105,7 +104,9 @@ def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
             node.clock.use(bool(changes[_SIM_TIME]))
         return ""
 
-    values = {name: value for name, value in leaves(nested(given)) if value is not None}
+    values = {
+        name: value for name, value in values_only(flattened(nested(given))) if value is not None
+    }
     node_parameters(node, {_SIM_TIME: False, **values}, refused)
 
 

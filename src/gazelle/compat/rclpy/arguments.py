@@ -77,9 +77,9 @@ class RosArguments:
         """
         if not self.files and not self.params:
             return {}
-        from gazelle.control.sources.trees import leaves
         from gazelle.control.sources.yaml_file import read_parameters_of
         from gazelle.diagnostics import Diagnostics
+        from gazelle.parameters.trees import flattened, values_only
 
         diagnostics = Diagnostics()
         values = read_parameters_of(full_name, self.files, diagnostics)
@@ -88,7 +88,7 @@ class RosArguments:
         base = full_name.rpartition("/")[2]
         for rule in self.params:
             if rule.node in ("", base, full_name):
-                values.update(leaves({rule.name: yaml_value(rule.value)}))
+                values.update(values_only(flattened({rule.name: yaml_value(rule.value)})))
         return values
 
     def _special(self, word: str, node: str) -> str | None:

@@ -124,9 +124,9 @@ def parameter_dict_from_yaml_file(
         RuntimeError: nothing is said about the nodes.
         UserFileError: the file has errors.
     """
-    from gazelle.control.sources.trees import leaves
     from gazelle.control.sources.yaml_file import read_parameter_file
     from gazelle.diagnostics import Diagnostics
+    from gazelle.parameters.trees import flattened, values_only
 
     diagnostics = Diagnostics()
     sections = read_parameter_file(Path(parameter_file), diagnostics)
@@ -136,7 +136,10 @@ def parameter_dict_from_yaml_file(
     for section in sections:
         is_wild = "*" in section.node
         if use_wildcard if is_wild else wanted is None or section.node in wanted:
-            found |= {f"{namespace}{name}": value for name, value in leaves(section.values)}
+            found |= {
+                f"{namespace}{name}": value
+                for name, value in values_only(flattened(section.values))
+            }
     if not found:
         nodes = ", ".join(section.node for section in sections) or "no nodes"
         raise RuntimeError(f"Param file does not contain any valid parameters (it has {nodes})")

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents.yaml import (
     RCL,
@@ -24,6 +23,7 @@ from gazelle.documents.yaml import (
     read_yaml_file,
     value_of,
 )
+from gazelle.parameters.trees import flattened, values_only
 
 __all__ = [
     "NodeSection",
@@ -112,7 +112,7 @@ def read_parameters_of(
         for file in files
         for section in read_parameter_file(file, diagnostics)
         if section.matches(full_name)
-        for name, value in leaves(section.values)
+        for name, value in values_only(flattened(section.values))
     }
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
@@ -13,7 +12,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.parameters import parameter_tree, start_node
-from gazelle.parameters.trees import nested
+from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["GoalParameters", "are_numbers", "start"]
 
@@ -36,7 +35,7 @@ class GoalParameters:
 
     def __init__(self, given: Mapping[str, Any], defaults: Mapping[str, Any]) -> None:
         """Put what was given over the defaults."""
-        values = dict(leaves(given))
+        values = dict(values_only(flattened(given)))
         for name, default in defaults.items():
             _check_type(name, values.get(name, default), type(default))
         self.tree = nested({**defaults, **values})
@@ -62,7 +61,7 @@ class GoalParameters:
             *groups: the same, of subtrees.
         """
         heads = {name.partition(".")[0] for name in (*self.goal_names, *groups, *_EVERYWHERE)}
-        for name in dict(leaves(self.tree)):
+        for name in dict(values_only(flattened(self.tree))):
             head = name.partition(".")[0]
             if name not in known and head not in heads:
                 hint = did_you_mean(head, (*known, *self.goal_names))

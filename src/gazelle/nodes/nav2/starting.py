@@ -6,14 +6,13 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from gazelle.control.sources.trees import leaves
 from gazelle.graph import Graph, Node
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.parameters import node_parameters, start_node
 from gazelle.nodes.ros2_words import file_params
-from gazelle.parameters.trees import nested
+from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["offer_parameters", "serve", "start", "tree_of_node"]
 
@@ -40,7 +39,7 @@ def offer_parameters(
     changed: Callable[[dict[str, Any]], str] = lambda changes: "",
 ) -> NodeParameters:
     """Offer a node's parameters to ``ros2 param``; `changed` may refuse with a reason."""
-    values = {key: value for key, value in leaves(tree) if value is not None}
+    values = {key: value for key, value in values_only(flattened(tree)) if value is not None}
     return node_parameters(node, values, changed, allow_undeclared=True)
 
 

@@ -22,7 +22,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.control.sources.trees import leaves
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -33,7 +32,7 @@ from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.nodes.reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.parameters.trees import nested
+from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["JoyDriving", "read_driving", "run"]
 
@@ -206,13 +205,13 @@ class _Teleop:
 
     def offer_parameters(self) -> None:
         """Let ``ros2 param set`` change buttons, axes and scales."""
-        defaults = nested({row.key: row.default for row in _ROWS})
-        offer_parameters(self._node, nested({**dict(leaves(defaults)), **dict(leaves(self._tree))}),
-                         self._change)  # fmt: skip
+        values = dict(values_only(flattened(nested({row.key: row.default for row in _ROWS}))))
+        values |= values_only(flattened(self._tree))
+        offer_parameters(self._node, nested(values), self._change)
 
     def _change(self, changes: dict[str, Any]) -> str:
         found = Diagnostics()
-        tree = nested({**dict(leaves(self._tree)), **changes})
+        tree = nested({**dict(values_only(flattened(self._tree))), **changes})
         driving = read_driving(tree, self._node.name, found, is_ros2=True)
         if len(found):
             return next(iter(found)).message
