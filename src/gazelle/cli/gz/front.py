@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from gazelle.cli.gz import joint, log, model, stats, topic, world
-from gazelle.cli.gz.options import GzCommand, help_text, read_options
+from gazelle.cli.gz.options import GzCommand, help_text
+from gazelle.cli.gz.running import ended, run_with_options
 from gazelle.cli.sdf.sdf_file import say
-from gazelle.errors import GazelleError
 
 __all__ = ["WORLD_COMMANDS", "explain", "run"]
 
-_FAILED = 255
 _ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
     (joint.COMMAND, joint.run),
     (log.COMMAND, log.run),
@@ -25,24 +24,9 @@ WORLD_COMMANDS = tuple(_COMMANDS)
 
 
 def run(name: str, words: list[str]) -> int:
-    """Run a command.
-
-    Returns:
-        0, also for Ctrl-C; 255 when it could not do what it was asked, where Gazebo often ends
-        with 0.
-    """
+    """Run a command; see `ended` for what it returns."""
     command, action = _COMMANDS[name]
-    try:
-        options = read_options(command, words)
-        if options is None:
-            explain(name)
-            return 0
-        return action(options)
-    except KeyboardInterrupt:
-        return 0
-    except GazelleError as error:
-        say([error])
-        return _FAILED
+    return ended(lambda: run_with_options(command, action, words))
 
 
 def explain(name: str) -> None:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from gazelle.cli.gz.new import model, service, sim, topic
-from gazelle.cli.gz.options import GzCommand, help_text, read_options
+from gazelle.cli.gz.options import GzCommand, help_text
+from gazelle.cli.gz.running import ended, run_with_options
 from gazelle.cli.sdf.sdf_file import say
-from gazelle.errors import GazelleError
 
 __all__ = ["NEW_COMMANDS", "explain", "is_new", "run"]
 
-_FAILED = 255
 _ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
     (model.COMMAND, model.run),
     (service.COMMAND, service.run),
@@ -59,28 +58,12 @@ def _is_of_both(name: str, words: Sequence[str]) -> bool:
 
 
 def run(name: str, words: list[str]) -> int:
-    """Run a command.
-
-    Returns:
-        0, also for Ctrl-C; 255 when it could not do what it was asked.
-    """
-    try:
-        if name == "sim":
-            return sim.run(words)
-        command, action = _COMMANDS[name]
-        if not words:
-            explain(name)
-            return 0
-        options = read_options(command, _with_values(command, words))
-        if options is None:
-            explain(name)
-            return 0
-        return action(options)
-    except KeyboardInterrupt:
-        return 0
-    except GazelleError as error:
-        say([error])
-        return _FAILED
+    """Run a command; see `ended` for what it returns."""
+    if name == "sim":
+        return ended(lambda: sim.run(words))
+    command, action = _COMMANDS[name]
+    given = _with_values(command, words) if words else ["--help"]
+    return ended(lambda: run_with_options(command, action, given))
 
 
 def explain(name: str) -> None:
