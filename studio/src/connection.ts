@@ -3,17 +3,10 @@
 import { Channel, type ChannelHandlers, type StatusLevel } from './channel';
 import { CallError } from './errors';
 import { readFrame } from './frame';
-import { isObject, numberOf, textOf, textsOf, type Json, type JsonObject } from './json';
+import type { Hello, Show } from './generated/messages';
+import { isObject, numberOf, textOf, type Json, type JsonObject } from './json';
 
 export type ConnectionState = 'connecting' | 'open' | 'lost';
-
-/** The server's first words. */
-export interface Hello {
-  readonly version: string;
-  readonly session: string;
-  readonly graph: JsonObject;
-  readonly panels: readonly string[];
-}
 
 interface Waiting {
   resolve(value: Json): void;
@@ -179,12 +172,7 @@ export class Connection {
 
   private greet(message: JsonObject): void {
     const previous = this.hello;
-    this.hello = {
-      version: textOf(message, 'version'),
-      session: textOf(message, 'session'),
-      graph: isObject(message['graph']) ? message['graph'] : {},
-      panels: textsOf(message, 'panels'),
-    };
+    this.hello = message as unknown as Hello;
     this.delay_ms = FIRST_DELAY_MS;
     this.become('open');
     for (const channel of this.channels) this.announce(channel);
@@ -201,8 +189,8 @@ export class Connection {
   }
 
   private show(message: JsonObject): void {
-    const params = isObject(message['params']) ? message['params'] : {};
-    for (const listener of this.showListeners) listener(textOf(message, 'panel'), params);
+    const { panel, params } = message as unknown as Show;
+    for (const listener of this.showListeners) listener(panel, params);
   }
 
   private end(channel: Channel | undefined, tell: () => void): void {

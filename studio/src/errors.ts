@@ -1,6 +1,7 @@
 /** What the server says went wrong. */
 
-import { isObject, textOf, textsOf, type Json } from './json';
+import type { ErrorValue } from './generated/messages';
+import { isObject, type Json } from './json';
 
 /** An error of a call or stream: the message, what to do about it, and the names that do exist. */
 export class CallError extends Error {
@@ -12,11 +13,8 @@ export class CallError extends Error {
   /** Reads the protocol's `{"message", "hint", "known"}`. */
   static from(value: Json | undefined): CallError {
     if (!isObject(value)) return new CallError('The server gave no reason.');
-    return new CallError(
-      textOf(value, 'message', 'The server gave no reason.'),
-      textOf(value, 'hint'),
-      textsOf(value, 'known'),
-    );
+    const { message, hint, known } = value as unknown as ErrorValue;
+    return new CallError(message, hint, known);
   }
 }
 

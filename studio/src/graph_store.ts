@@ -1,20 +1,8 @@
 /** The graph value of the server, kept once for all panels. */
 
 import type { Connection } from './connection';
+import type { GraphValue, TopicRow } from './generated/messages';
 import { isObject, type Json } from './json';
-
-export interface NodeValue { name: string; namespace: string; publishes: string[]; subscribes: string[]; serves: string[] }
-export interface TopicValue { name: string; type: string; publishers: string[]; subscribers: string[]; hidden?: boolean }
-export interface ServiceValue { name: string; type: string; nodes: string[] }
-export interface ActionValue { name: string; type: string; servers: string[]; clients: string[] }
-
-/** Who speaks with whom. */
-export interface GraphValue {
-  nodes: NodeValue[];
-  topics: TopicValue[];
-  services: ServiceValue[];
-  actions: ActionValue[];
-}
 
 /** Nodes whose last name begins with an underscore are hidden, as in ROS 2: this page's own is one. */
 const HIDDEN = /\/_[^/]*$/;
@@ -42,13 +30,13 @@ export class GraphStore {
   }
 
   /** Topics of one of some types, by their names without package's `msg/`. */
-  topicsOf(types: readonly string[]): TopicValue[] {
+  topicsOf(types: readonly string[]): TopicRow[] {
     return this.value.topics.filter((topic) => types.includes(shortType(topic.type)));
   }
 
   private take(value: Json): void {
     if (!isObject(value)) return;
-    const whole: GraphValue = { ...EMPTY, ...(value as unknown as Partial<GraphValue>) };
+    const whole = value as unknown as GraphValue;
     this.value = { ...whole, nodes: whole.nodes.filter((node) => !HIDDEN.test(node.name)) };
     for (const listener of this.listeners) listener(this.value);
   }

@@ -93,6 +93,15 @@ def test_zooming_shows_a_part_and_the_whole_again(bench: Any, look: Any) -> None
     bench.eventually(whole.is_disabled)
 
 
+def test_a_value_that_is_no_number_is_not_plotted_as_zero(bench: Any, look: Any) -> None:
+    bench.keep_publishing("/odd", "std_msgs/msg/Float64", lambda _: {"data": math.nan}, hz=10)
+    seen = look(bench.url, "rqt_plot")
+    seen.page.get_by_label("Topic field").fill("/odd/data")
+    seen.page.keyboard.press("Enter")
+    row = seen.panel("rqt_plot").get_by_role("listitem").filter(has_text="/odd/data")
+    bench.eventually(lambda: row.locator("output").inner_text() == "NaN")
+
+
 def test_a_plot_waits_for_a_topic_that_comes_later(bench: Any, look: Any) -> None:
     seen = look(bench.url, "rqt_plot")
     seen.page.get_by_label("Topic field").fill("/late/data")

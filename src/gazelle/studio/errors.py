@@ -3,12 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import NotRequired, TypedDict
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 
-__all__ = ["StudioError", "error_value", "unknown"]
+__all__ = ["ErrorValue", "StudioError", "error_value", "unknown"]
+
+
+class ErrorValue(TypedDict):
+    """What went wrong.
+
+    Attributes:
+        hint: what to do about it.
+        known: what exists instead.
+    """
+
+    message: str
+    hint: NotRequired[str]
+    known: NotRequired[list[str]]
 
 
 class StudioError(GazelleError):
@@ -31,10 +44,10 @@ def unknown(kind: str, name: str, existing: Iterable[str], *, hint: str = "") ->
     return StudioError(f"there is no {kind} '{name}'", hint=hint, known=known)
 
 
-def error_value(error: BaseException) -> dict[str, Any]:
+def error_value(error: BaseException) -> ErrorValue:
     """Return an error as the protocol has it: ``message``, and ``hint`` and ``known`` if any."""
     if isinstance(error, StudioError):
-        value: dict[str, Any] = {"message": str(error)}
+        value: ErrorValue = {"message": str(error)}
         if error.hint:
             value["hint"] = error.hint
         if error.known:

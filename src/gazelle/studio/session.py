@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar
 
 from gazelle._version import __version__
 from gazelle.graph import Graph
@@ -16,10 +16,41 @@ from gazelle.studio.workers import Workers
 if TYPE_CHECKING:
     from gazelle.studio.connection import Connection
 
-__all__ = ["Studio"]
+__all__ = ["GraphPlace", "Hello", "Show", "Studio"]
 
 _WORKERS = 2
 _T = TypeVar("_T")
+
+
+class GraphPlace(TypedDict):
+    """The graph that is looked at."""
+
+    port: int
+    domain: int
+
+
+class Hello(TypedDict):
+    """The server's first words.
+
+    Attributes:
+        node: the server's own on the graph.
+        panels: those that commands asked for.
+    """
+
+    op: Literal["hello"]
+    version: str
+    session: str
+    node: str
+    graph: GraphPlace
+    panels: list[str]
+
+
+class Show(TypedDict):
+    """A command asks for a panel."""
+
+    op: Literal["show"]
+    panel: str
+    params: dict[str, Any]
 
 
 class Studio:
@@ -55,11 +86,11 @@ class Studio:
         self._closers: list[Callable[[], None]] = []
         self._panels: list[tuple[str, dict[str, Any]]] = []
 
-    def hello(self) -> list[dict[str, Any]]:
+    def hello(self) -> list[Hello | Show]:
         """Return the first messages of a connection; panels that waited are shown there."""
         with self._lock:
             waiting, self._panels = self._panels, []
-        first = {
+        first: Hello = {
             "op": "hello",
             "version": __version__,
             "session": self.session_name,
@@ -112,5 +143,5 @@ class Studio:
         self.node.shutdown("Studio was closed")
 
 
-def _show(panel: str, params: dict[str, Any]) -> dict[str, Any]:
+def _show(panel: str, params: dict[str, Any]) -> Show:
     return {"op": "show", "panel": panel, "params": params}

@@ -1,7 +1,7 @@
 /** What panel and display share: the robot, where it is and shall be, its scene and its planned path. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import type { GraphValue } from '../graph_store';
+import type { GraphValue } from '../generated/messages';
 import { list } from '../displays/message';
 import { inOneLine } from '../errors';
 import { isObject, type Json, type JsonObject } from '../json';

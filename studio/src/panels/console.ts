@@ -1,6 +1,7 @@
 /** Console: what nodes log, filtered and searched. */
 
-import { isObject, numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
+import type { LogLine } from '../generated/messages';
+import { textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, h, perFrame, setText, spacer, toggle, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';
 import { csvField } from '../widgets/format';
@@ -90,7 +91,7 @@ export class Console extends BasePanel {
 
   private take(value: Json): void {
     if (!Array.isArray(value)) return;
-    for (const item of value) if (isObject(item)) this.add(item);
+    for (const item of value as unknown as LogLine[]) this.add(item);
     if (this.lines.length > MOST) {
       this.lines = this.lines.slice(-MOST / 2);
       this.stale = true;
@@ -98,14 +99,11 @@ export class Console extends BasePanel {
     this.refreshSoon();
   }
 
-  private add(item: JsonObject): void {
+  private add(item: LogLine): void {
     this.count += 1;
-    const file = textOf(item, 'file');
-    const place = file ? `${file.split('/').pop()}:${numberOf(item, 'line')} ${textOf(item, 'function')}` : textOf(item, 'function');
-    const line: Line = {
-      number: this.count, stamp_s: numberOf(item, 'stamp_s'), level: textOf(item, 'level', 'info').toLowerCase(),
-      name: textOf(item, 'name'), message: textOf(item, 'message'), place,
-    };
+    const { stamp_s, level, name, message, file } = item;
+    const place = file ? `${file.split('/').pop()}:${item.line} ${item.function}` : item.function;
+    const line: Line = { number: this.count, stamp_s, level, name, message, place };
     this.lines.push(line);
     if (this.passes(line)) this.shownLines.push(line);
   }

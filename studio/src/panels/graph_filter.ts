@@ -1,6 +1,6 @@
 /** Which nodes, topics and ties the Node Graph shows: rqt_graph's choices. */
 
-import type { GraphValue, TopicValue } from '../graph_store';
+import type { GraphValue, TopicRow } from '../generated/messages';
 import { shortType } from '../graph_store';
 import type { Drawing, DrawnNode } from '../widgets/graph_drawing';
 
@@ -42,7 +42,7 @@ export function drawingOf(graph: GraphValue, choice: GraphChoice): Drawing {
   return choice.mode === 'nodes' ? nodesOnly(nodes, trimmed, choice) : nodesAndTopics(nodes, trimmed, choice);
 }
 
-function topicShown(topic: TopicValue, choice: GraphChoice): boolean {
+function topicShown(topic: TopicRow, choice: GraphChoice): boolean {
   if (topic.hidden) return false;
   if (choice.tf && /\/tf(_static)?$/.test(topic.name)) return false;
   if (choice.params && PARAMS.test(topic.name)) return false;
@@ -50,7 +50,7 @@ function topicShown(topic: TopicValue, choice: GraphChoice): boolean {
   return true;
 }
 
-function nodesOnly(nodes: string[], topics: TopicValue[], choice: GraphChoice): Drawing {
+function nodesOnly(nodes: string[], topics: TopicRow[], choice: GraphChoice): Drawing {
   const edges = new Map<string, { from: string; to: string; labels: string[] }>();
   for (const topic of topics) {
     for (const from of topic.publishers) for (const to of topic.subscribers) {
@@ -66,7 +66,7 @@ function nodesOnly(nodes: string[], topics: TopicValue[], choice: GraphChoice): 
   return { nodes: shown.map(nodeBox), edges: list };
 }
 
-function nodesAndTopics(nodes: string[], topics: TopicValue[], choice: GraphChoice): Drawing {
+function nodesAndTopics(nodes: string[], topics: TopicRow[], choice: GraphChoice): Drawing {
   const shown = topics.filter((topic) => topicKept(topic, choice));
   const edges = shown.flatMap((topic) => [
     ...topic.publishers.map((name) => ({ from: `n:${name}`, to: `t:${topic.name}` })),
@@ -78,7 +78,7 @@ function nodesAndTopics(nodes: string[], topics: TopicValue[], choice: GraphChoi
 }
 
 /** Active topics have both ends; dead sinks nobody hears; leaf topics have one tie alone. */
-function topicKept(topic: TopicValue, choice: GraphChoice): boolean {
+function topicKept(topic: TopicRow, choice: GraphChoice): boolean {
   const { publishers, subscribers } = topic;
   if (choice.mode === 'active' && (publishers.length === 0 || subscribers.length === 0)) return false;
   if (choice.deadSinks && subscribers.length === 0) return false;
@@ -98,6 +98,6 @@ function nodeBox(name: string): DrawnNode {
   return { id: `n:${name}`, label: name, shape: 'node', title: `Node ${name}` };
 }
 
-function topicBox(topic: TopicValue): DrawnNode {
+function topicBox(topic: TopicRow): DrawnNode {
   return { id: `t:${topic.name}`, label: topic.name, shape: 'topic', title: `${topic.name}\n${topic.type}` };
 }

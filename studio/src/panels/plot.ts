@@ -1,7 +1,8 @@
 /** Plot: numbers of topics over time, added by their names or dragged from the Topic Monitor. */
 
 import type { Channel } from '../channel';
-import { isObject, numberOf, textsOf, type Json, type JsonObject } from '../json';
+import type { PlotCurves, PlotPoints } from '../generated/messages';
+import { numberOf, textsOf, type Json, type JsonObject } from '../json';
 import { colour, onTheme } from '../shell/theme';
 import { button, h, notice, setText, spacer, toggle, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';
@@ -117,18 +118,15 @@ export class Plot extends BasePanel {
 
   private name(entry: Entry, info: Json): void {
     entry.missing = false;
-    const names = isObject(info) ? textsOf(info, 'curves') : [];
-    entry.curves = names.map((name) => entry.curves.find((curve) => curve.name === name) ?? {
+    const { curves } = info as unknown as PlotCurves;
+    entry.curves = curves.map((name) => entry.curves.find((curve) => curve.name === name) ?? {
       name, colour: this.nextColour(), samples: new Samples(), shown: !this.hidden.has(name),
     });
     this.showLegend();
   }
 
   private take(entry: Entry, value: Json): void {
-    for (const item of Array.isArray(value) ? value : [value]) {
-      if (!isObject(item) || !Array.isArray(item['t']) || !Array.isArray(item['v'])) continue;
-      entry.curves[numberOf(item, 'curve')]?.samples.add(item['t'].map(Number), item['v'].map(Number));
-    }
+    for (const { curve, t, v } of value as unknown as PlotPoints[]) entry.curves[curve]?.samples.add(t, v);
     if (!this.paused) this.mark();
   }
 

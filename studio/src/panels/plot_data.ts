@@ -12,13 +12,13 @@ export class Samples {
   length = 0;
 
   /** Adds samples; time that jumps back (a reset world, a bag from its beginning) starts anew. */
-  add(times: readonly number[], values: readonly number[]): void {
+  add(times: readonly number[], values: readonly (number | null)[]): void {
     for (let index = 0; index < times.length; index += 1) {
       const time = times[index];
       if (this.length > 0 && time < this.t[this.length - 1] - 0.5) this.length = 0;
       if (this.length === this.t.length) this.makeRoom();
       this.t[this.length] = time;
-      this.v[this.length] = Number(values[index]);
+      this.v[this.length] = values[index] ?? NaN;
       this.length += 1;
     }
   }
@@ -88,8 +88,9 @@ export function thin(samples: Samples, from: number, to: number, most: number): 
     let low = at;
     let high = at;
     for (let index = at; index < end; index += 1) {
-      if (samples.v[index] < samples.v[low]) low = index;
-      if (samples.v[index] > samples.v[high]) high = index;
+      const value = samples.v[index];
+      if (value < samples.v[low] || Number.isNaN(samples.v[low])) low = index;
+      if (value > samples.v[high] || Number.isNaN(samples.v[high])) high = index;
     }
     take(Math.min(low, high));
     if (low !== high) take(Math.max(low, high));

@@ -1,13 +1,12 @@
 /** TF Tree: frames, who broadcasts them, how often and how old they are. */
 
-import { isObject, type Json } from '../json';
+import type { FrameRow } from '../generated/messages';
+import type { Json } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';
 import { rate } from '../widgets/format';
 import { GraphDrawing, type Drawing } from '../widgets/graph_drawing';
 import { BasePanel } from './base';
-
-interface FrameRow { frame: string; parent: string; rate_hz: number | null; age_s: number | null; broadcaster: string; static: boolean }
 
 const OLD_S = 1;
 
@@ -34,7 +33,7 @@ export class TfTree extends BasePanel {
 
   private take(value: Json): void {
     if (!Array.isArray(value)) return;
-    const rows = value.filter(isObject) as unknown as FrameRow[];
+    const rows = value as unknown as FrameRow[];
     this.empty.hidden = rows.length > 0;
     const parents = new Set(rows.map((row) => row.parent));
     const roots = [...parents].filter((name) => !rows.some((row) => row.frame === name));

@@ -2,7 +2,8 @@
 
 import type { Channel } from '../channel';
 import { isObject, textsOf, type Json, type JsonObject } from '../json';
-import { shortType, type TopicValue } from '../graph_store';
+import type { TopicRow, TopicStats } from '../generated/messages';
+import { shortType } from '../graph_store';
 import { h, perFrame, setText, spacer, toolbar } from '../widgets/dom';
 import { carryField } from '../widgets/field_drag';
 import { bandwidth, rate } from '../widgets/format';
@@ -10,8 +11,7 @@ import { messageRows, type MessageRow } from '../widgets/message_rows';
 import { headings, VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
-interface Stats { hz: number | null; bytes_per_s: number | null; delay_s?: number | null; count: number }
-interface Row { topic: TopicValue | null; field: MessageRow | null; path: string }
+interface Row { topic: TopicRow | null; field: MessageRow | null; path: string }
 
 const LIVE_MS = 100;
 
@@ -20,7 +20,7 @@ export class TopicMonitor extends BasePanel {
   readonly title = 'Topic Monitor';
   private readonly ticked = new Map<string, Channel>();
   private readonly messages = new Map<string, Json>();
-  private readonly stats = new Map<string, Stats>();
+  private readonly stats = new Map<string, TopicStats>();
   private readonly expanded = new Set<string>();
   private filter = '';
   private statsChannel: Channel | null = null;
@@ -168,7 +168,7 @@ export class TopicMonitor extends BasePanel {
 
   private takeStats(value: Json): void {
     if (!Array.isArray(value)) return;
-    for (const each of value) if (isObject(each)) this.stats.set(String(each['topic']), each as unknown as Stats);
+    for (const each of value as unknown as TopicStats[]) this.stats.set(each.topic, each);
     this.rebuildSoon();
   }
 
@@ -178,6 +178,6 @@ export class TopicMonitor extends BasePanel {
   }
 }
 
-function matches(topic: TopicValue, filter: string): boolean {
+function matches(topic: TopicRow, filter: string): boolean {
   return filter === '' || topic.name.toLowerCase().includes(filter) || topic.type.toLowerCase().includes(filter);
 }

@@ -2,21 +2,15 @@
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
 import { floats, type Frame } from '../frame';
+import type { FrameNames, TfFrame } from '../generated/messages';
 import { isObject, type Json } from '../json';
-
-/** A frame of the tree. */
-export interface FrameInfo {
-  name: string;
-  parent: string;
-  static: boolean;
-}
 
 const POSE_LENGTH = 7;
 const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
 
 /** All frames, and who wants to know. */
 export class Frames {
-  infos: FrameInfo[] = [];
+  infos: TfFrame[] = [];
   /** Of all frames, and at the end that of the fixed frame in itself, which needs no tf. */
   poses: Float32Array = new Float32Array(IDENTITY);
   fixed = '';
@@ -84,7 +78,7 @@ export class Frames {
 
   private takeNames(value: Json): void {
     if (!isObject(value) || !Array.isArray(value['frames'])) return;
-    this.infos = value['frames'] as unknown as FrameInfo[];
+    this.infos = (value as unknown as FrameNames).frames;
     this.index = new Map(this.infos.map((info, index) => [info.name, index]));
     this.renamed.forEach((listener) => listener());
   }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.studio.json_text import message_value
 from gazelle.studio.pacing import Pace
@@ -12,7 +12,16 @@ from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["open_echo"]
+__all__ = ["EchoedMessage", "open_echo"]
+
+
+class EchoedMessage(TypedDict):
+    """A message of the stream `topic.echo`; its long arrays are cut."""
+
+    type: str
+    stamp_s: float
+    count: int
+    message: Any
 
 
 def open_echo(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -38,7 +47,7 @@ class _Echo:
     def _offer(self) -> None:
         self._channel.offer(self._value)
 
-    def _value(self) -> Any:
+    def _value(self) -> EchoedMessage | None:
         sample = self._last
         if sample is None:
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.errors import GazelleError
 from gazelle.studio.graph_view.curves import Curve, curves_of, read_number
@@ -14,10 +14,30 @@ from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["open_plot"]
+__all__ = ["PlotCurves", "PlotPoints", "open_plot"]
 
 _FIRST_MESSAGE_S = 3.0
 _GATHER_S = 0.03
+
+
+class PlotCurves(TypedDict):
+    """What is told when the stream `topic.plot` is open: the names of its curves."""
+
+    curves: list[str]
+
+
+class PlotPoints(TypedDict):
+    """New points of a curve.
+
+    Attributes:
+        curve: its place among the names.
+        t: seconds.
+        v: values; null for what is no number.
+    """
+
+    curve: int
+    t: list[float]
+    v: list[float | None]
 
 
 def open_plot(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -28,7 +48,8 @@ def open_plot(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     for name in params.texts("curves"):
         curves += [one for one in curves_of(name, known, looker.last) if one not in curves]
     plot = _Plot(studio, channel, curves)
-    return OpenStream(plot.close, {"curves": [one.name for one in curves]})
+    info: PlotCurves = {"curves": [one.name for one in curves]}
+    return OpenStream(plot.close, info)
 
 
 class _Looker:
@@ -103,4 +124,5 @@ class _Plot:
                 number = read_number(message, self._curves[place].steps)
                 values.setdefault(place, []).append(number)
         for place in sorted(times):
-            self._channel.add({"curve": place, "t": times[place], "v": values[place]})
+            points: PlotPoints = {"curve": place, "t": times[place], "v": values[place]}
+            self._channel.add(points)

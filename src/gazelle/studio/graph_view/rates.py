@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any
+from typing import TypedDict
 
 from gazelle.studio.pacing import every
 from gazelle.studio.params import Params
@@ -11,10 +11,25 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Arrival, Sample
 
-__all__ = ["open_stats"]
+__all__ = ["TopicStats", "open_stats"]
 
 _PERIOD_S = 1.0
 _WINDOW_S = 5.0
+
+
+class TopicStats(TypedDict):
+    """What came on a topic in the last seconds.
+
+    Attributes:
+        delay_s: null where messages have no header.
+        count: since somebody looks.
+    """
+
+    topic: str
+    hz: float
+    bytes_per_s: float
+    delay_s: float | None
+    count: int
 
 
 def open_stats(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -23,7 +38,7 @@ def open_stats(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     ends = [studio.taps.listen(topic, _ignore) for topic in named or ()]
     shown = None if named is None else [studio.node.resolve_name(topic) for topic in named]
 
-    def rows() -> Any:
+    def rows() -> list[TopicStats]:
         topics = studio.taps.topics if shown is None else shown
         return [_row(topic, *studio.taps.arrivals(topic)) for topic in topics]
 
@@ -39,7 +54,7 @@ def _ignore(_sample: Sample) -> None:
     """The tap itself counts."""
 
 
-def _row(topic: str, count: int, arrivals: tuple[Arrival, ...]) -> dict[str, Any]:
+def _row(topic: str, count: int, arrivals: tuple[Arrival, ...]) -> TopicStats:
     since_s = time.monotonic() - _WINDOW_S
     recent = [one for one in arrivals if one.wall_s >= since_s]
     span_s = recent[-1].wall_s - recent[0].wall_s if len(recent) > 1 else 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.errors import GazelleError
 from gazelle.graph.console import Level, level_of
@@ -16,12 +16,28 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Console", "open_rosout"]
+__all__ = ["Console", "LogLine", "open_rosout"]
 
 _KEPT = 200
 _TOPIC = "/rosout"
 _LEVELS = (10, 20, 30, 40, 50)
 _WORDS = tuple(level.name.lower() for level in Level)
+
+
+class LogLine(TypedDict):
+    """What a node said, of the stream `rosout`.
+
+    Attributes:
+        name: of the node.
+    """
+
+    stamp_s: float
+    level: str
+    name: str
+    message: str
+    file: str
+    function: str
+    line: int
 
 
 def open_rosout(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -39,7 +55,7 @@ class Console:
 
     def __init__(self, studio: Studio) -> None:
         """Listen to ``/rosout`` of a Studio's graph."""
-        self._kept: deque[dict[str, Any]] = deque(maxlen=_KEPT)
+        self._kept: deque[LogLine] = deque(maxlen=_KEPT)
         self._followers: list[tuple[Channel, int]] = []
         self._lock = threading.Lock()
         studio.on_close(studio.taps.listen(_TOPIC, self._take))
@@ -69,13 +85,13 @@ class Console:
                 _add(follower, record)
 
 
-def _add(follower: tuple[Channel, int], record: dict[str, Any]) -> None:
+def _add(follower: tuple[Channel, int], record: LogLine) -> None:
     channel, least = follower
     if _WORDS.index(record["level"]) >= least:
         channel.add(record)
 
 
-def _unreadable(sample: Sample, error: Exception) -> dict[str, Any]:
+def _unreadable(sample: Sample, error: Exception) -> LogLine:
     return {
         "stamp_s": sample.time_s,
         "level": "error",
@@ -87,7 +103,7 @@ def _unreadable(sample: Sample, error: Exception) -> dict[str, Any]:
     }
 
 
-def _record(message: Any) -> dict[str, Any]:
+def _record(message: Any) -> LogLine:
     place = max((number for number in range(5) if _LEVELS[number] <= message.level), default=0)
     return {
         "stamp_s": seconds_of(message.stamp),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.graph import Entity, Kind
 from gazelle.graph.actions.listing import actions_of
@@ -13,7 +13,18 @@ from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 
-__all__ = ["OWN_PREFIX", "Topology", "get_graph", "graph_value", "open_graph"]
+__all__ = [
+    "OWN_PREFIX",
+    "ActionRow",
+    "GraphValue",
+    "NodeRow",
+    "ServiceRow",
+    "TopicRow",
+    "Topology",
+    "get_graph",
+    "graph_value",
+    "open_graph",
+]
 
 OWN_PREFIX = "/_gazelle/"
 """Names of Gazelle's own; nobody is shown them."""
@@ -21,7 +32,53 @@ OWN_PREFIX = "/_gazelle/"
 _GATHER_S = 0.1
 
 
-def get_graph(studio: Studio, _params: Params) -> Any:
+class NodeRow(TypedDict):
+    """A node with the names of its topics and services."""
+
+    name: str
+    namespace: str
+    publishes: list[str]
+    subscribes: list[str]
+    serves: list[str]
+
+
+class TopicRow(TypedDict):
+    """A topic with the names of its nodes."""
+
+    name: str
+    type: str
+    publishers: list[str]
+    subscribers: list[str]
+    hidden: bool
+
+
+class ServiceRow(TypedDict):
+    """A service with the names of its nodes."""
+
+    name: str
+    type: str
+    nodes: list[str]
+
+
+class ActionRow(TypedDict):
+    """An action with the names of its nodes."""
+
+    name: str
+    type: str
+    servers: list[str]
+    clients: list[str]
+
+
+class GraphValue(TypedDict):
+    """Who speaks with whom."""
+
+    nodes: list[NodeRow]
+    topics: list[TopicRow]
+    services: list[ServiceRow]
+    actions: list[ActionRow]
+
+
+def get_graph(studio: Studio, _params: Params) -> GraphValue:
     """``graph.get``."""
     return graph_value(studio.graph.entities())
 
@@ -68,7 +125,7 @@ class Topology:
 
     def _run(self) -> None:
         pause = threading.Event()
-        last: Any = None
+        last: GraphValue | None = None
         while self._dirty.wait() and not self._closed:
             pause.wait(_GATHER_S)
             self._dirty.clear()
@@ -82,7 +139,7 @@ class Topology:
                 channel.send(value)
 
 
-def graph_value(entities: tuple[Entity, ...]) -> dict[str, Any]:
+def graph_value(entities: tuple[Entity, ...]) -> GraphValue:
     """Return the graph value of docs/studio_protocol.md."""
     shown = [
         one
@@ -117,7 +174,7 @@ def graph_value(entities: tuple[Entity, ...]) -> dict[str, Any]:
     }
 
 
-def _nodes(entities: list[Entity]) -> list[dict[str, Any]]:
+def _nodes(entities: list[Entity]) -> list[NodeRow]:
     ends: dict[str, dict[Kind, set[str]]] = {}
     for one in entities:
         of_node = ends.setdefault(one.node, {})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -12,10 +12,41 @@ from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, Frame, OpenStream
 
-__all__ = ["KIND_FRAMES", "open_tf", "open_tree"]
+__all__ = ["KIND_FRAMES", "FrameNames", "FrameRow", "TfFrame", "open_tf", "open_tree"]
 
 KIND_FRAMES = 2
 _TREE_S = 1.0
+
+
+class TfFrame(TypedDict):
+    """A frame of the stream `tf`, in the order of the poses."""
+
+    name: str
+    parent: str
+    static: bool
+
+
+class FrameNames(TypedDict):
+    """What the stream `tf` tells ahead of poses whenever it changes."""
+
+    frames: list[TfFrame]
+
+
+class FrameRow(TypedDict):
+    """A frame of the stream `tf.tree`.
+
+    Attributes:
+        rate_hz: null where it is static.
+        age_s: of the newest transform; null where it is static.
+        broadcaster: the node that says so.
+    """
+
+    frame: str
+    parent: str
+    rate_hz: float | None
+    age_s: float | None
+    broadcaster: str
+    static: bool
 
 
 def open_tf(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -41,15 +72,15 @@ class _Poses:
         self._clock = studio.graph.clock
         self._frames = frames
         self._fixed = fixed_frame
-        self._told: Any = None
+        self._told: list[TfFrame] | None = None
 
-    def frames(self) -> Any:
+    def frames(self) -> Frame | tuple[FrameNames, Frame]:
         """Return the frames to send: names first if they are not those told last."""
         latest = self._frames.buffer.latest()
         poses = poses_in(latest, self._fixed)
         rows = sorted(poses)
         static = {one.name for one in self._frames.buffer.frames() if one.is_static}
-        names = [
+        names: list[TfFrame] = [
             {
                 "name": name,
                 "parent": latest[name].frame_id if name in latest else "",
@@ -63,10 +94,11 @@ class _Poses:
         if names == self._told:
             return frame
         self._told = names
-        return ({"frames": names}, frame)
+        told: FrameNames = {"frames": names}
+        return (told, frame)
 
 
-def _tree(studio: Studio, frames: Frames) -> Any:
+def _tree(studio: Studio, frames: Frames) -> list[FrameRow]:
     now_ns = studio.graph.clock.now_ns()
     return [
         {
