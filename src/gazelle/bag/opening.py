@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.bag.mcap import McapBag, McapWriter
-from gazelle.bag.mcap.fields import MAGIC as MCAP_MAGIC
-from gazelle.bag.records import BagError, BagReader, BagWriter, Storage
-from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Bag, Ros1Writer
-from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer, SqliteBag, SqliteWriter
+from gazelle.bag.formats import (
+    OWN_FORMATS,
+    ROS1,
+    UNFINISHED,
+    Packing,
+    check_compression,
+    format_of_name,
+    format_of_start,
+    format_of_suffix,
+)
+from gazelle.bag.records import BagError, BagReader, BagWriter
+from gazelle.bag.ros1 import CHUNK_BYTES
+from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer
 from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents.names import is_file, is_folder
 
 __all__ = ["create_bag", "open_bag", "storage_of"]
-
-_SQLITE_MAGIC = b"SQLite format 3\0"
-_SUFFIXES = {".bag": Storage.ROS1, ".mcap": Storage.MCAP, ".db3": Storage.SQLITE}
 
 
 def open_bag(path: Path | str) -> BagReader:
@@ -35,20 +40,18 @@ def open_bag(path: Path | str) -> BagReader:
         )
     with path.open("rb") as file:
         start = file.read(16)
-    if start.startswith(MCAP_MAGIC):
-        return McapBag(path)
-    if start == _SQLITE_MAGIC:
-        return SqliteBag(path)
     if start.startswith(ZSTD_MAGIC):
         return PackedFile(path, open_bag)
-    if not start and path.suffix != ".bag":
+    found = format_of_start(start, path.suffix)
+    if found is None and not start and path.suffix != ROS1.suffix:
         raise BagError(f"{path}: the file is empty")
-    return Ros1Bag(path)
+    # ROS 1's reader says best what else a file may be.
+    return (found or ROS1).open(path)
 
 
 def create_bag(
     path: Path | str,
-    storage: Storage,
+    storage: str,
     *,
     compression: str = "",
     chunk_bytes: int = CHUNK_BYTES,
@@ -57,35 +60,31 @@ def create_bag(
     """Create a bag.
 
     Args:
-        path: a file; without suffix, the folder of rosbag2 for its two formats.
-        storage: the format.
-        compression: ``bz2`` or ``lz4`` in ROS 1's, ``lz4`` or ``zstd`` in MCAP.
+        path: a file; without suffix, the folder of rosbag2 for the formats of such.
+        storage: name of the format.
+        compression: one that the format knows: ``bz2`` or ``lz4`` in ROS 1's, ``lz4`` or
+            ``zstd`` in MCAP.
         chunk_bytes: when a chunk is full.
         overwrite: write over a folder that is there; files always are.
 
     Raises:
-        BagError: the file system refuses it, or the format knows no such compression.
+        BagError: the file system refuses it, there is no such format, or it knows no such
+            compression.
     """
-    path = Path(path)
-    known = {Storage.ROS1: ("none", "bz2", "lz4"), Storage.MCAP: ("none", "lz4", "zstd")}
-    if compression and compression not in known.get(storage, ("none",)):
-        offered = ", ".join(known.get(storage, ("none",)))
-        raise BagError(f"{storage} knows no compression '{compression}', but {offered}")
-    if storage is Storage.ROS1:
-        chosen = Compression(compression or "none")
-        return Ros1Writer(path, compression=chosen, chunk_bytes=chunk_bytes)
+    path, form = Path(path), format_of_name(storage)
+    check_compression(form, compression)
     compression = compression.removeprefix("none")
-    if path.suffix not in _SUFFIXES:
-        return Rosbag2Writer(path, storage, compression=compression, overwrite=overwrite)
-    if storage is Storage.SQLITE:
-        return SqliteWriter(path)
-    return McapWriter(path, compression=compression, chunk_bytes=chunk_bytes)
+    named = {one.suffix for one in (*OWN_FORMATS, form)}
+    if form.in_folder and path.suffix not in named:
+        return Rosbag2Writer(path, form.name, compression=compression, overwrite=overwrite)
+    return form.create(path, Packing(compression, chunk_bytes))
 
 
-def storage_of(path: Path | str) -> Storage | None:
+def storage_of(path: Path | str) -> str | None:
     """Return the format that a file's name asks for, None when it names none."""
-    name = Path(path).name.removesuffix(".active")
-    return _SUFFIXES.get(Path(name).suffix)
+    name = Path(path).name.removesuffix(UNFINISHED)
+    found = format_of_suffix(Path(name).suffix)
+    return None if found is None else found.name
 
 
 def _bags_beside(path: Path) -> list[str]:

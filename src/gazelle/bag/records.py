@@ -36,7 +36,7 @@ class Encoding(enum.StrEnum):
 
 
 class Storage(enum.StrEnum):
-    """Which kind of file a bag is, by the names that rosbag2 gives its own."""
+    """The names of Gazelle's own formats, those that rosbag2 gives them (`gazelle.bag.formats`)."""
 
     ROS1 = "rosbag"
     MCAP = "mcap"
@@ -124,10 +124,10 @@ Wanted = Callable[[Connection], bool]
 
 
 class BagReader(Protocol):
-    """An open bag."""
+    """An open bag; `storage` is the name of its format."""
 
     path: Path
-    storage: Storage
+    storage: str
 
     @property
     def connections(self) -> tuple[Connection, ...]:
@@ -151,10 +151,10 @@ class BagReader(Protocol):
 
 
 class BagWriter(Protocol):
-    """A bag that is being written."""
+    """A bag that is being written; `storage` is the name of its format."""
 
     path: Path
-    storage: Storage
+    storage: str
     encoding: Encoding
 
     @property

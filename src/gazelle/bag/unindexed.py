@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.bag.records import BagReader, Storage
+from gazelle.bag.formats import format_of_name
+from gazelle.bag.records import BagReader
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
 
 __all__ = ["tell_of_unindexed"]
@@ -13,7 +14,7 @@ def tell_of_unindexed(bag: BagReader) -> None:
     summary = bag.summary
     if summary.is_indexed:
         return
-    tool = "rosbag reindex" if bag.storage is Storage.ROS1 else "ros2 bag reindex"
+    tool = format_of_name(bag.storage).reindex
     lost = f"; its last {summary.lost} bytes are no whole piece" if summary.lost else ""
     text = f"the bag was not closed{lost}; {summary.messages} messages can be read"
     found = Diagnostics()

@@ -24,7 +24,7 @@ class McapBag:
         profile: what its header says, such as ``ros2``.
     """
 
-    storage = Storage.MCAP
+    storage: str = Storage.MCAP
 
     def __init__(self, path: Path) -> None:
         """Open a file.

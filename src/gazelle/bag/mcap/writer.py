@@ -26,7 +26,7 @@ class McapWriter:
         compression: of the chunks: empty, ``lz4`` or ``zstd``.
     """
 
-    storage = Storage.MCAP
+    storage: str = Storage.MCAP
     encoding = Encoding.CDR
 
     def __init__(

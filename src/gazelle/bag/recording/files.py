@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.bag.records import BagMessage, Connection, Encoding, Storage
+from gazelle.bag.formats import ROS1, UNFINISHED
+from gazelle.bag.records import BagMessage, Connection
 from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Writer
 
 __all__ = ["Ros1Files", "default_stem"]
@@ -26,8 +27,8 @@ class Ros1Files:
         path: where the bag that is being written ends up.
     """
 
-    storage = Storage.ROS1
-    encoding = Encoding.ROS1
+    storage = ROS1.name
+    encoding = ROS1.encoding
 
     def __init__(
         self,
@@ -108,8 +109,8 @@ class Ros1Files:
     def _next(self) -> None:
         stem = self._stem() + (f"_{self._count}" if self._split else "")
         self._count += 1
-        self.path = Path(f"{stem}.bag")
-        self._active = Path(f"{stem}.bag.active")
+        self.path = Path(f"{stem}{ROS1.suffix}")
+        self._active = Path(f"{stem}{ROS1.suffix}{UNFINISHED}")
         self._writer: Ros1Writer | None = None
         self._own = {}
 

@@ -29,7 +29,7 @@ class Ros1Bag:
         is_indexed: it was closed properly; ``rosbag reindex`` is not needed.
     """
 
-    storage = Storage.ROS1
+    storage: str = Storage.ROS1
     version = "2.0"
 
     def __init__(self, path: Path) -> None:

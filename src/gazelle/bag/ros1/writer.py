@@ -33,7 +33,7 @@ class Ros1Writer:
         compression: of the chunks.
     """
 
-    storage = Storage.ROS1
+    storage: str = Storage.ROS1
     encoding = Encoding.ROS1
 
     def __init__(

@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.bag.mcap import McapBag, McapWriter
+from gazelle.bag.formats import (
+    OWN_FORMATS,
+    Packing,
+    StorageFormat,
+    check_compression,
+    folder_formats,
+    format_of_name,
+    format_of_suffix,
+    problems_of_added,
+)
 from gazelle.bag.records import (
     BagError,
     BagMessage,
@@ -16,18 +25,14 @@ from gazelle.bag.records import (
     Connection,
     Encoding,
     Pack,
-    Storage,
     Summary,
     Wanted,
 )
 from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
 from gazelle.bag.rosbag2.packed import SUFFIX, PackedFile, PackedMessages
-from gazelle.bag.rosbag2.sqlite import SqliteBag, SqliteWriter
 from gazelle.documents.names import is_file
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
-
-_SUFFIXES = {Storage.MCAP: ".mcap", Storage.SQLITE: ".db3"}
 
 
 class Rosbag2:
@@ -55,7 +60,7 @@ class Rosbag2:
         self._readers: list[BagReader] = [_open(file) for file in self.files]
         if mode == "message":
             self._readers = [PackedMessages(one) for one in self._readers]
-        self.storage: Storage = self._readers[0].storage
+        self.storage = self._readers[0].storage
         self.ros_distro = metadata.ros_distro if metadata else ""
         self._own: dict[tuple[int, int], Connection] = {}
         self._connections = self._merged()
@@ -128,16 +133,19 @@ class Rosbag2Writer:
     encoding = Encoding.CDR
 
     def __init__(
-        self, path: Path, storage: Storage, *, compression: str = "", overwrite: bool = False
+        self, path: Path, storage: str, *, compression: str = "", overwrite: bool = False
     ) -> None:
         """Create the folder.
 
         Raises:
-            BagError: it is there already, or the file system refuses it.
+            BagError: it is there already, or the file system refuses it, or there is no such
+                storage or compression.
         """
         self.path = path
-        self.storage = storage
-        self._compression = compression
+        self._format = format_of_name(storage)
+        self.storage = self._format.name
+        check_compression(self._format, compression)
+        self._packing = Packing(compression.removeprefix("none"))
         try:
             path.mkdir(parents=True, exist_ok=overwrite)
         except FileExistsError:
@@ -208,10 +216,8 @@ class Rosbag2Writer:
         write_metadata(self.path, self.storage, counts, self._done)
 
     def _next_file(self) -> BagWriter:
-        name = f"{self.path.name}_{len(self._done)}{_SUFFIXES[self.storage]}"
-        if self.storage is Storage.SQLITE:
-            return SqliteWriter(self.path / name)
-        return McapWriter(self.path / name, compression=self._compression)
+        name = f"{self.path.name}_{len(self._done)}{self._format.suffix}"
+        return self._format.create(self.path / name, self._packing)
 
     def _finish_file(self) -> None:
         self._file.close()
@@ -241,16 +247,15 @@ def reindex(folder: Path) -> None:
     write_metadata(folder, readers[0].storage, list(counts.values()), parts)
 
 
-_OPENERS: dict[str, Callable[[Path], BagReader]] = {".mcap": McapBag, ".db3": SqliteBag}
-
-
 def _open(path: Path) -> BagReader:
     if path.suffix == SUFFIX:
         return PackedFile(path, _open)
-    opener = _OPENERS.get(path.suffix)
-    if opener is None:
-        raise BagError(f"{path}: a file of rosbag2 ends in .mcap or .db3, or in these and .zstd")
-    return opener(path)
+    found = format_of_suffix(path.suffix)
+    if found is None or not found.in_folder:
+        suffixes = " or ".join(one.suffix for one in folder_formats())
+        text = f"{path}: a file of rosbag2 ends in {suffixes}, or in these and {SUFFIX}"
+        raise BagError("; ".join((text, *problems_of_added())))
+    return found.open(path)
 
 
 def _check_format(path: Path, mode: str, name: str) -> None:
@@ -263,14 +268,21 @@ def _check_format(path: Path, mode: str, name: str) -> None:
 def _files(folder: Path, names: tuple[str, ...]) -> tuple[Path, ...]:
     files = [folder / Path(name).name for name in names]
     if not files:
-        files = [one for one in folder.iterdir() if _bare(one).suffix in _OPENERS]
-        files.sort(key=_place)
+        files = _files_of(folder, OWN_FORMATS) or _files_of(folder, folder_formats())
     if not files:
-        raise BagError(f"{folder}: there is no bag in this folder (no .mcap and no .db3)")
+        suffixes = " and ".join(f"no {one.suffix}" for one in folder_formats())
+        text = f"{folder}: there is no bag in this folder ({suffixes})"
+        raise BagError("; ".join((text, *problems_of_added())))
     for file in files:
         if not is_file(file):
             raise BagError(f"{folder}: its metadata.yaml names {file.name}, which is not there")
     return tuple(files)
+
+
+def _files_of(folder: Path, formats: tuple[StorageFormat, ...]) -> list[Path]:
+    suffixes = {one.suffix for one in formats if one.in_folder}
+    files = [one for one in folder.iterdir() if _bare(one).suffix in suffixes]
+    return sorted(files, key=_place)
 
 
 def _bare(path: Path) -> Path:

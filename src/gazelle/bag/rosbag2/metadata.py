@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gazelle.bag.records import BagError, Connection, Storage, Summary
+from gazelle.bag.records import BagError, Connection, Summary
 from gazelle.documents.yaml import YamlError, dump_yaml, load_yaml_file
 
 __all__ = ["METADATA", "FileSummary", "Metadata", "read_metadata", "write_metadata"]
@@ -28,7 +28,7 @@ class Metadata(NamedTuple):
     """What is read back from the file.
 
     Attributes:
-        storage: ``mcap`` or ``sqlite3``.
+        storage: such as ``mcap`` or ``sqlite3``.
         files: relative to the folder.
         compression_mode: ``file``, ``message`` or empty.
         compression_format: such as ``zstd``.
@@ -70,7 +70,7 @@ def read_metadata(folder: Path) -> Metadata | None:
 
 def write_metadata(
     folder: Path,
-    storage: Storage,
+    storage: str,
     counts: Sequence[tuple[Connection, int]],
     files: Sequence[FileSummary],
     custom_data: dict[str, str] | None = None,

@@ -11,7 +11,6 @@ from gazelle.bag.records import (
     BagMessage,
     BagReader,
     Connection,
-    Storage,
     Summary,
     Wanted,
 )
@@ -49,7 +48,7 @@ class PackedFile:
         except BaseException:
             self._folder.cleanup()
             raise
-        self.storage: Storage = self._bag.storage
+        self.storage = self._bag.storage
 
     @property
     def connections(self) -> tuple[Connection, ...]:
@@ -83,7 +82,7 @@ class PackedMessages:
     def __init__(self, bag: BagReader) -> None:
         """Read what another reader gives."""
         self.path = bag.path
-        self.storage: Storage = bag.storage
+        self.storage = bag.storage
         self._bag = bag
 
     @property

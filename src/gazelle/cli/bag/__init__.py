@@ -6,9 +6,10 @@ import argparse
 import sys
 from pathlib import Path
 
-from gazelle.bag import BagError, BagReader, Storage, create_bag, open_bag, storage_of
+from gazelle.bag import BagError, BagReader, create_bag, open_bag, storage_of
 from gazelle.bag.copying import copy_bag
 from gazelle.bag.export import FORMATS, export_bag
+from gazelle.bag.formats import MCAP, OWN_FORMATS, storage_names
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import Diagnostics, render
@@ -27,7 +28,7 @@ def _convert(options: argparse.Namespace) -> int:
     source, target = Path(options.input), Path(options.output)
     if target.exists():
         raise BagError(f"{target} is there already")
-    storage = Storage(options.storage) if options.storage else storage_of(target) or Storage.MCAP
+    storage = options.storage or storage_of(target) or MCAP.name
     bag, diagnostics = open_bag(source), Diagnostics()
     writer = create_bag(target, storage, compression=options.compression)
     topics = {f"/{topic.lstrip('/')}" for topic in options.topics}
@@ -69,15 +70,21 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="{convert,export}")
     convert = verbs.add_parser("convert", help="write a bag in another format")
     export = verbs.add_parser("export", help="write the messages into files of other programs")
+    suffixes = [one.suffix for one in OWN_FORMATS]
     for verb in (convert, export):
-        verb.add_argument("input", metavar="IN", help=".bag, .mcap, .db3 or a folder of rosbag2")
+        verb.add_argument(
+            "input", metavar="IN", help=f"{', '.join(suffixes)} or a folder of rosbag2"
+        )
         verb.add_argument("--topics", nargs="+", default=[], help="only these topics")
-    text = "NAME.bag, NAME.mcap, NAME.db3, or a folder of rosbag2"
+    text = ", ".join((*(f"NAME{one}" for one in suffixes), "or a folder of rosbag2"))
     convert.add_argument("output", metavar="OUT", help=text)
-    kinds = [str(one) for one in Storage]
-    convert.add_argument("--storage", choices=kinds, help="the format, where OUT does not tell it")
-    text = "bz2 or lz4 (.bag), lz4 or zstd (.mcap)"
-    convert.add_argument("--compression", default="", choices=["bz2", "lz4", "zstd"], help=text)
+    convert.add_argument(
+        "--storage", choices=storage_names(), help="the format, where OUT does not tell it"
+    )
+    packed = [one for one in OWN_FORMATS if one.compressions]
+    text = ", ".join(f"{' or '.join(one.compressions)} ({one.suffix})" for one in packed)
+    names = sorted({name for one in packed for name in one.compressions})
+    convert.add_argument("--compression", default="", choices=names, help=text)
     export.add_argument("--to", required=True, choices=FORMATS, help="the format")
     export.add_argument("-o", "--output", metavar="DIR", help="folder for the files")
     text = "pictures a second of a film; the median of the recording by default"

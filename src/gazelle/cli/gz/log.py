@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from datetime import datetime
 from pathlib import Path
 
+from gazelle.bag.formats import ROS1
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.states import MODEL_STATES, STATE_TOPICS, Filter, state_texts
 from gazelle.cli.gz.world_link import WorldLink, world_link
@@ -97,7 +98,7 @@ def _start(link: WorldLink, word: str) -> None:
         # The first answer of a new member may come before all of the graph is known.
         link.call("get_world_properties", "gazebo_msgs/GetWorldProperties")
     path = Path(word).absolute() if word else _default_path()
-    path = path if path.suffix == ".bag" else path.with_name(f"{path.name}.bag")
+    path = path if path.suffix == ROS1.suffix else path.with_name(path.name + ROS1.suffix)
     path.parent.mkdir(parents=True, exist_ok=True)
     topics = [offered_name(link.graph, topic) for topic in STATE_TOPICS]
     words = ["rosbag", "record", "-O", str(path), f"__name:={_NODE[1:]}", "-q", *topics]

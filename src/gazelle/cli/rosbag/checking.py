@@ -6,8 +6,9 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.bag import BagReader, BagWriter, Connection, Encoding, Storage, create_bag, open_bag
+from gazelle.bag import BagReader, BagWriter, Connection, Encoding, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
+from gazelle.bag.formats import ROS1
 from gazelle.bag.migration import Change, Migration, migration_of
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
@@ -54,7 +55,7 @@ def fix(words: list[str]) -> int:
         parser.error("You must pass an output bag file.")
     if Path(args[1]).suffix == ".bmr":
         parser.error("Input file should be a bag file, not a rule file.")
-    if Path(args[1]).suffix != ".bag":
+    if Path(args[1]).suffix != ROS1.suffix:
         parser.error("Output file must be a bag file.")
     _refuse_rules(args[2:])
     source, target = Path(args[0]), Path(args[1])
@@ -102,7 +103,7 @@ def _migrations(bag: BagReader) -> dict[int, Migration | None]:
 def _write(bag: BagReader, target: Path, migrations: dict[int, Migration | None]) -> None:
     packing = next((name for name in bag.summary.packs if name in ("bz2", "lz4")), "")
     part, diagnostics = target.with_name(f"{target.name}.tmp"), Diagnostics()
-    writer = create_bag(part, Storage.ROS1, compression=packing)
+    writer = create_bag(part, ROS1.name, compression=packing)
     if any(one.encoding is not Encoding.ROS1 for one in bag.connections):
         copy_bag(bag, writer, diagnostics=diagnostics)
     else:

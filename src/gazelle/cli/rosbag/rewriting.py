@@ -6,8 +6,9 @@ import sys
 from optparse import OptionParser, Values
 from pathlib import Path
 
-from gazelle.bag import BagMessage, BagReader, Storage, create_bag, open_bag
+from gazelle.bag import BagMessage, BagReader, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
+from gazelle.bag.formats import ROS1
 from gazelle.cli.rosbag.progress import ProgressMeter
 from gazelle.cli.tool import add_flag, option_parser
 from gazelle.diagnostics import Diagnostics, render
@@ -59,7 +60,7 @@ def _rewrite(args: list[str], options: Values, compression: str) -> int:
     for word in args:
         path = Path(word)
         bag = open_bag(path)
-        if bag.storage is not Storage.ROS1:
+        if bag.storage != ROS1.name:
             print(f"Skipping {word}. It is {bag.storage}; see `ros2 bag reindex` and `gazelle bag "
                   "convert`.", file=sys.stderr)  # fmt: skip
             continue
@@ -90,7 +91,7 @@ def _rewrite_one(bag: BagReader, path: Path, compression: str, options: Values) 
         if meter is not None:
             meter.step(min(done[0], total - 1))
 
-    writer = create_bag(part, Storage.ROS1, compression=compression)
+    writer = create_bag(part, ROS1.name, compression=compression)
     copy_bag(bag, writer, diagnostics=diagnostics, progress=step)
     writer.close()
     if in_place:

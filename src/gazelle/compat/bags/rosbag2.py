@@ -16,7 +16,6 @@ from gazelle.bag import (
     BagWriter,
     Connection,
     Encoding,
-    Storage,
     cdr_connection,
     converter,
     create_bag,
@@ -24,6 +23,7 @@ from gazelle.bag import (
     open_bag,
     wire_name_of,
 )
+from gazelle.bag.formats import MCAP, SQLITE, folder_formats
 from gazelle.bag.rosbag2.folder import reindex
 from gazelle.compat.rclpy.duration import Duration
 from gazelle.compat.rclpy.time import Time
@@ -49,7 +49,6 @@ __all__ = [
 ]
 
 _OLD = ("dashing", "eloquent", "foxy", "galactic", "humble")
-_STORAGES = ("mcap", "sqlite3")
 
 
 @dataclass
@@ -287,15 +286,15 @@ class SequentialWriter:
         """
         (converter_options or ConverterOptions()).check()
         name = storage_options.storage_id or get_default_storage_id()
-        if name not in _STORAGES:
+        if name not in (known := _storages()):
             text = f"No storage could be initialized: '{name}' is not known"
-            raise RuntimeError(f"{text}; {did_you_mean(name, _STORAGES)}")
+            raise RuntimeError(f"{text}; {did_you_mean(name, known)}")
         folder = Path(storage_options.uri)
         if folder.exists():
             text = f"Bag directory already exists ({folder}), can't overwrite existing bag"
             raise RuntimeError(text)
         try:
-            self._writer = create_bag(folder, Storage(name))
+            self._writer = create_bag(folder, name)
         except BagError as error:
             raise RuntimeError(str(error)) from error
 
@@ -376,17 +375,21 @@ class Reindexer:
 
 def get_default_storage_id() -> str:
     """Return the storage of bags that name none: ``sqlite3`` up to Humble, ``mcap`` since."""
-    return "sqlite3" if os.environ.get("ROS_DISTRO", "") in _OLD else "mcap"
+    return (SQLITE if os.environ.get("ROS_DISTRO", "") in _OLD else MCAP).name
+
+
+def _storages() -> tuple[str, ...]:
+    return tuple(one.name for one in folder_formats())
 
 
 def get_registered_readers() -> set[str]:
     """Return the storages that can be read."""
-    return set(_STORAGES)
+    return set(_storages())
 
 
 def get_registered_writers() -> set[str]:
     """Return the storages that can be written."""
-    return set(_STORAGES)
+    return set(_storages())
 
 
 def get_registered_compressors() -> set[str]:

@@ -32,4 +32,13 @@ ENTRIES = (
         "use the version of the package that the bag was recorded with",
         "md5sum mismatch",
     ),
+    Entry(
+        "bag.storage-not-loaded",
+        "warning",
+        "A package's format of bags cannot be loaded",
+        "A pip package adds a storage by the entry points gazelle.bag_storage, and what it names "
+        "is not there or is none. All other formats are read and written.",
+        "upgrade the package, or uninstall it",
+        "Could not load/open plugin",
+    ),
 )

@@ -7,6 +7,7 @@ import threading
 from functools import partial
 from optparse import OptionParser, Values
 
+from gazelle.bag.formats import ROS1
 from gazelle.bag.recording import Limits, Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.ros1 import Compression
 from gazelle.errors import GazelleError
@@ -103,7 +104,7 @@ def _pattern(text: str) -> re.Pattern[str]:
 
 
 def _files(options: Values) -> Ros1Files:
-    name = None if options.name is None else options.name.removesuffix(".bag")
+    name = None if options.name is None else options.name.removesuffix(ROS1.suffix)
     return Ros1Files(
         (lambda: str(name)) if name is not None else partial(default_stem, options.prefix or ""),
         split=options.split,

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag import Storage
+from gazelle.bag.formats import OWN_FORMATS
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.documents.names import exists
@@ -17,7 +17,8 @@ from gazelle.studio.session import Studio
 
 __all__ = ["FORMATS", "Recording"]
 
-FORMATS = ("bag", "mcap", "db3")
+_BY_KIND = {one.suffix.removeprefix("."): one for one in OWN_FORMATS}
+FORMATS = tuple(_BY_KIND)
 _FLUSH_S = 10.0
 
 
@@ -103,16 +104,17 @@ class Recording:
 def _sink(root: Path, path: str, kind: str) -> tuple[Ros1Files | Rosbag2Writer, str]:
     if kind not in FORMATS:
         raise StudioError(f"there is no format '{kind}'", known=FORMATS)
-    is_bag = kind == "bag"
+    form = _BY_KIND[kind]
+    is_bag = not form.in_folder
     made_up = default_stem() if is_bag else time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S")
     name = str(_below(root, path or made_up))
-    stem = name.removesuffix(".bag") if is_bag else name
-    target = Path(f"{stem}.bag" if is_bag else name)
+    stem = name.removesuffix(form.suffix) if is_bag else name
+    target = Path(f"{stem}{form.suffix}" if is_bag else name)
     if exists(target):
         raise StudioError(f"{target} is there already", hint="record to another name")
     if is_bag:
         return Ros1Files(lambda: stem), str(target)
-    return Rosbag2Writer(target, Storage("mcap" if kind == "mcap" else "sqlite3")), str(target)
+    return Rosbag2Writer(target, form.name), str(target)
 
 
 def _below(root: Path, path: str) -> Path:

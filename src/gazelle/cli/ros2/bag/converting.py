@@ -6,8 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag import BagError, BagMessage, Storage, create_bag, open_bag
+from gazelle.bag import BagError, BagMessage, create_bag, open_bag
 from gazelle.bag.copying import copy_bag
+from gazelle.bag.formats import MCAP
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.yaml import YamlError, load_yaml_file
 
@@ -56,7 +57,7 @@ def _write(inputs: list[Path], one: dict[str, Any], diagnostics: Diagnostics) ->
         topic = message.connection.topic
         return topic not in left_out and (bool(every) or topic in names)
 
-    storage = Storage(one.get("storage_id") or Storage.MCAP)
+    storage = str(one.get("storage_id") or MCAP.name)
     writer = create_bag(one["uri"], storage, compression=str(one.get("compression_format") or ""))
     try:
         for path in inputs:

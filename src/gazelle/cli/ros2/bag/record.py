@@ -10,7 +10,7 @@ import time
 from functools import partial
 from pathlib import Path
 
-from gazelle.bag import Storage
+from gazelle.bag.formats import MCAP, ROS1, storage_names
 from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
@@ -43,8 +43,7 @@ def _record(graph: Graph, options: argparse.Namespace, stop: threading.Event) ->
         graph.clock.follow(node)
     selection = _selection(options)
     compression = options.compression_format if options.compression_mode != "none" else ""
-    storage = Storage(options.storage)
-    sink = Rosbag2Writer(Path(options.output), storage, compression=compression)
+    sink = Rosbag2Writer(Path(options.output), options.storage, compression=compression)
     limits = Limits(
         options.max_bag_size,
         int(options.max_bag_duration * 1e9),
@@ -97,7 +96,8 @@ def _options(argv: list[str]) -> argparse.Namespace:
     add("-e", "--regex", default="", help="Record topics that match this regular expression")
     add("-x", "--exclude", "--exclude-regex", default="", help="Leave these topics out")
     add("-o", "--output", help="Destination of the bag; the date by default")
-    add("-s", "--storage", choices=["mcap", "sqlite3"], default="mcap", help="Format of the files")
+    known = [name for name in storage_names() if name != ROS1.name]
+    add("-s", "--storage", choices=known, default=MCAP.name, help="Format of the files")
     whole, real = partial(add, type=int, default=0), partial(add, type=float, default=0.0)
     whole("-b", "--max-bag-size", help="Bytes of a file before it is split; 0: never")
     real("-d", "--max-bag-duration", help="Seconds of a file before it is split; 0: never")

@@ -12,7 +12,9 @@ from typing import Any
 
 from gazelle.bag.records import BagError, BagMessage, Connection, Encoding, Storage, Summary, Wanted
 
-__all__ = ["SqliteBag", "SqliteWriter"]
+__all__ = ["SQLITE_MAGIC", "SqliteBag", "SqliteWriter"]
+
+SQLITE_MAGIC = b"SQLite format 3\0"
 
 _SCHEMA = """
 CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
@@ -40,7 +42,7 @@ class SqliteWriter:
         path: the file.
     """
 
-    storage = Storage.SQLITE
+    storage: str = Storage.SQLITE
     encoding = Encoding.CDR
 
     def __init__(self, path: Path) -> None:
@@ -134,7 +136,7 @@ class SqliteBag:
         path: the file.
     """
 
-    storage = Storage.SQLITE
+    storage: str = Storage.SQLITE
 
     def __init__(self, path: Path) -> None:
         """Open a file.
