@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.parameters.trees import flattened, nested, values_only
+from gazelle.parameters.trees import flattened, leaves_at, nested, values_only
 
 
 def test_dots_slashes_and_branches_are_the_same() -> None:
@@ -29,3 +29,10 @@ def test_an_empty_branch_is_a_leaf_without_a_value() -> None:
 def test_names_of_ros1_have_slashes() -> None:
     tree = {"a": {"b.c": 1}, "d": 2}
     assert dict(flattened(tree, "/", separator="/")) == {"/a/b.c": 1, "/d": 2}
+
+
+def test_what_stands_at_a_name_is_a_value_or_its_leaves() -> None:
+    assert list(leaves_at("/rate", 5)) == [("/rate", 5)]
+    assert list(leaves_at("/", {"a": {"b": 1}, "c": {}})) == [("/a/b", 1), ("/c", {})]
+    assert list(leaves_at("/robot", {"a": 1})) == [("/robot/a", 1)]
+    assert list(leaves_at("", {})) == [("/", {})]

@@ -6,11 +6,12 @@ import base64
 import datetime as dt
 import json
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from gazelle.errors import GraphError
 from gazelle.graph.names import join, namespace_of, resolve
+from gazelle.parameters.trees import leaves_at, values_only
 
 __all__ = ["ParameterTree", "from_json", "to_json"]
 
@@ -110,7 +111,7 @@ class ParameterTree:
     def names(self) -> list[str]:
         """Return the names of all values (not of namespaces), in the order they were set."""
         with self._lock:
-            return list(_leaves(self._root, ""))
+            return [name for name, _ in values_only(leaves_at("/", self._root))]
 
     def replace(self, root: Mapping[str, Any], revision: int) -> None:
         """Become a copy of another tree."""
@@ -198,14 +199,6 @@ def _copy(value: Any) -> Any:
     if isinstance(value, list):
         return [_copy(item) for item in value]
     return value
-
-
-def _leaves(place: dict[str, Any], prefix: str) -> Iterator[str]:
-    for key, value in place.items():
-        if isinstance(value, dict):
-            yield from _leaves(value, f"{prefix}/{key}")
-        else:
-            yield f"{prefix}/{key}"
 
 
 def _parts(name: str) -> list[str]:

@@ -10,8 +10,8 @@ from typing import Any, TextIO
 from gazelle.documents.yaml import dump_yaml
 from gazelle.ending import drop_output, when_nobody_reads
 from gazelle.launch.config import LaunchConfig
-from gazelle.launch.xml1.values import flatten
 from gazelle.log_files import LogStream
+from gazelle.parameters.trees import leaves_at
 
 __all__ = ["Console", "dump_text", "summary"]
 
@@ -94,5 +94,5 @@ def dump_text(config: LaunchConfig) -> str:
     """Return what ``roslaunch --dump-params`` prints."""
     leaves: dict[str, Any] = {}
     for name, value in config.params.items():
-        leaves.update(flatten(name, value))
+        leaves.update(leaves_at(name, value))
     return dump_yaml(leaves)

@@ -4,12 +4,26 @@ A table (`ParameterTable`) has a row (`Parameter`) for every name that the origi
 or refused with its reason. Readers (`gazelle.parameters.reader`) take their defaults from it, the
 pages of the documentation are printed from it (`gazelle.parameters.markdown`), and a name that it
 lacks is told.
+
+Every process of the graph has trees of parameters (`gazelle.parameters.trees`), few have tables.
 """
 
 from __future__ import annotations
 
-from gazelle.parameters.parameter import Parameter, ParameterKind, refused
-from gazelle.parameters.table import ParameterTable
-from gazelle.parameters.topic import Topic, TopicKind
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gazelle.parameters.parameter import Parameter, ParameterKind, refused
+    from gazelle.parameters.table import ParameterTable
+    from gazelle.parameters.topic import Topic, TopicKind
 
 __all__ = ["Parameter", "ParameterKind", "ParameterTable", "Topic", "TopicKind", "refused"]
+
+_MODULES = {"ParameterTable": "table", "Topic": "topic", "TopicKind": "topic"}
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        return getattr(import_module(f"{__name__}.{_MODULES.get(name, 'parameter')}"), name)
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-__all__ = ["flattened", "nested", "values_only"]
+__all__ = ["flattened", "leaves_at", "nested", "values_only"]
 
 
 def nested(tree: Mapping[str, Any]) -> dict[str, Any]:
@@ -47,6 +47,19 @@ def flattened(
             yield from flattened(value, f"{name}{separator}", separator=separator)
         else:
             yield name, value
+
+
+def leaves_at(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the leaves of what stands at an absolute name of ROS 1: itself where it is no branch.
+
+    Args:
+        name: such as ``/robot``; empty or ``/`` for the root.
+        value: a branch or a value; an empty branch is a leaf.
+    """
+    if isinstance(value, Mapping) and value:
+        yield from flattened(value, f"{name.rstrip('/')}/", separator="/")
+    else:
+        yield name or "/", value
 
 
 def values_only(leaves: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:

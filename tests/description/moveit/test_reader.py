@@ -12,11 +12,11 @@ from tests.shared_files import needs_shared
 from gazelle.description.moveit import (
     CartesianLimits,
     config_from_parameters,
-    nested_parameters,
     read_moveit_config,
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
+from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 
 Make = Callable[..., Any]
@@ -312,7 +312,7 @@ def test_parameters_without_descriptions_are_told() -> None:
 
 def test_nested_parameters_merge_branches() -> None:
     flat = {"a.b": 1, "a": {"c": 2, "d.e": 3}, "f/g": 4}
-    assert nested_parameters(flat) == {"a": {"b": 1, "c": 2, "d": {"e": 3}}, "f": {"g": 4}}
+    assert nested(flat) == {"a": {"b": 1, "c": 2, "d": {"e": 3}}, "f": {"g": 4}}
 
 
 @pytest.mark.parametrize("name", ["ompl", "chomp", "stomp", "pilz_industrial_motion_planner"])

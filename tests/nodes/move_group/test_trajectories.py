@@ -18,7 +18,7 @@ from tests.nodes.move_group.conftest import (
 )
 
 from gazelle.description.model import Box
-from gazelle.description.moveit import config_from_parameters, nested_parameters
+from gazelle.description.moveit import config_from_parameters
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion import Planner
@@ -26,6 +26,7 @@ from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.planning import FINE_STEP
 from gazelle.motion.scene import WorldObject
 from gazelle.motion.space import FloatArray, JointSpace
+from gazelle.parameters.trees import nested
 
 _WALL = ("wall", (0.3, 0.02, 0.4), (0.4, 0.0, 0.2))
 _POST = ("post", (0.05, 0.05, 0.8), (0.0, 0.45, 0.4))
@@ -34,7 +35,7 @@ _POST = ("post", (0.05, 0.05, 0.8), (0.0, 0.45, 0.4))
 @pytest.fixture(scope="module")
 def planner() -> Planner:
     """The same arm, with a collision checker of its own."""
-    tree = nested_parameters(parameters())
+    tree = nested(parameters())
     config = config_from_parameters(tree, workspace=None, diagnostics=Diagnostics())
     assert config is not None
     made = Planner(config)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.node_parameters import NodeParameters
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.names import check_name, resolve
+from gazelle.parameters.trees import leaves_at, values_only
 
 if TYPE_CHECKING:
     from gazelle.graph import ParameterStore
@@ -80,7 +81,7 @@ class Parameters:
         return {name: known.get(name) for name in values}
 
     def _tree(self) -> dict[str, Any]:
-        return dict(_leaves(self._store.get_cached("/", {}), ""))
+        return dict(values_only(leaves_at("/", self._store.get_cached("/", {}))))
 
     def _set(self, name: str, value: Any) -> None:
         if self._nodes.knows(name):
@@ -93,11 +94,3 @@ class Parameters:
             self._store.delete(full)
         else:
             self._store.set(full, value)
-
-
-def _leaves(value: Any, name: str) -> Iterator[tuple[str, Any]]:
-    if isinstance(value, dict):
-        for part, below in value.items():
-            yield from _leaves(below, f"{name}/{part}")
-    else:
-        yield name, value

@@ -10,8 +10,9 @@ from typing import Any
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
 from gazelle.documents.yaml import dump_yaml
 from gazelle.graph import Graph
+from gazelle.parameters.trees import leaves_at, values_only
 
-__all__ = ["dump", "get", "leaves", "listing"]
+__all__ = ["dump", "get", "listing"]
 
 
 def listing(words: list[str]) -> int:
@@ -68,7 +69,7 @@ def dump(words: list[str]) -> int:
     with joined() as graph:
         value = _value(graph, name)
     if options.verbose:
-        print("\n".join(f"{leaf}={item}" for leaf, item in leaves(name, value)))
+        print("\n".join(f"{leaf}={item}" for leaf, item in values_only(leaves_at(name, value))))
     text = dump_yaml(value, objects=True)
     if not file:
         sys.stdout.write(text)
@@ -78,15 +79,6 @@ def dump(words: list[str]) -> int:
     except OSError as error:
         raise ToolError(f"cannot write [{file}]: {error.strerror}") from None
     return 0
-
-
-def leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the global names and values of all parameters of a tree."""
-    if not isinstance(value, dict):
-        yield name, value
-        return
-    for key, inner in value.items():
-        yield from leaves(f"{name.rstrip('/')}/{key}", inner)
 
 
 def _value(graph: Graph, name: str) -> Any:

@@ -9,13 +9,13 @@ from optparse import OptionParser, Values
 from pathlib import Path
 from typing import Any
 
-from gazelle.cli.rosparam.reading import leaves
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
 from gazelle.documents import TEXT_BYTES, read_limited, read_text_limited
 from gazelle.documents.yaml import ROSPARAM, YamlError, load_yaml
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 from gazelle.graph.names import join
+from gazelle.parameters.trees import leaves_at, values_only
 
 __all__ = ["delete", "load", "set_value"]
 
@@ -64,7 +64,11 @@ def load(words: list[str]) -> int:
             if options.verbose:
                 if place != namespace:
                     print(f"reading parameters into namespace [{place}]")
-                print("\n".join(f"{name}={value}" for name, value in leaves(place, values)))
+                print(
+                    "\n".join(
+                        f"{name}={value}" for name, value in values_only(leaves_at(place, values))
+                    )
+                )
             _set(graph, place, values, verbose=False)
     return 0
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from gazelle.description.moveit.config import (
     MoveItConfig,
     config_from_parameters,
-    nested_parameters,
 )
 from gazelle.description.moveit.controllers import ControllerEntry, ExecutionSettings
 from gazelle.description.moveit.joint_limits import JointLimit
@@ -25,6 +24,5 @@ __all__ = [
     "MoveItConfig",
     "Pipeline",
     "config_from_parameters",
-    "nested_parameters",
     "read_moveit_config",
 ]

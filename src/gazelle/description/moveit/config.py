@@ -26,9 +26,10 @@ from gazelle.description.moveit.pipelines import (
 from gazelle.description.moveit.settings import Places, Settings
 from gazelle.description.srdf import Srdf, link_names, load_srdf
 from gazelle.diagnostics import Diagnostics
+from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 
-__all__ = ["MoveItConfig", "config_from_parameters", "nested_parameters", "typed_config"]
+__all__ = ["MoveItConfig", "config_from_parameters", "typed_config"]
 
 _DEFAULT_SCALING = 0.1
 _VARIABLES = {
@@ -72,24 +73,6 @@ class MoveItConfig:
     package: Path | None = None
 
 
-def nested_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return parameters as a tree: ``a.b`` and ``a/b`` become ``b`` below ``a``."""
-    tree: dict[str, Any] = {}
-    for key, value in parameters.items():
-        *above, last = str(key).strip("/").replace("/", ".").split(".")
-        branch = tree
-        for word in above:
-            inner = branch.get(word)
-            if not isinstance(inner, dict):
-                inner = branch[word] = {}
-            branch = inner
-        if isinstance(value, Mapping):
-            _merge(branch.setdefault(last, {}), nested_parameters(value), branch, last)
-        else:
-            branch[last] = value
-    return tree
-
-
 def config_from_parameters(
     parameters: Mapping[str, Any],
     *,
@@ -111,7 +94,7 @@ def config_from_parameters(
     Returns:
         The configuration; None (reported) when there is no robot in it.
     """
-    tree = Settings(nested_parameters(parameters), diagnostics, places=places or {})
+    tree = Settings(nested(parameters), diagnostics, places=places or {})
     robot = _robot(tree, description, workspace)
     if robot is None:
         return None
@@ -141,17 +124,6 @@ def typed_config(tree: Settings, description: str, robot: Model, srdf: Srdf) -> 
         read_execution(tree),
         tree.values,
     )
-
-
-def _merge(into: Any, values: dict[str, Any], parent: dict[str, Any], key: str) -> None:
-    if not isinstance(into, dict):
-        parent[key] = values
-        return
-    for name, value in values.items():
-        if isinstance(value, dict) and isinstance(into.get(name), dict):
-            _merge(into[name], value, into, name)
-        else:
-            into[name] = value
 
 
 def _robot(tree: Settings, key: str, workspace: Workspace | None) -> Model | None:

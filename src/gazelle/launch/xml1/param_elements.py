@@ -17,7 +17,8 @@ from gazelle.launch.config import ParamDump
 from gazelle.launch.environment import node_environment
 from gazelle.launch.xml1.reading import Reading, TagError
 from gazelle.launch.xml1.scope import Scope
-from gazelle.launch.xml1.values import flatten, param_value
+from gazelle.launch.xml1.values import param_value
+from gazelle.parameters.trees import leaves_at
 
 __all__ = ["param", "rosparam"]
 
@@ -88,7 +89,7 @@ def _absolute_leaves(target: str, data: Any) -> dict[str, Any]:
     leaves: dict[str, Any] = {}
     for key, value in data.items():
         name = resolve(str(key), target or "/")
-        leaves.update(flatten(name, value))
+        leaves.update(leaves_at(name, value))
     return leaves
 
 

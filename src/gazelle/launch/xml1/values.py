@@ -6,7 +6,7 @@ from typing import Any
 
 from gazelle.documents.yaml import ROSPARAM, load_yaml
 
-__all__ = ["PARAM_TYPES", "bool_value", "flatten", "param_value"]
+__all__ = ["PARAM_TYPES", "bool_value", "param_value"]
 
 PARAM_TYPES = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
 
@@ -47,16 +47,6 @@ def bool_value(text: str) -> bool:
     if lowered in {"false", "0"}:
         return False
     raise ValueError(f"{text} is not a 'bool' type")
-
-
-def flatten(name: str, value: Any) -> dict[str, Any]:
-    """Return the leaves of a parameter tree by absolute name; an empty dict is a leaf."""
-    if not isinstance(value, dict) or not value:
-        return {name or "/": value}
-    leaves: dict[str, Any] = {}
-    for key, item in value.items():
-        leaves.update(flatten(f"{name.rstrip('/')}/{key}", item))
-    return leaves
 
 
 def _auto_value(text: str) -> Any:

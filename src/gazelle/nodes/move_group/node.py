@@ -6,7 +6,7 @@ import threading
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.description.moveit import MoveItConfig, config_from_parameters, nested_parameters
+from gazelle.description.moveit import MoveItConfig, config_from_parameters
 from gazelle.diagnostics import Diagnostics, render_text
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -20,6 +20,7 @@ from gazelle.nodes.move_group.planning_services import offer_planning
 from gazelle.nodes.move_group.scene_interface import offer_scene
 from gazelle.nodes.move_group.sequences import offer_sequences
 from gazelle.nodes.parameters import start_node
+from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 
 __all__ = ["gathered_parameters", "run"]
@@ -63,14 +64,14 @@ def gathered_parameters(
         stop: ends waiting for the topic.
     """
     private = node.parameters.get(node.resolve_name("~"), {})
-    tree = nested_parameters({**(private if isinstance(private, Mapping) else {}), **own})
+    tree = nested({**(private if isinstance(private, Mapping) else {}), **own})
     for part in _PARTS:
         name = f"{_DESCRIPTION}{part}"
         if name not in tree:
             found = node.parameters.search(name)
             if found is not None:
                 value = node.parameters.get(found)
-                tree[name] = nested_parameters(value) if isinstance(value, Mapping) else value
+                tree[name] = nested(value) if isinstance(value, Mapping) else value
     for name in (_DESCRIPTION, f"{_DESCRIPTION}_semantic"):
         if not tree.get(name):
             text = _of_topic(node, name, stop)

@@ -6,6 +6,7 @@ from typing import Any
 
 from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
+from gazelle.parameters.trees import leaves_at, values_only
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
 from gazelle.studio.json_text import finite_number, message_value
@@ -32,7 +33,8 @@ def list_parameters(studio: Studio, params: Params) -> list[dict[str, Any]]:
     """``param.list``: names and values below a namespace, all by default."""
     tree = _value(studio, params.text("name", "/"))
     start = params.text("name", "/").rstrip("/")
-    return [{"name": name, "value": value} for name, value in _leaves(start, tree)]
+    leaves = sorted(values_only(leaves_at(start, tree)), key=lambda leaf: leaf[0].split("/"))
+    return [{"name": name, "value": value} for name, value in leaves]
 
 
 def get_parameter(studio: Studio, params: Params) -> Any:
@@ -124,12 +126,3 @@ def _value(studio: Studio, name: str) -> Any:
         return studio.graph.parameters.get(name)
     except KeyError:
         raise unknown("parameter", name, studio.graph.parameters.names()) from None
-
-
-def _leaves(name: str, value: Any) -> list[tuple[str, Any]]:
-    if not isinstance(value, dict):
-        return [(name, value)]
-    found: list[tuple[str, Any]] = []
-    for key in sorted(value):
-        found += _leaves(f"{name}/{key}", value[key])
-    return found

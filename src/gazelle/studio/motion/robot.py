@@ -83,17 +83,17 @@ def _before(service: str) -> str:
 
 def _parameters(studio: Studio, node: str, prefix: str, description: str) -> dict[str, Any]:
     """ROS 2 gives a move_group its parameters, ROS 1 has the descriptions beside it."""
-    from gazelle.description.moveit import nested_parameters
+    from gazelle.parameters.trees import nested
 
     store = studio.graph.parameters
     own = store.get(node) if store.has(node) else {}
-    tree = nested_parameters(own) if isinstance(own, Mapping) else {}
+    tree = nested(own) if isinstance(own, Mapping) else {}
     for part in _PARTS:
         name = f"{description}{part}"
         for place in (f"{prefix}{name}", f"/{name}"):
             if name not in tree and store.has(place):
                 value = store.get(place)
-                tree[name] = nested_parameters(value) if isinstance(value, Mapping) else value
+                tree[name] = nested(value) if isinstance(value, Mapping) else value
     for name in (description, f"{description}_semantic"):
         if not tree.get(name):
             tree[name] = _of_topic(studio, f"{prefix}{name}")

@@ -11,7 +11,7 @@ from typing import Any
 from gazelle.compat.moveit.py.robot import RobotModel, RobotState, RobotTrajectory
 from gazelle.compat.moveit.py.scene import PlanningSceneMonitor
 from gazelle.compat.moveit.targets import joint_constraints, pose_constraints
-from gazelle.description.moveit import config_from_parameters, nested_parameters
+from gazelle.description.moveit import config_from_parameters
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
@@ -24,6 +24,7 @@ from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.scene_interface import offer_scene_answers, offer_scene_topics
+from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 
 __all__ = [
@@ -107,7 +108,7 @@ class MoveItPy:
         files = [word for one in launch_params_filepaths or () for word in ("--params-file", one)]
         words = [*sys.argv[1:], *(["--ros-args", *files] if files else [])]
         arguments = read_arguments(words, node_name, namespace=name_space or "/")
-        self.parameters = nested_parameters({**(config_dict or {}), **arguments.params})
+        self.parameters = nested({**(config_dict or {}), **arguments.params})
         self._graph = Graph.open()
         self._node = self._graph.create_node(arguments.name, namespace=arguments.namespace)
         self._context = self._made(self.parameters)
