@@ -5,18 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.mapping.loops.settings import AmbiguitySettings
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Match
 from gazelle.mapping.pose_graph.information import bounded
 
 __all__ = ["ambiguous"]
 
-_STEP_M = 0.2
-_SCORE_SIGMA = 0.04
-
 
 def ambiguous(
-    field: Field, points_m: NDArray[np.float64], found: Match, reach_m: float
+    field: Field,
+    points_m: NDArray[np.float64],
+    found: Match,
+    reach_m: float,
+    settings: AmbiguitySettings,
 ) -> NDArray[np.float64]:
     """Return the inverse covariance of a match, (3, 3), other matches nearby being possible too.
 
@@ -27,11 +29,11 @@ def ambiguous(
     information = bounded(found.information)
     _, axes = np.linalg.eigh(information[:2, :2])
     along = axes[:, 0]
-    shifts = np.arange(-reach_m, reach_m + _STEP_M / 2, _STEP_M)
+    shifts = np.arange(-reach_m, reach_m + settings.step_m / 2, settings.step_m)
     scores = np.array(
         [field.mean(points_m, found.pose + np.array([*(along * shift), 0.0])) for shift in shifts]
     )
-    weights = np.exp(np.minimum(0.0, scores - found.score) / _SCORE_SIGMA)
+    weights = np.exp(np.minimum(0.0, scores - found.score) / settings.score_sigma)
     variance = float((weights * shifts**2).sum() / max(1.0, weights.sum()))
     # Sherman and Morrison (1950): the covariance grows by this variance along the axis.
     axis = np.array([*along, 0.0])

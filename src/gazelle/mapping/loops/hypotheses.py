@@ -7,16 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.mapping.loops.settings import AgreementSettings
 from gazelle.mapping.poses import Poses, between, compose
 
 __all__ = ["Hypotheses", "Hypothesis"]
-
-_CLOSE_M = 0.15
-_CLOSE_M_PER_M = 0.02
-_CLOSE_RAD = 0.04
-_CLOSE_RAD_PER_M = 0.002
-_FEWEST = 3
-_FORGOTTEN_M = 30.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,8 +41,9 @@ class Hypotheses:
     building agree by chance only over short ways.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, settings: AgreementSettings) -> None:
         """Start with none."""
+        self._settings = settings
         self._waiting: list[Hypothesis] = []
 
     def agree(self, new: Hypothesis, poses: Poses, ways_m: NDArray[np.float64]) -> list[Hypothesis]:
@@ -59,29 +54,36 @@ class Hypotheses:
             poses: of all keyframes, (n, 3).
             ways_m: driven until each keyframe, (n,).
         """
-        now_m = ways_m[new.head]
-        self._waiting = [h for h in self._waiting if now_m - ways_m[h.head] < _FORGOTTEN_M]
+        told, now_m = self._settings, ways_m[new.head]
+        self._waiting = [h for h in self._waiting if now_m - ways_m[h.head] < told.forgotten_m]
         party = [new]
         for other in sorted(self._waiting, key=lambda h: -h.score):
-            if all(_agree(other, one, poses, ways_m) for one in party):
+            if all(_agree(other, one, poses, ways_m, told) for one in party):
                 party.append(other)
         self._waiting.append(new)
         heads = ways_m[[one.head for one in party]]
         span = float(heads.max() - heads.min())
         reach = max(one.reach_m for one in party)
-        if len(party) < _FEWEST or span < 1.0 + 0.2 * reach:
+        if len(party) < told.fewest or span < told.span_m + told.span_share * reach:
             return []
         believed = {id(one) for one in party}
         self._waiting = [one for one in self._waiting if id(one) not in believed]
         return party
 
 
-def _agree(a: Hypothesis, b: Hypothesis, poses: Poses, ways_m: NDArray[np.float64]) -> bool:
+def _agree(
+    a: Hypothesis,
+    b: Hypothesis,
+    poses: Poses,
+    ways_m: NDArray[np.float64],
+    settings: AgreementSettings,
+) -> bool:
     if a.head == b.head:
         return False
     over = compose(a.relative, between(poses[a.head], poses[b.head]))
     under = compose(between(poses[a.tail], poses[b.tail]), b.relative)
     error = between(over, under)
     length = abs(ways_m[a.head] - ways_m[b.head]) + abs(ways_m[a.tail] - ways_m[b.tail])
-    near = np.hypot(error[0], error[1]) < _CLOSE_M + _CLOSE_M_PER_M * length
-    return bool(near and abs(error[2]) < _CLOSE_RAD + _CLOSE_RAD_PER_M * length)
+    near = np.hypot(error[0], error[1]) < settings.close_m + settings.close_m_per_m * length
+    turn = settings.close_rad + settings.close_rad_per_m * length
+    return bool(near and abs(error[2]) < turn)

@@ -7,27 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.mapping.loops.settings import PlaceSettings
 from gazelle.mapping.loops.way_kernels import shortest_ways
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.poses import Poses
 
-__all__ = ["DRIFT_M_PER_M", "Place", "places_near"]
-
-DRIFT_M_PER_M = 0.02
-"""How far a map drifts per way, standard deviation."""
-
-_DRIFT_M = 0.1
-_SIGMAS = 3.0
-_DOUBTS = 1.5
-_NEAREST_M = 4.0
-_MOST_PLACES = 2
-_LOOP_LENGTH_M = 0.1
-_SAME_PASS = 3
-_DRIFT_RAD = 0.1
-_DRIFT_RAD_PER_M = 0.003
-_MOST_WAY_M = 150.0
-_NO_DOUBT = 0.1
+__all__ = ["Place", "places_near"]
 
 
 class Place(NamedTuple):
@@ -44,7 +30,14 @@ class Place(NamedTuple):
     reach_rad: float
 
 
-def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> list[Place]:
+def places_near(
+    poses: Poses,
+    edges: Edges,
+    *,
+    gap_m: float,
+    reach_m: float,
+    settings: PlaceSettings,
+) -> list[Place]:
     """Return the places to look at for the last pose, the likeliest first.
 
     How far a place may be off grows with the shortest way through the graph, so that it is small
@@ -55,36 +48,38 @@ def places_near(poses: Poses, edges: Edges, *, gap_m: float, reach_m: float) -> 
         edges: between them.
         gap_m: shorter ways are no loops.
         reach_m: the largest window.
+        settings: how far places may be off, and how many are looked at.
     """
+    told = settings
     last = len(poses) - 1
     far = np.hypot(*(poses[:, :2] - poses[last, :2]).T)
-    ways = _ways(edges, len(poses))
-    doubts_m, doubts_rad = (_doubts(edges, len(poses), axis) for axis in (0, 2))
-    reach = _SIGMAS * (_DRIFT_M + DRIFT_M_PER_M * ways) + _DOUBTS * doubts_m
-    reach = np.clip(reach, 0.3, reach_m)
-    turn = _DRIFT_RAD + _DRIFT_RAD_PER_M * np.minimum(ways, _MOST_WAY_M)
-    turn = np.minimum(turn + _DOUBTS * doubts_rad, np.pi)
-    wanted = np.flatnonzero((far < _NEAREST_M + reach) & (ways > gap_m))
+    ways = _ways(edges, len(poses), told.loop_length_m)
+    doubts_m, doubts_rad = (_doubts(edges, len(poses), axis, told.no_doubt) for axis in (0, 2))
+    reach = told.sigmas * (told.drift_m + told.drift_m_per_m * ways) + told.doubts * doubts_m
+    reach = np.clip(reach, told.least_reach_m, reach_m)
+    turn = told.drift_rad + told.drift_rad_per_m * np.minimum(ways, told.most_way_m)
+    turn = np.minimum(turn + told.doubts * doubts_rad, np.pi)
+    wanted = np.flatnonzero((far < told.nearest_m + reach) & (ways > gap_m))
     if not len(wanted):
         return []
-    passes = np.split(wanted, np.flatnonzero(np.diff(wanted) > _SAME_PASS) + 1)
+    passes = np.split(wanted, np.flatnonzero(np.diff(wanted) > told.same_pass) + 1)
     nearest = [int(one[far[one].argmin()]) for one in passes]
     nearest.sort(key=lambda k: far[k] - reach[k])
-    return [Place(k, float(reach[k]), float(turn[k])) for k in nearest[:_MOST_PLACES]]
+    return [Place(k, float(reach[k]), float(turn[k])) for k in nearest[: told.most_places]]
 
 
-def _ways(edges: Edges, count: int) -> NDArray[np.float64]:
+def _ways(edges: Edges, count: int, loop_m: float) -> NDArray[np.float64]:
     """Return the shortest ways through the graph to the last pose, metres."""
     lengths = np.hypot(edges.relative[:, 0], edges.relative[:, 1]) + 1e-3
-    return _shortest(edges, np.where(edges.is_loop, _LOOP_LENGTH_M, lengths), count)
+    return _shortest(edges, np.where(edges.is_loop, loop_m, lengths), count)
 
 
-def _doubts(edges: Edges, count: int, axis: int) -> NDArray[np.float64]:
+def _doubts(edges: Edges, count: int, axis: int, least: float) -> NDArray[np.float64]:
     """Return the deviation, m or rad, of doubtful relations on the surest way to the last pose."""
     is_doubt = doubtful(edges.information) & ~edges.is_loop
     variance = 1.0 / edges.information[:, axis, axis]
     squared = _shortest(edges, np.where(is_doubt, variance, 1e-6), count)
-    return np.sqrt(np.where(squared < _NO_DOUBT, 0.0, squared))
+    return np.sqrt(np.where(squared < least, 0.0, squared))
 
 
 def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray[np.float64]:

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.mapping.matching import kernels, line_kernels
+from gazelle.mapping.matching.settings import FieldSettings
 
 __all__ = ["Field", "Lines", "field_of"]
 
-_PARTS = 4
-_LINE_CELL_M = 0.1
+_USUAL = FieldSettings()
 
 
 class Lines(NamedTuple):
@@ -67,6 +67,7 @@ def field_of(
     *,
     cell_m: float,
     sigma_m: float,
+    settings: FieldSettings = _USUAL,
 ) -> Field:
     """Return the square field of surfaces.
 
@@ -76,24 +77,26 @@ def field_of(
         half_side_m: of the square.
         cell_m: side of a cell.
         sigma_m: how far beams end from their surface, standard deviation.
+        settings: how it is made.
     """
     side = max(8, int(2 * half_side_m / cell_m) // 8 * 8)
     values = np.zeros((side, side), np.float32)
     x0, y0 = center_m[0] - half_side_m, center_m[1] - half_side_m
-    kernels.stamp(values, x0, y0, cell_m, points_m, _kernels(sigma_m, cell_m))
-    across = math.ceil(side * cell_m / _LINE_CELL_M)
+    kernels.stamp(values, x0, y0, cell_m, points_m, _kernels(sigma_m, cell_m, settings.parts))
+    line_cell_m = settings.line_cell_m
+    across = math.ceil(side * cell_m / line_cell_m)
     places = np.zeros((across, across), np.int32)
     sums = np.empty((len(points_m) + 1, 6))
-    used = line_kernels.accumulate(places, sums, x0, y0, _LINE_CELL_M, points_m)
-    return Field(values, x0, y0, cell_m, Lines(places, sums[:used], _LINE_CELL_M))
+    used = line_kernels.accumulate(places, sums, x0, y0, line_cell_m, points_m)
+    return Field(values, x0, y0, cell_m, Lines(places, sums[:used], line_cell_m))
 
 
 @lru_cache(maxsize=16)
-def _kernels(sigma_m: float, cell_m: float) -> NDArray[np.float32]:
+def _kernels(sigma_m: float, cell_m: float, count: int) -> NDArray[np.float32]:
     """Return bells around points of every part of a cell, (parts, parts, side, side)."""
     reach = math.ceil(2.5 * sigma_m / cell_m)
     cells = np.arange(-reach, reach + 1)
-    parts = (np.arange(_PARTS) + 0.5) / _PARTS - 0.5
+    parts = (np.arange(count) + 0.5) / count - 0.5
     away = (cells[None, :] - parts[:, None]) * cell_m
     bell = np.exp(-(away**2) / (2 * sigma_m**2))
     return (bell[:, None, :, None] * bell[None, :, None, :]).astype(np.float32)

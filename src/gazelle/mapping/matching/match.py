@@ -4,26 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.matching import kernels, line_kernels
 from gazelle.mapping.matching.field import Field
+from gazelle.mapping.matching.settings import MatchSettings
 from gazelle.mapping.poses import Poses, wrap_angle
 
 __all__ = ["Match", "Prior", "match", "refined"]
-
-_ITERATIONS = 15
-# Weight of one point: residuals of good matches scatter by about half a field's height, and
-# points of one surface err together.
-_POINT_WEIGHT = 4.0
-_COARSE_TURN_RAD = 0.035
-# Of a distance: standard deviation and farthest, m; of a line: fewest points, width, m.
-_LINES = np.array([0.04, 0.12, 8.0, 0.05])
-_FEWEST_ON_LINES = 20
-_MOST_M = 0.12
-_MOST_RAD = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +54,7 @@ def match(
     *,
     reach_m: float,
     reach_rad: float,
+    settings: MatchSettings,
     coarse: Field | None = None,
 ) -> Match:
     """Search a window around the expected pose, then refine (Olson 2009; Kohlbrecher 2011).
@@ -73,29 +65,36 @@ def match(
         prior: centre of the window; a departure from it costs.
         reach_m: half side of the window.
         reach_rad: the same for turns.
+        settings: numbers of the search and of the refinement.
         coarse: ``field.pooled()``, if it is at hand.
     """
     coarse = coarse or field.pooled()
     step = coarse.cell_m
     # What a departure of the prior costs against the mean likelihood of the points.
-    scale = 1.0 / (_POINT_WEIGHT * max(1, len(points_m)))
+    scale = 1.0 / (settings.point_weight * max(1, len(points_m)))
     weights = np.diagonal(prior.information) * scale
     toward = (*prior.pose, min(weights[0], weights[1]), weights[2])
-    guess = _best(
-        coarse, points_m, prior.pose, (reach_m, step, reach_rad, _COARSE_TURN_RAD), toward
-    )
-    fine = (step, field.cell_m, _COARSE_TURN_RAD, _COARSE_TURN_RAD / 3)
-    return refined(field, points_m, _best(field, points_m, guess, fine, toward), prior)
+    turn = settings.coarse_turn_rad
+    guess = _best(coarse, points_m, prior.pose, (reach_m, step, reach_rad, turn), toward)
+    fine = (step, field.cell_m, turn, turn / 3)
+    guess = _best(field, points_m, guess, fine, toward)
+    return refined(field, points_m, guess, prior, settings)
 
 
-def refined(field: Field, points_m: NDArray[np.float64], guess: Poses, prior: Prior) -> Match:
+def refined(
+    field: Field,
+    points_m: NDArray[np.float64],
+    guess: Poses,
+    prior: Prior,
+    settings: MatchSettings,
+) -> Match:
     """Refine a pose that is nearly right, within about a cell."""
     corner = (field.x_m, field.y_m, field.cell_m)
     pose, information = kernels.refine(
-        field.values, *corner, points_m, guess, prior.pose, prior.information, _POINT_WEIGHT,
-        _ITERATIONS,
+        field.values, *corner, points_m, guess, prior.pose, prior.information,
+        settings.point_weight, settings.iterations,
     )  # fmt: skip
-    pose, information = _on_lines(field, points_m, pose, prior, information)
+    pose, information = _on_lines(field, points_m, pose, prior, information, settings)
     pose[2] = float(wrap_angle(pose[2]))
     score = field.mean(points_m, pose)
     return Match(pose, 0.0 if math.isnan(score) else score, information)
@@ -107,6 +106,7 @@ def _on_lines(
     pose: Poses,
     prior: Prior,
     information: NDArray[np.float64],
+    settings: MatchSettings,
 ) -> tuple[Poses, NDArray[np.float64]]:
     """Move a pose to where its points lie on the lines that the field's points lie along.
 
@@ -118,12 +118,26 @@ def _on_lines(
     corner = (field.x_m, field.y_m, field.lines.cell_m)
     found, told, used = line_kernels.refine_on_lines(
         field.lines.places, field.lines.sums, *corner, points_m, pose, prior.pose,
-        prior.information, _LINES, _ITERATIONS,
+        prior.information, _line_numbers(settings), settings.iterations,
     )  # fmt: skip
     moved = math.dist(found[:2], pose[:2]), abs(float(wrap_angle(found[2] - pose[2])))
-    if used < _FEWEST_ON_LINES or moved[0] > _MOST_M or moved[1] > _MOST_RAD:
+    is_far = moved[0] > settings.most_m or moved[1] > settings.most_rad
+    if used < settings.fewest_on_lines or is_far:
         return pose, information
     return found, told
+
+
+@cache
+def _line_numbers(settings: MatchSettings) -> NDArray[np.float64]:
+    """Return what `line_kernels` takes of them."""
+    return np.array(
+        [
+            settings.line_sigma_m,
+            settings.line_reach_m,
+            settings.line_points,
+            settings.line_width_m,
+        ]
+    )
 
 
 def _best(

@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["dense_surface", "even_points"]
+from gazelle.mapping.matching.settings import SurfaceSettings
 
-_SAME_SURFACE_M = 0.3
-_STRAIGHT_GAP_M = 1.2
-_STRAIGHT_M = 0.05
+__all__ = ["dense_surface", "even_points"]
 
 
 def even_points(points_m: NDArray[np.float64], cell_m: float, most: int) -> NDArray[np.float64]:
@@ -28,26 +26,29 @@ def even_points(points_m: NDArray[np.float64], cell_m: float, most: int) -> NDAr
 
 
 def dense_surface(
-    points_m: NDArray[np.float64], beams: NDArray[np.int64], spacing_m: float
+    points_m: NDArray[np.float64],
+    beams: NDArray[np.int64],
+    spacing_m: float,
+    settings: SurfaceSettings,
 ) -> NDArray[np.float64]:
     """Return what the beams met and the surfaces between neighbouring beams, shape (m, 2).
 
     Beams that graze a wall meet it at points far from each other, at the same places in every
-    scan from along the wall: matching would stick to them. Points nearer than 0.3 m are one
-    surface; up to 1.2 m if they continue a straight line.
+    scan from along the wall: matching would stick to them.
 
     Args:
         points_m: what was met, (n, 2).
         beams: which beam met each, ascending.
         spacing_m: of points on surfaces.
+        settings: which beams met one surface.
     """
     if len(points_m) < 3:
         return points_m
     neighbours = np.diff(beams) == 1
     steps = np.diff(points_m, axis=0)
     gaps = np.hypot(steps[:, 0], steps[:, 1])
-    straight = _straight(steps, gaps, neighbours)
-    joined = neighbours & ((gaps < _SAME_SURFACE_M) | ((gaps < _STRAIGHT_GAP_M) & straight))
+    straight = _straight(steps, gaps, neighbours, settings.straight_m)
+    joined = neighbours & ((gaps < settings.same_m) | ((gaps < settings.straight_gap_m) & straight))
     counts = np.where(joined, np.floor(gaps / spacing_m).astype(int), 0)
     segment = np.repeat(np.arange(len(steps)), counts)
     place = np.arange(len(segment)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
@@ -56,7 +57,10 @@ def dense_surface(
 
 
 def _straight(
-    steps: NDArray[np.float64], gaps: NDArray[np.float64], neighbours: NDArray[np.bool_]
+    steps: NDArray[np.float64],
+    gaps: NDArray[np.float64],
+    neighbours: NDArray[np.bool_],
+    most_m: float,
 ) -> NDArray[np.bool_]:
     """Which gaps continue the line of the gap before or after them."""
     cross = np.abs(steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0])
@@ -64,7 +68,7 @@ def _straight(
     longer = np.maximum(np.maximum(gaps[:-1], gaps[1:]), 1e-9)
     # Distance of the middle point's neighbours from the line of the longer step.
     bent = cross / longer
-    pair = forward & (bent < _STRAIGHT_M) & neighbours[:-1] & neighbours[1:]
+    pair = forward & (bent < most_m) & neighbours[:-1] & neighbours[1:]
     out = np.zeros(len(gaps), dtype=bool)
     out[:-1] |= pair
     out[1:] |= pair

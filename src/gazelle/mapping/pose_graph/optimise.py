@@ -15,18 +15,12 @@ from numpy.typing import NDArray
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
 from gazelle.mapping.pose_graph.pattern import Pattern, pattern_of
+from gazelle.mapping.pose_graph.settings import GraphSettings
 from gazelle.mapping.poses import Poses, wrap_angle
 
 __all__ = ["Residuals", "optimise", "residuals"]
 
-_ANCHOR = 1e6
-_DAMPING = 1e-6
-_CONVERGED = 1e-4
-# From the second half of at least so many iterations on, loop closures that are still this far
-# off (squared standard deviations) lose their influence.
-_SETTLED = 10
-_TORN_SQUARED = 30.0
-_DOUBT_SQUARED = 2.0
+_USUAL = GraphSettings()
 
 
 class Residuals(NamedTuple):
@@ -47,7 +41,14 @@ def residuals(poses: Poses, edges: Edges) -> Residuals:
     return Residuals(error, np.einsum("mi,mij,mj->m", error, edges.information, error))
 
 
-def optimise(poses: Poses, edges: Edges, *, iterations: int = 10, huber: float = 3.0) -> Poses:
+def optimise(
+    poses: Poses,
+    edges: Edges,
+    *,
+    iterations: int = 10,
+    huber: float = 3.0,
+    settings: GraphSettings = _USUAL,
+) -> Poses:
     """Return the poses, shape (n, 3), that fit the edges best; the first one stays.
 
     Args:
@@ -55,38 +56,47 @@ def optimise(poses: Poses, edges: Edges, *, iterations: int = 10, huber: float =
         edges: what is known of them; every pose should be reached by some.
         iterations: at most so many.
         huber: from how many standard deviations on a loop closure counts linearly.
+        settings: the other numbers.
     """
     poses = poses.copy()
     if not len(edges.tail):
         return poses
     pattern = pattern_of(edges, len(poses))
     for iteration in range(iterations):
-        tears = 2 * iteration >= max(iterations, _SETTLED)
-        step = _step(poses, edges, pattern, huber, tears=tears)
+        tears = 2 * iteration >= max(iterations, settings.settled)
+        step = _step(poses, edges, pattern, huber, settings, tears=tears)
         poses += step
         poses[:, 2] = wrap_angle(poses[:, 2])
-        if np.abs(step).max() < _CONVERGED and (tears or iterations < _SETTLED):
+        if np.abs(step).max() < settings.converged and (tears or iterations < settings.settled):
             break
     return poses
 
 
-def _step(poses: Poses, edges: Edges, pattern: Pattern, huber: float, *, tears: bool) -> Poses:
+def _step(
+    poses: Poses,
+    edges: Edges,
+    pattern: Pattern,
+    huber: float,
+    settings: GraphSettings,
+    *,
+    tears: bool,
+) -> Poses:
     found = residuals(poses, edges)
     far = edges.is_loop & (found.squared > huber**2)
     weight = np.where(far, huber / np.sqrt(np.maximum(found.squared, 1e-12)), 1.0)
     # What may be wrong anyway gives way before what is sure is bent.
     doubts = ~edges.is_loop & doubtful(edges.information)
-    yields = 2 * _DOUBT_SQUARED / (_DOUBT_SQUARED + found.squared)
+    yields = 2 * settings.doubt_squared / (settings.doubt_squared + found.squared)
     weight = np.where(doubts, np.minimum(1.0, yields) ** 2, weight)
     if tears:
-        scaled = 2 * _TORN_SQUARED / (_TORN_SQUARED + found.squared)
+        scaled = 2 * settings.torn_squared / (settings.torn_squared + found.squared)
         weight = np.where(edges.is_loop, weight * np.minimum(1.0, scaled) ** 2, weight)
     of_tail, of_head = _jacobians(poses, edges)
     weighted = edges.information * weight[:, None, None]
     tail_part = of_tail.transpose(0, 2, 1) @ weighted
     head_part = of_head.transpose(0, 2, 1) @ weighted
-    diagonal = np.tile(_DAMPING * np.eye(3), (len(poses), 1, 1))
-    diagonal[0] = _ANCHOR * np.eye(3)
+    diagonal = np.tile(settings.damping * np.eye(3), (len(poses), 1, 1))
+    diagonal[0] = settings.anchor * np.eye(3)
     factors = pattern.factorised(
         np.concatenate([
             tail_part @ of_tail, tail_part @ of_head, head_part @ of_tail, head_part @ of_head,

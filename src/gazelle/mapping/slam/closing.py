@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
-from gazelle.mapping.loops.places import DRIFT_M_PER_M, places_near
+from gazelle.mapping.loops.places import places_near
 from gazelle.mapping.loops.recognise import recognise
 from gazelle.mapping.pose_graph.edges import Edges
 from gazelle.mapping.pose_graph.information import doubtful
@@ -15,14 +15,6 @@ from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
 
 __all__ = ["LoopCloser"]
-
-_STEP_M = 0.5
-_ITERATIONS = 5
-# Squared standard deviations by which one step of the drive may be bent.
-_TORN = 60.0
-# In windows so small a place is recognised without the agreement of others.
-_SURE_REACH_M = 1.0
-_NEAR_M = 4.0
 
 
 class LoopCloser:
@@ -39,13 +31,14 @@ class LoopCloser:
         self.refused = 0
         self._keyframes = keyframes
         self._parameters = parameters
-        self._hypotheses = Hypotheses()
+        self._settings = parameters.settings
+        self._hypotheses = Hypotheses(self._settings.agreement)
         self._looked_m = 0.0
 
     def close(self, edges: Edges) -> Edges | None:
         """Look around the last keyframe; move the map and return new edges if it is known there."""
         way_m = self._keyframes[-1].way_m
-        if way_m - self._looked_m < _STEP_M:
+        if way_m - self._looked_m < self._settings.closing.step_m:
             return None
         self._looked_m = way_m
         believed = self._believed(edges)
@@ -54,10 +47,13 @@ class LoopCloser:
         tied = edges
         for one in believed:
             tied = tied.with_edge(one.tail, one.head, one.relative, one.information, is_loop=True)
-        poses = optimise(self._keyframes.poses, tied, iterations=_ITERATIONS)
+        told = self._settings.closing
+        poses = optimise(
+            self._keyframes.poses, tied, iterations=told.iterations, settings=self._settings.graph
+        )
         sure = ~tied.is_loop & ~doubtful(tied.information)
         bent = residuals(poses, tied).squared[sure]
-        if bent.max(initial=0.0) > _TORN:
+        if bent.max(initial=0.0) > told.torn:
             self.refused += len(believed)
             return None
         self.closed += len(believed)
@@ -67,19 +63,26 @@ class LoopCloser:
     def has_drifted(self, pose: Poses, jump_m: float) -> bool:
         """Tell whether the robot was near a pose so long ago that drift explains a jump to it."""
         poses, ways = self._keyframes.poses, self._keyframes.ways_m
-        gap_m = max(self._parameters.loop_gap_m, jump_m / DRIFT_M_PER_M)
+        gap_m = max(self._parameters.loop_gap_m, jump_m / self._settings.places.drift_m_per_m)
         old = ways[-1] - ways > gap_m
         far = np.hypot(*(poses[old, :2] - pose[:2]).T)
-        return bool(far.min(initial=np.inf) < _NEAR_M)
+        return bool(far.min(initial=np.inf) < self._settings.jump.near_m)
 
     def _believed(self, edges: Edges) -> list[Hypothesis]:
         told, poses = self._parameters, self._keyframes.poses
         believed: list[Hypothesis] = []
-        for place in places_near(poses, edges, gap_m=told.loop_gap_m, reach_m=told.loop_reach_m):
+        places = places_near(
+            poses,
+            edges,
+            gap_m=told.loop_gap_m,
+            reach_m=told.loop_reach_m,
+            settings=self._settings.places,
+        )
+        for place in places:
             found = recognise(self._keyframes, place, told)
             if found is None:
                 continue
-            if found.reach_m <= _SURE_REACH_M:
+            if found.reach_m <= self._settings.closing.sure_reach_m:
                 believed.append(found)
             else:
                 believed += self._hypotheses.agree(found, poses, self._keyframes.ways_m)

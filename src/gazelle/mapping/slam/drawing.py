@@ -11,22 +11,23 @@ from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.poses import Poses, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.ray_kernels import count_beams
+from gazelle.mapping.slam.settings import DrawingSettings
 
 __all__ = ["MapDrawer", "draw"]
 
-_MARGIN_M = 1.0
-_GROW_M = 10.0
-_MOVED_CELLS = 0.5
-_MOVED_RAD = 0.004
+_USUAL = DrawingSettings()
+
 _OCCUPIED = 0.25
-_TAIL = 0.1
 
 
 def draw(
-    keyframes: Keyframes, resolution_m: float = 0.05, occupied_share: float = _OCCUPIED
+    keyframes: Keyframes,
+    resolution_m: float = 0.05,
+    occupied_share: float = _OCCUPIED,
+    settings: DrawingSettings = _USUAL,
 ) -> OccupancyGrid:
     """Draw all kept scans, see `MapDrawer`."""
-    return MapDrawer(resolution_m, occupied_share).draw(keyframes)
+    return MapDrawer(resolution_m, occupied_share, settings).draw(keyframes)
 
 
 class MapDrawer:
@@ -37,13 +38,20 @@ class MapDrawer:
     in which hardly any beams ended next to one in which many did: they lie behind a wall.
     """
 
-    def __init__(self, resolution_m: float = 0.05, occupied_share: float = _OCCUPIED) -> None:
+    def __init__(
+        self,
+        resolution_m: float = 0.05,
+        occupied_share: float = _OCCUPIED,
+        settings: DrawingSettings = _USUAL,
+    ) -> None:
         """Begin with an empty map.
 
         Args:
             resolution_m: side of a cell.
             occupied_share: of beams that end in a cell.
+            settings: when the map grows and is drawn anew.
         """
+        self._settings = settings
         self._resolution_m = resolution_m
         self._share = occupied_share
         self._hits: NDArray[np.int32] = np.zeros((0, 0), np.int32)
@@ -71,12 +79,13 @@ class MapDrawer:
         if len(poses) < len(self._drawn):
             return True
         change = np.abs(poses[: len(self._drawn)] - self._drawn)
-        limit = _MOVED_CELLS * self._resolution_m
+        limit = self._settings.moved_cells * self._resolution_m
         turned = np.minimum(change[:, 2], 2 * np.pi - change[:, 2])
-        return bool((change[:, :2] > limit).any() or (turned > _MOVED_RAD).any())
+        return bool((change[:, :2] > limit).any() or (turned > self._settings.moved_rad).any())
 
     def _make_room(self, frames: list[Keyframe], poses: Poses, *, fresh: bool) -> None:
-        reach = np.array([frame.reach_m for frame in frames])[:, None] + _MARGIN_M
+        reach = np.array([frame.reach_m for frame in frames])[:, None]
+        reach = reach + self._settings.margin_m
         low, high = (poses[:, :2] - reach).min(axis=0), (poses[:, :2] + reach).max(axis=0)
         cell = self._resolution_m
         if fresh:
@@ -88,7 +97,8 @@ class MapDrawer:
         if (low >= old).all() and (high <= end).all():
             return
         hits, passes = self._hits, self._passes
-        grow = np.where(low < old, _GROW_M, 0.0), np.where(high > end, _GROW_M, 0.0)
+        more = self._settings.grow_m
+        grow = np.where(low < old, more, 0.0), np.where(high > end, more, 0.0)
         self._allot(np.minimum(low - grow[0], old), np.maximum(high + grow[1], end))
         column, row = np.round((old - self._corner) / cell).astype(int)
         self._hits[row : row + height, column : column + width] = hits
@@ -127,7 +137,7 @@ class MapDrawer:
         padded = np.pad(self._hits, 1)
         around = [padded[rows + i, columns + j] for i in range(3) for j in range(3)]
         most = np.max(around, axis=0, initial=0)
-        tail = self._hits[rows, columns] < _TAIL * most
+        tail = self._hits[rows, columns] < self._settings.tail * most
         return rows[tail], columns[tail]
 
 

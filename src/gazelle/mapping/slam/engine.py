@@ -22,13 +22,9 @@ from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
 from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.polish import polished
 from gazelle.mapping.slam.track import Track
-from gazelle.mapping.slam.tracking import FEWEST_POINTS, Tracker, is_jump, motion_information
+from gazelle.mapping.slam.tracking import Tracker, is_jump, motion_information
 
 __all__ = ["Slam", "SlamResult", "Update", "slam"]
-
-_GIVE_UP = 4
-_LAST_ITERATIONS = 20
-_POLISHES = 2
 
 
 class Update(NamedTuple):
@@ -160,10 +156,12 @@ class Slam:
             # The way drifted, and the robot was not carried: closing the loop bends the way.
             found, self._is_doubtful, is_back = None, False, True
         self._pose = expected if found is None else found.pose
-        sees = len(frame.points_m) >= FEWEST_POINTS
+        settings = self.parameters.settings
+        sees = len(frame.points_m) >= settings.tracking.fewest_points
         if not is_back:
             self._is_doubtful |= sees and (found is None or found.is_doubtful)
-        is_kept = self.is_mapping and self._is_new() and not 0 < self._tracker.lost < _GIVE_UP
+        waits = 0 < self._tracker.lost < settings.engine.give_up
+        is_kept = self.is_mapping and self._is_new() and not waits
         has_closed = is_kept and self._keep(frame, found)
         self._track.add(scan.stamp_ns, self._pose)
         if found is None and sees:
@@ -174,9 +172,12 @@ class Slam:
 
     def finish(self) -> None:
         """Use all that is known: call it once, when no more scans come."""
-        keyframes = self.keyframes
-        keyframes.poses = optimise(keyframes.poses, self.edges, iterations=_LAST_ITERATIONS)
-        for _ in range(_POLISHES if self.parameters.polish else 0):
+        keyframes, settings = self.keyframes, self.parameters.settings
+        told = settings.engine
+        keyframes.poses = optimise(
+            keyframes.poses, self.edges, iterations=told.last_iterations, settings=settings.graph
+        )
+        for _ in range(told.polishes if self.parameters.polish else 0):
             keyframes.poses = polished(keyframes, self.edges, self.parameters)
 
     def trajectory(self) -> Poses:
@@ -205,8 +206,9 @@ class Slam:
     def _comes_back(self, expected: Poses, found: Poses) -> bool:
         """Tell whether a lost robot is seen to be off where it was a long way ago."""
         closes = self.is_mapping and self.parameters.loop_closing
-        jump_m = math.dist(expected[:2], found[:2])
-        return closes and is_jump(expected, found) and self._closer.has_drifted(found, jump_m)
+        if not closes or not is_jump(expected, found, self.parameters.settings.jump):
+            return False
+        return self._closer.has_drifted(found, math.dist(expected[:2], found[:2]))
 
     def _keep(self, frame: Keyframe, found: Match | None) -> bool:
         """Keep a scan; return whether a place was recognised, which moves the map."""

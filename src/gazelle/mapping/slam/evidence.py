@@ -18,11 +18,9 @@ from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.evidence_kernels import contradictions
 from gazelle.mapping.slam.keyframes import Keyframe
 from gazelle.mapping.slam.ray_kernels import count_beams
+from gazelle.mapping.slam.settings import EvidenceSettings
 
 __all__ = ["SeenSpace", "seen_space"]
-
-_CELL_M = 0.1
-_MARGIN_M = 0.3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,11 +31,13 @@ class SeenSpace:
         hits: int32 (height, width), how many ended in each cell.
         passes: how many reached it.
         corner_m: lower left.
+        settings: side of a cell, and how exactly a beam ends.
     """
 
     hits: NDArray[np.int32]
     passes: NDArray[np.int32]
     corner_m: tuple[float, float]
+    settings: EvidenceSettings
 
     def against(self, scan: Scan, points_m: NDArray[np.float64], pose: Poses) -> float:
         """Return the share of points that contradict what is known of space.
@@ -49,13 +49,17 @@ class SeenSpace:
         """
         lidar = compose(pose, np.array(scan.T_base_laser))
         ends = transform_points(pose, points_m)
-        corner = (*self.corner_m, _CELL_M)
-        count = contradictions(self.hits, self.passes, *corner, lidar, ends, _MARGIN_M)
+        corner, margin_m = (*self.corner_m, self.settings.cell_m), self.settings.margin_m
+        count = contradictions(self.hits, self.passes, *corner, lidar, ends, margin_m)
         return float(count) / max(1, len(points_m))
 
 
 def seen_space(
-    frames: Sequence[Keyframe], poses: Poses, center_m: tuple[float, float], half_side_m: float
+    frames: Sequence[Keyframe],
+    poses: Poses,
+    center_m: tuple[float, float],
+    half_side_m: float,
+    settings: EvidenceSettings,
 ) -> SeenSpace:
     """Return what scans say of a square.
 
@@ -64,8 +68,9 @@ def seen_space(
         poses: of the robot, (n, 3).
         center_m: middle of the square.
         half_side_m: of it.
+        settings: side of a cell, and how exactly a beam ends.
     """
-    side = max(3, int(2 * half_side_m / _CELL_M))
+    side = max(3, int(2 * half_side_m / settings.cell_m))
     hits = np.zeros((side, side), np.int32)
     passes = np.zeros((side, side), np.int32)
     corner = center_m[0] - half_side_m, center_m[1] - half_side_m
@@ -73,5 +78,7 @@ def seen_space(
     limit = frames[0].max_range_m
     for frame, lidar, yaw in zip(frames, lidars, poses[:, 2], strict=True):
         directions = yaw + frame.scan.bearings_rad
-        count_beams(hits, passes, *corner, _CELL_M, lidar, directions, frame.ranges_m, limit)
-    return SeenSpace(hits, passes, corner)
+        count_beams(
+            hits, passes, *corner, settings.cell_m, lidar, directions, frame.ranges_m, limit
+        )
+    return SeenSpace(hits, passes, corner, settings)

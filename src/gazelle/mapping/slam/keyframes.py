@@ -18,10 +18,6 @@ from gazelle.mapping.slam.parameters import SlamParameters
 
 __all__ = ["Keyframe", "Keyframes", "keyframe_of"]
 
-_MOST_POINTS = 360
-_MARGIN_M = 2.0
-_UNSEEN_M = 0.7
-_UNSEEN_SHARE = 0.2
 
 _Number = TypeVar("_Number", bound=np.generic)
 
@@ -54,14 +50,17 @@ class Keyframe:
 
 def keyframe_of(scan: Scan, parameters: SlamParameters, way_m: float) -> Keyframe:
     """Return what matching needs of a scan."""
+    told = parameters.settings.keyframes
     limit_m = min(parameters.max_range_m, scan.range_max_m)
     # Walls go on behind the end of sight, where earlier scans did not see them: to match what lies
     # there would pull every scan back to the last ones.
-    sure_m = limit_m - min(_UNSEEN_M, _UNSEEN_SHARE * limit_m)
+    sure_m = limit_m - min(told.unseen_m, told.unseen_share * limit_m)
     hits, met = scan.hits(parameters.max_range_m), scan.points(parameters.max_range_m)
     sure = met[scan.ranges_m[hits] <= sure_m]
-    points = even_points(sure, parameters.cell_m, _MOST_POINTS)
-    surface = dense_surface(met, np.flatnonzero(hits), parameters.cell_m)
+    points = even_points(sure, parameters.cell_m, told.most_points)
+    surface = dense_surface(
+        met, np.flatnonzero(hits), parameters.cell_m, parameters.settings.surface
+    )
     ranges = np.where(scan.hits(), scan.ranges_m, np.nan).astype(np.float32)
     return Keyframe(scan, points, surface, ranges, way_m, parameters.max_range_m)
 
@@ -126,13 +125,14 @@ class Keyframes:
     def field(self, indices: Iterable[int], center: ArrayLike, reach_m: float) -> Field:
         """Return the field of some around a pose, so far that what is `reach_m` away is in it."""
         x, y = np.asarray(center, dtype=float)[:2]
-        half = reach_m + _MARGIN_M
+        half = reach_m + self._parameters.settings.keyframes.margin_m
         return field_of(
             self.surface(indices),
             (float(x), float(y)),
             half,
             cell_m=self._parameters.cell_m,
             sigma_m=self._parameters.sigma_m,
+            settings=self._parameters.settings.field,
         )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from gazelle.mapping.slam.settings import SlamSettings
 
 __all__ = ["SlamParameters"]
 
@@ -27,6 +29,7 @@ class SlamParameters:
         loop_reach_m: places are looked for within this distance at most.
         loop_gap_m: a place is seen again after at least so long a way.
         polish: whether all scans are matched with their neighbours once more at the end.
+        settings: numbers of the algorithms that hardly anybody needs to change.
     """
 
     cell_m: float = 0.05
@@ -46,3 +49,4 @@ class SlamParameters:
     loop_reach_m: float = 18.0
     loop_gap_m: float = 10.0
     polish: bool = True
+    settings: SlamSettings = field(default_factory=SlamSettings)

@@ -12,25 +12,9 @@ from gazelle.mapping.pose_graph.optimise import optimise
 from gazelle.mapping.poses import Poses, between, wrap_angle
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
-from gazelle.mapping.slam.tracking import FEWEST_POINTS
+from gazelle.mapping.slam.settings import PolishSettings, SlamSettings
 
 __all__ = ["polished"]
-
-_NEAR_M = 4.0
-_NEAR_SCANS = 20
-_TIED = 3
-_REACH_M = 0.2
-_REACH_RAD = 0.2
-_EXPECTED = np.diag([0.15**-2, 0.15**-2, 0.1**-2])
-_LEAST = 0.5
-_GOOD = 0.8
-_WIDE_M = 0.4
-_WIDE_RAD = 0.5
-_BETTER = 0.05
-_STRAY_M = 0.15
-_STRAY_RAD = 0.06
-_STRAY_WEIGHT = 0.01
-_APART = 2
 
 
 def polished(keyframes: Keyframes, edges: Edges, parameters: SlamParameters) -> Poses:
@@ -40,22 +24,30 @@ def polished(keyframes: Keyframes, edges: Edges, parameters: SlamParameters) -> 
     nearest ones of any time, and tied to some of them; then relations of the drive count less
     where they contradict.
     """
-    poses = keyframes.poses.copy()
-    near = [_neighbours(poses, i) for i in range(len(keyframes))]
-    found = [_rematched(keyframes, poses, i, near[i]) for i in range(len(keyframes))]
-    least = max(_LEAST, parameters.least_match)
+    told, poses = parameters.settings.polish, keyframes.poses.copy()
+    near = [_neighbours(poses, i, told) for i in range(len(keyframes))]
+    found = [
+        _rematched(keyframes, poses, i, near[i], parameters.settings) for i in range(len(keyframes))
+    ]
+    least = max(told.least, parameters.least_match)
     matched = {i: one for i, one in enumerate(found) if one and one.score > least}
-    stray = {i for i, one in matched.items() if _is_far(between(poses[i], one.pose))}
-    pairs = [(k, i) for i in matched for k in _spread(near[i], stray)]
+    stray = {i for i, one in matched.items() if _is_far(between(poses[i], one.pose), told)}
+    pairs = [(k, i) for i in matched for k in _spread(near[i], stray, told)]
     if not pairs:
         return poses
     ties = _ties(poses, matched, np.array(pairs, dtype=np.int64))
-    edges = _weakened(edges, stray)
+    edges = _weakened(edges, stray, told.stray_weight)
     everything = edges.joined(ties)
     robust = everything._replace(is_loop=np.ones(len(everything.tail), dtype=bool))
     for i in stray:
         poses[i] = matched[i].pose
-    return optimise(poses, robust, iterations=20, huber=1.0)
+    return optimise(
+        poses,
+        robust,
+        iterations=told.iterations,
+        huber=told.huber,
+        settings=parameters.settings.graph,
+    )
 
 
 def _ties(poses: Poses, matched: dict[int, Match], pairs: NDArray[np.int64]) -> Edges:
@@ -68,54 +60,58 @@ def _ties(poses: Poses, matched: dict[int, Match], pairs: NDArray[np.int64]) -> 
     return Edges(tails, heads, relative, seen_from(poses[tails], information), tails >= 0)
 
 
-def _rematched(keyframes: Keyframes, poses: Poses, index: int, near: list[int]) -> Match | None:
-    frame = keyframes[index]
-    if len(near) < _TIED or len(frame.points_m) < FEWEST_POINTS:
+def _rematched(
+    keyframes: Keyframes, poses: Poses, index: int, near: list[int], settings: SlamSettings
+) -> Match | None:
+    told, frame = settings.polish, keyframes[index]
+    if len(near) < told.tied or len(frame.points_m) < settings.tracking.fewest_points:
         return None
+    expected = np.diag([told.sigma_m**-2, told.sigma_m**-2, told.sigma_rad**-2])
     pose = poses[index]
     field = keyframes.field(near, pose, frame.reach_m)
     coarse = field.pooled()
     found = match(
-        field, frame.points_m, Prior(pose, _EXPECTED),
-        reach_m=_REACH_M, reach_rad=_REACH_RAD, coarse=coarse,
+        field, frame.points_m, Prior(pose, expected), reach_m=told.reach_m,
+        reach_rad=told.reach_rad, coarse=coarse, settings=settings.match,
     )  # fmt: skip
-    if found.score > _GOOD:
+    if found.score > told.good:
         return found
     again = match(
-        field, frame.points_m, Prior(pose, _EXPECTED / 16),
-        reach_m=_WIDE_M, reach_rad=_WIDE_RAD, coarse=coarse,
+        field, frame.points_m, Prior(pose, expected / 16), reach_m=told.wide_m,
+        reach_rad=told.wide_rad, coarse=coarse, settings=settings.match,
     )  # fmt: skip
-    return again if again.score > found.score + _BETTER else found
+    return again if again.score > found.score + told.better else found
 
 
-def _is_far(change: Poses) -> bool:
-    return bool(np.hypot(change[0], change[1]) > _STRAY_M or abs(change[2]) > _STRAY_RAD)
+def _is_far(change: Poses, settings: PolishSettings) -> bool:
+    is_off = np.hypot(change[0], change[1]) > settings.stray_m
+    return bool(is_off or abs(change[2]) > settings.stray_rad)
 
 
-def _weakened(edges: Edges, stray: set[int]) -> Edges:
+def _weakened(edges: Edges, stray: set[int], share: float) -> Edges:
     """Return edges of which those of strays, which were wrong at the time, hardly count."""
     lost = np.array(sorted(stray), dtype=np.int64)
     touched = np.isin(edges.tail, lost) | np.isin(edges.head, lost)
-    weight = np.where(touched, _STRAY_WEIGHT, 1.0)
+    weight = np.where(touched, share, 1.0)
     return edges._replace(information=edges.information * weight[:, None, None])
 
 
-def _neighbours(poses: Poses, index: int) -> list[int]:
+def _neighbours(poses: Poses, index: int, settings: PolishSettings) -> list[int]:
     """Return the nearest keyframes, the nearest first."""
     far = np.hypot(*(poses[:, :2] - poses[index, :2]).T)
     turn = np.abs(wrap_angle(poses[:, 2] - poses[index, 2]))
-    cost = far + 0.5 * turn
+    cost = far + settings.m_per_rad * turn
     cost[index] = np.inf
-    order = np.argsort(cost)[:_NEAR_SCANS]
-    return [int(k) for k in order if far[k] < _NEAR_M]
+    order = np.argsort(cost)[: settings.near_scans]
+    return [int(k) for k in order if far[k] < settings.near_m]
 
 
-def _spread(near: list[int], stray: set[int]) -> list[int]:
+def _spread(near: list[int], stray: set[int], settings: PolishSettings) -> list[int]:
     """Return those that a scan is tied to: the nearest of different times."""
     chosen: list[int] = []
     for k in near:
-        if k not in stray and all(abs(k - other) > _APART for other in chosen):
+        if k not in stray and all(abs(k - other) > settings.apart for other in chosen):
             chosen.append(k)
-        if len(chosen) == _TIED:
+        if len(chosen) == settings.tied:
             break
     return chosen

@@ -14,48 +14,28 @@ from gazelle.mapping.matching.match import Match, Prior, match, refined
 from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.settings import JumpSettings
 from gazelle.mapping.slam.weighing import surroundings, weighed
 
-__all__ = ["FEWEST_POINTS", "Tracker", "is_jump", "motion_information"]
-
-FEWEST_POINTS = 20
-"""Scans that meet less say nothing of where they are."""
-
-_STILL_M = 0.05
-_STILL_RAD = 0.03
-_GOOD_SCORE = 0.6
-_SUSPICIOUS = 0.8
-_SUDDEN, _SUDDEN_SPREADS = 0.3, 6.0
-_FORGET = 0.05
-_BELIEVED = 0.85
-_WIDE_M = 1.0
-_WIDE_RAD = 1.2
-_LOST_M = 2.0
-_LOST_M_PER_SCAN = 1.0
-_LOST_MOST_M = 6.0
-# Odometry errs by less while a scan or two fit nowhere. That a robot was carried away must be
-# proved by so many points, of several scans in a row where they are few: in the open there are
-# always some that a few bushes fit.
-_JUMP_M, _JUMP_RAD = 1.0, 0.6
-_PROVING_POINTS = 500
-_SAME_M, _SAME_RAD = 0.5, 0.3
-# A field reaches 2 m farther than beams do.
-_LEFT_M = 1.5
+__all__ = ["Tracker", "is_jump", "motion_information"]
 
 
 def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.float64]:
     """Return the inverse covariance, (3, 3), of a motion by odometry; x and y err alike."""
     way, turn = math.hypot(motion[0], motion[1]), abs(motion[2])
-    sigma_m = _STILL_M + parameters.odometry_m_per_m * way + 0.02 * turn
+    told = parameters.settings.tracking
+    sigma_m = told.still_m + parameters.odometry_m_per_m * way + told.m_per_rad * turn
     sigma_rad = (
-        _STILL_RAD + parameters.odometry_rad_per_rad * turn + parameters.odometry_rad_per_m * way
+        told.still_rad
+        + parameters.odometry_rad_per_rad * turn
+        + parameters.odometry_rad_per_m * way
     )
     return np.diag([sigma_m**-2, sigma_m**-2, sigma_rad**-2])
 
 
-def is_jump(expected: Poses, found: Poses) -> bool:
+def is_jump(expected: Poses, found: Poses, settings: JumpSettings) -> bool:
     """Tell whether a pose is farther off than odometry errs while a few scans fit nowhere."""
-    return _is_apart(expected, found, _JUMP_M, _JUMP_RAD)
+    return _is_apart(expected, found, settings.away_m, settings.away_rad)
 
 
 class _Jump(NamedTuple):
@@ -86,8 +66,9 @@ class Tracker:
         self._keyframes = keyframes
         self._parameters = parameters
         self._submap: _Submap | None = None
-        self._usual_score = 0.8
-        self._usual_spread = 0.1
+        self._settings = parameters.settings
+        self._usual_score = self._settings.tracking.usual_score
+        self._usual_spread = self._settings.tracking.usual_spread
         self._jump: _Jump | None = None
         self.lost = 0
         self.uses_nearest = False
@@ -104,7 +85,8 @@ class Tracker:
             expected: pose by odometry.
             motion: how far odometry went since the last scan.
         """
-        if len(frame.points_m) < FEWEST_POINTS:
+        told = self._settings.tracking
+        if len(frame.points_m) < told.fewest_points:
             return None
         found = self._found_again(frame, expected, motion) if self.lost else None
         if found is None and self._jump is None:
@@ -113,23 +95,24 @@ class Tracker:
             self.lost += 1
             return None
         change = found.score - self._usual_score
-        self._usual_score += _FORGET * change
-        self._usual_spread += _FORGET * (abs(change) - self._usual_spread)
+        self._usual_score += told.forget * change
+        self._usual_spread += told.forget * (abs(change) - self._usual_spread)
         self.lost = 0
         return found
 
     def _found_again(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
         """Return where a lost robot is; a jump that is not proved yet is remembered instead."""
-        before, self._jump = self._jump, None
+        told, before, self._jump = self._settings.jump, self._jump, None
         found = self.relocate(frame, expected)
-        if found is None or not is_jump(expected, found.pose):
+        if found is None or not is_jump(expected, found.pose, told):
             return found
         points = len(frame.points_m)
         if before is not None:
-            if _is_apart(compose(before.pose, motion), found.pose, _SAME_M, _SAME_RAD):
+            moved = compose(before.pose, motion)
+            if _is_apart(moved, found.pose, told.same_m, told.same_rad):
                 return None
             points += before.points
-        if points >= _PROVING_POINTS:
+        if points >= told.proving_points:
             return found
         self._jump = _Jump(found.pose, points)
         return None
@@ -137,26 +120,32 @@ class Tracker:
     def _followed(self, frame: Keyframe, expected: Poses, motion: Poses) -> Match | None:
         submap = self._current(expected, frame.reach_m)
         prior = Prior(expected, motion_information(motion, self._parameters))
-        if math.hypot(motion[0], motion[1]) < _STILL_M and abs(motion[2]) < _STILL_RAD:
-            near = refined(submap.field, frame.points_m, expected, prior)
-            if near.score > max(_GOOD_SCORE, _SUSPICIOUS * self._usual_score):
+        told, numbers = self._parameters, self._settings.tracking
+        least = numbers.suspicious * self._usual_score
+        if (
+            math.hypot(motion[0], motion[1]) < numbers.still_m
+            and abs(motion[2]) < numbers.still_rad
+        ):
+            near = refined(submap.field, frame.points_m, expected, prior, self._settings.match)
+            if near.score > max(numbers.good_score, least):
                 return near
-        told = self._parameters
         sigma_m, sigma_rad = (float(prior.information[i, i]) ** -0.5 for i in (0, 2))
         reach_m, reach_rad = max(told.window_m, 3 * sigma_m), max(told.window_rad, 3 * sigma_rad)
         found = match(
             submap.field, frame.points_m, prior,
             reach_m=reach_m, reach_rad=reach_rad, coarse=submap.coarse,
+            settings=self._settings.match,
         )  # fmt: skip
-        if found.score < _SUSPICIOUS * self._usual_score:
+        if found.score < least:
             # Wheels slip, clocks differ, and what is new to the last scans may be known of old.
-            wide = max(_WIDE_M, reach_m), max(_WIDE_RAD, 2 * reach_rad)
+            wide = max(numbers.wide_m, reach_m), max(numbers.wide_rad, 2 * reach_rad)
             return self._doubted(self._weighed(frame, expected, found.pose, wide))
         return found if found.score > told.least_match else None
 
     def _doubted(self, found: Match | None) -> Match | None:
         """Doubt what all at once fits badly: a robot may have been carried away."""
-        sudden = max(_SUDDEN, _SUDDEN_SPREADS * self._usual_spread)
+        told = self._settings.tracking
+        sudden = max(told.sudden, told.sudden_spreads * self._usual_spread)
         if found is None or found.score >= self._usual_score - sudden:
             return found
         return replace(found, is_doubtful=True)
@@ -166,28 +155,31 @@ class Tracker:
     ) -> Match | None:
         """Return the likeliest pose of a wide window among all that was seen around it."""
         reach_m = frame.reach_m + reach[0]
-        around = surroundings(self._keyframes, expected, reach_m)
+        around = surroundings(self._keyframes, expected, reach_m, self._settings)
         found = weighed(around, frame, expected, [guess], reach)
         if found is not None and not found.is_doubtful:
             return found
         # What was seen long ago may not lie where it should yet.
-        around = surroundings(self._keyframes, expected, reach_m, self._parameters.submap_scans)
+        last = self._parameters.submap_scans
+        around = surroundings(self._keyframes, expected, reach_m, self._settings, last)
         again = weighed(around, frame, expected, [guess], reach)
         return found if again is None or (found and again.is_doubtful) else again
 
     def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
         """Return where a lost robot is, among all that was seen around where it may be."""
-        reach = min(_LOST_MOST_M, _LOST_M + self.lost * _LOST_M_PER_SCAN), math.pi
-        around = surroundings(self._keyframes, expected, frame.reach_m + reach[0])
+        told = self._settings.relocation
+        reach = min(told.most_m, told.reach_m + self.lost * told.reach_m_per_scan), math.pi
+        reach_m = frame.reach_m + reach[0]
+        around = surroundings(self._keyframes, expected, reach_m, self._settings)
         found = weighed(around, frame, expected, [], reach, is_lost=True)
         if found is None or found.is_doubtful:
             return None
-        return found if found.score > _BELIEVED * self._usual_score else None
+        return found if found.score > told.believed * self._usual_score else None
 
     def _current(self, expected: Poses, reach_m: float) -> _Submap:
-        known = self._submap
-        if known is None or math.dist(known.center[:2], expected[:2]) > _LEFT_M:
-            reach = min(self._parameters.max_range_m, reach_m + 2.0)
+        told, known = self._settings.tracking, self._submap
+        if known is None or math.dist(known.center[:2], expected[:2]) > told.left_m:
+            reach = min(self._parameters.max_range_m, reach_m + told.field_margin_m)
             field = self._keyframes.field(self._chosen(expected), expected, reach)
             known = self._submap = _Submap(field, field.pooled(), expected.copy())
         return known

@@ -14,19 +14,9 @@ from gazelle.mapping.matching.wide import best_of_sectors
 from gazelle.mapping.poses import Poses, between
 from gazelle.mapping.slam.evidence import SeenSpace, seen_space
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
+from gazelle.mapping.slam.settings import SlamSettings, WeighingSettings
 
 __all__ = ["Surroundings", "surroundings", "weighed"]
-
-_NEAREST = 80
-_SECTOR_RAD = 0.3
-_LEAST = 0.2
-_LEAST_WORTH = 0.15
-_CLEARLY = 0.15
-_APART_M = 0.3
-_APART_RAD = 0.15
-# Of a pose at the edge of the window. Wheels slip seldom by so much within a step; what is new in
-# a scan explains a bad fit more often.
-_FAR_COSTS, _LOST_COSTS = 0.12, 0.05
 
 
 class Surroundings(NamedTuple):
@@ -36,11 +26,13 @@ class Surroundings(NamedTuple):
         field: of the surfaces.
         coarse: the same, with cells twice as large.
         space: where beams ended and where they passed.
+        settings: numbers of the algorithms.
     """
 
     field: Field
     coarse: Field
     space: SeenSpace
+    settings: SlamSettings
 
 
 class _Weight(NamedTuple):
@@ -49,16 +41,21 @@ class _Weight(NamedTuple):
 
 
 def surroundings(
-    keyframes: Keyframes, center: Poses, reach_m: float, last: int | None = None
+    keyframes: Keyframes,
+    center: Poses,
+    reach_m: float,
+    settings: SlamSettings,
+    last: int | None = None,
 ) -> Surroundings:
     """Return what the nearest scans, of any time or of the last ones, saw around a pose."""
     first = 0 if last is None else max(0, len(keyframes) - last)
     far = np.hypot(*(keyframes.poses[first:, :2] - center[:2]).T)
-    near = (first + np.argsort(far)[:_NEAREST]).tolist()
+    near = (first + np.argsort(far)[: settings.weighing.nearest]).tolist()
     field = keyframes.field(near, center, reach_m)
     middle = float(center[0]), float(center[1])
-    space = seen_space([keyframes[i] for i in near], keyframes.poses[near], middle, reach_m)
-    return Surroundings(field, field.pooled(), space)
+    frames = [keyframes[i] for i in near]
+    space = seen_space(frames, keyframes.poses[near], middle, reach_m, settings.evidence)
+    return Surroundings(field, field.pooled(), space, settings)
 
 
 def weighed(
@@ -83,22 +80,23 @@ def weighed(
         reach: half sides of the window, m and rad.
         is_lost: odometry says little of where the robot is.
     """
-    points = frame.points_m
+    told, points = around.settings.weighing, frame.points_m
     rough = best_of_sectors(
         around.coarse, points, expected,
-        reach_m=reach[0], reach_rad=min(math.pi, reach[1]), sector_rad=_SECTOR_RAD, least=_LEAST,
+        reach_m=reach[0], reach_rad=min(math.pi, reach[1]), sector_rad=told.sector_rad,
+        least=told.least,
     )  # fmt: skip
     poses = [one.pose for one in rough] + guesses
-    costs = _LOST_COSTS if is_lost else _FAR_COSTS
+    costs = told.lost_costs if is_lost else told.far_costs
     weights = [_weight(around, frame, expected, pose, reach, costs) for pose in poses]
     if not weights:
         # In empty space no scan looks like anything that is known.
         return None
     best = max(weights, key=lambda one: one.worth)
-    if best.worth < _LEAST_WORTH:
+    if best.worth < told.least_worth:
         return None
-    others = [one.worth for one in weights if _is_apart(one.found.pose, best.found.pose)]
-    is_clear = best.worth > max(others, default=0.0) + _CLEARLY
+    others = [one.worth for one in weights if _is_apart(one.found.pose, best.found.pose, told)]
+    is_clear = best.worth > max(others, default=0.0) + told.clearly
     return replace(best.found, is_doubtful=not is_clear)
 
 
@@ -110,15 +108,18 @@ def _weight(
     reach: tuple[float, float],
     costs: float,
 ) -> _Weight:
-    found = refined(around.field, frame.points_m, pose, Prior(pose, np.zeros((3, 3))))
+    settings, free = around.settings, Prior(pose, np.zeros((3, 3)))
+    found = refined(around.field, frame.points_m, pose, free, settings.match)
     against = around.space.against(frame.scan, frame.points_m, found.pose)
     away = between(expected, found.pose)
     far = math.hypot(away[0], away[1]) / reach[0], abs(float(away[2])) / reach[1]
     # What fits best at the edge of the window fits better outside of it.
-    cost = costs * (far[0] ** 2 + far[1] ** 2) if max(far) < 1.5 else math.inf
+    is_near = max(far) < settings.weighing.most_edges
+    cost = costs * (far[0] ** 2 + far[1] ** 2) if is_near else math.inf
     return _Weight(found, found.score - against - cost)
 
 
-def _is_apart(one: Poses, other: Poses) -> bool:
+def _is_apart(one: Poses, other: Poses, settings: WeighingSettings) -> bool:
     away = between(one, other)
-    return bool(math.hypot(away[0], away[1]) > _APART_M or abs(away[2]) > _APART_RAD)
+    is_far = math.hypot(away[0], away[1]) > settings.apart_m
+    return bool(is_far or abs(away[2]) > settings.apart_rad)
