@@ -147,6 +147,7 @@ DRIVING = (
         entry="gazelle.nodes.twist_mux.marker:run",
         does="shows a velocity command as an arrow",
         is_light=True,
+        parameters="gazelle.nodes.twist_mux.marker:PARAMETERS",
         topics=(
             publishes("marker", "visualization_msgs/msg/Marker"),
             listens("twist", "geometry_msgs/msg/Twist"),
@@ -181,6 +182,7 @@ DRIVING = (
         entry="gazelle.nodes.joy.node:run",
         does="publishes what a joystick does",
         is_light=True,
+        parameters="gazelle.nodes.joy.options:PARAMETERS",
         aliases=(NodeName("joy_linux", "joy_linux_node", ROS_2),),
         topics=(publishes("joy", "sensor_msgs/msg/Joy"),),
     ),
@@ -198,6 +200,7 @@ DRIVING = (
         entry="gazelle.nodes.teleop.joystick:run",
         does="drives any robot by a joystick",
         is_light=True,
+        parameters="gazelle.nodes.teleop.joystick:PARAMETERS",
         name="teleop_twist_joy_node",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),

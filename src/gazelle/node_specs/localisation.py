@@ -123,6 +123,7 @@ LOCALISATION = (
         entry="gazelle.nodes.fake_localization:run",
         does="gives the simulator's true pose in the place of amcl's",
         is_light=True,
+        parameters="gazelle.nodes.fake_localization:PARAMETERS",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
@@ -165,6 +166,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.flattening:run_depth",
         does="makes scans of depth pictures",
         is_light=True,
+        parameters="gazelle.nodes.filters.flattening:DEPTH_PARAMETERS",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),
             listens("camera_info", "sensor_msgs/msg/CameraInfo"),
@@ -179,6 +181,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.flattening:run_depth",
         does="makes scans of depth pictures, ROS 2's name",
         is_light=True,
+        parameters="gazelle.nodes.filters.flattening:DEPTH_PARAMETERS",
         name="depthimage_to_laserscan",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),
@@ -193,6 +196,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.flattening:run_clouds",
         does="makes scans of point clouds",
         is_light=True,
+        parameters="gazelle.nodes.filters.flattening:CLOUD_PARAMETERS",
         name="pointcloud_to_laserscan",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),

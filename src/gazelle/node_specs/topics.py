@@ -69,6 +69,7 @@ TOPICS = (
         entry="gazelle.nodes.topic_tools:run_relay",
         does="publishes every message of a topic again",
         is_light=True,
+        parameters="gazelle.nodes.topic_tools:PARAMETERS",
         role=NodeRole.RELAY,
     ),
     NodeSpec(
@@ -77,6 +78,7 @@ TOPICS = (
         entry="gazelle.nodes.topic_tools:run_throttle",
         does="publishes so many messages a second of a topic",
         is_light=True,
+        parameters="gazelle.nodes.topic_tools:PARAMETERS",
         role=NodeRole.RELAY,
     ),
     NodeSpec(
@@ -85,6 +87,7 @@ TOPICS = (
         entry="gazelle.nodes.topic_tools:run_drop",
         does="leaves out some messages of a topic",
         is_light=True,
+        parameters="gazelle.nodes.topic_tools:PARAMETERS",
         role=NodeRole.RELAY,
     ),
     NodeSpec(
@@ -111,6 +114,7 @@ TOPICS = (
         entry="gazelle.nodes.topic_mux:run_mux",
         does="publishes one of several topics, which services select",
         is_light=True,
+        parameters="gazelle.nodes.topic_mux:PARAMETERS",
         topics=(publishes("mux/selected", "std_msgs/msg/String"),),
         services=(
             offers("mux/add", "topic_tools/srv/MuxAdd"),
@@ -128,6 +132,7 @@ TOPICS = (
         entry="gazelle.nodes.topic_mux:run_demux",
         does="publishes a topic as one of several, which services select",
         is_light=True,
+        parameters="gazelle.nodes.topic_mux:PARAMETERS",
         topics=(publishes("demux/selected", "std_msgs/msg/String"),),
         services=(
             offers("demux/add", "topic_tools/srv/DemuxAdd"),

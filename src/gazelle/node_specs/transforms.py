@@ -13,6 +13,7 @@ TRANSFORMS = (
         entry="gazelle.studio.views.companions:joint_state_publisher",
         does="publishes joint states of a robot description, with sliders if use_gui is true",
         is_light=True,
+        parameters="gazelle.nodes.joint_state_publisher:PARAMETERS",
         role=NodeRole.JOINT_STATES,
         topics=(
             publishes("joint_states", "sensor_msgs/msg/JointState"),
@@ -25,6 +26,7 @@ TRANSFORMS = (
         entry="gazelle.nodes.robot_state_publisher:run",
         does="turns joint states into tf",
         is_light=True,
+        parameters="gazelle.nodes.robot_state_publisher:PARAMETERS",
         aliases=(NodeName("robot_state_publisher", "state_publisher", ROS_1),),
         role=NodeRole.STATE_PUBLISHER,
         topics=(
@@ -40,6 +42,7 @@ TRANSFORMS = (
         entry="gazelle.nodes.tf_remap:run",
         does="publishes transforms with other names of frames",
         is_light=True,
+        parameters="gazelle.nodes.tf_remap:PARAMETERS",
         name="tf_remapper",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),

@@ -1,11 +1,5 @@
 """``fake_localization``: a simulator's true pose in the place of amcl's (ROS 1 noetic).
 
-| parameter | default | meaning |
-| --- | --- | --- |
-| odom_frame_id, base_frame_id, global_frame_id | odom, base_link, /map | frames |
-| delta_x, delta_y, delta_yaw | 0 | where the map's origin lies in the simulator's world (m, rad) |
-| transform_tolerance | 0.1 | the transform is dated so far ahead (s) |
-
 Listens to ``base_pose_ground_truth`` and ``initialpose``; publishes ``amcl_pose``,
 ``particlecloud`` with one pose, and the transform from map to odometry. A message waits until the
 robot's odometry at its time is known.
@@ -24,9 +18,26 @@ from gazelle.interfaces.poses import set_pose, unit_pose_of
 from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "fake_localization",
+    "A simulator's true pose in the place of amcl's.",
+    ("fake_localization/fake_localization",),
+    (
+        Parameter("odom_frame_id", "text", "odom", "frame of odometry"),
+        Parameter("base_frame_id", "text", "base_link", "the robot's frame"),
+        Parameter("global_frame_id", "text", "/map", "the map's frame"),
+        Parameter("delta_x", "number", 0.0, "the map's origin in the simulator's world", "m"),
+        Parameter("delta_y", "number", 0.0, "the same across", "m"),
+        Parameter("delta_yaw", "number", 0.0, "the same as a turn", "rad"),
+        Parameter("transform_tolerance", "number", 0.1, "how far ahead transforms are dated", "s"),
+    ),
+)
 
 _POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 _WAITING = 100
@@ -45,21 +56,17 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 class _FakeLocalization:
     def __init__(self, node: Node, arguments: NodeArguments) -> None:
-        def frame(name: str, default: str) -> str:
-            return str(private(node, arguments, name, default))
-
-        def number(name: str, default: float = 0.0) -> float:
-            return private_number(node, arguments, name, default)
-
-        self._shown_frame = frame("global_frame_id", "/map")
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            self._shown_frame = own.text("global_frame_id")
+            self._odom = own.text("odom_frame_id").removeprefix("/")
+            self._base = own.text("base_frame_id").removeprefix("/")
+            self._ahead_ns = round(own.number("transform_tolerance") * _NANO)
+            # As in the original: turned back and moved back, without one turning the other.
+            self._T_map_world = Pose.from_xyz_rpy(
+                (-own.number("delta_x"), -own.number("delta_y"), 0.0),
+                (0.0, 0.0, -own.number("delta_yaw")),
+            )
         self._map = self._shown_frame.removeprefix("/")
-        self._odom = frame("odom_frame_id", "odom").removeprefix("/")
-        self._base = frame("base_frame_id", "base_link").removeprefix("/")
-        self._ahead_ns = round(number("transform_tolerance", 0.1) * _NANO)
-        # As in the original: turned back and moved back, without one turning the other.
-        self._T_map_world = Pose.from_xyz_rpy(
-            (-number("delta_x"), -number("delta_y"), 0.0), (0.0, 0.0, -number("delta_yaw"))
-        )
         self._frames = Frames(node)
         self._tf = TransformBroadcaster(node)
         self._lock = threading.Lock()

@@ -1,19 +1,5 @@
 """``joint_state_publisher``: states for every joint of a robot that nothing else moves.
 
-Parameters (wiki: joint_state_publisher):
-
-| name | default | meaning |
-| --- | --- | --- |
-| robot_description | – | the robot, searched upwards from the node's namespace |
-| ~rate | 10 | Hz |
-| ~source_list | [] | topics of JointState whose values are passed on |
-| ~zeros | {} | value for a joint where nothing moves it |
-| ~dependent_joints | {} | {joint: {parent, factor, offset}} |
-| ~use_mimic_tags | true | follow ``<mimic>`` |
-| ~publish_default_positions | true | send positions |
-| ~publish_default_velocities | false | send zero velocities |
-| ~publish_default_efforts | false | send zero efforts |
-
 ROS 2's node takes a file as its first argument too, and without a robot waits for the topic
 ``robot_description``.
 
@@ -34,9 +20,35 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private, start_node, ticks
+from gazelle.nodes.reading import private_parameters
 from gazelle.nodes.tree import published_robot_of, robot_of
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["default_position", "run"]
+__all__ = ["PARAMETERS", "default_position", "run"]
+
+PARAMETERS = ParameterTable(
+    "joint_state_publisher",
+    "Publishes states for every joint of a robot that nothing else moves.",
+    (
+        "joint_state_publisher/joint_state_publisher",
+        "joint_state_publisher_gui/joint_state_publisher_gui",
+    ),
+    (
+        Parameter("robot_description", "text", None, "the robot, searched upwards in ROS 1"),
+        Parameter("rate", "number", 10.0, "how often states are sent", "Hz"),
+        Parameter("source_list", "texts", (), "topics of JointState that are passed on"),
+        Parameter("zeros", "group", None, "values of joints that nothing moves"),
+        Parameter("dependent_joints", "group", None, "`{joint: {parent, factor, offset}}`"),
+        Parameter("use_mimic_tags", "flag", True, "follow `<mimic>`"),
+        Parameter("publish_default_positions", "flag", True, "send positions"),
+        Parameter("publish_default_velocities", "flag", False, "send velocities of 0"),
+        Parameter("publish_default_efforts", "flag", False, "send efforts of 0"),
+        Parameter("use_gui", "flag", False, "show the sliders, as up to ROS Melodic"),
+        *refused("joints stand where nothing moves them", "delta"),
+        *refused("limits have no part in what is sent", "use_smallest_joint_limits"),
+        *refused("the page shows what fits", "num_rows"),
+    ),
+)
 
 _MOVING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC})
 
@@ -62,8 +74,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         node.shutdown()
         return 0 if stop.is_set() else 1
     publisher = _Publisher(node, arguments, model)
-    period_ns = int(1e9 / float(private(node, arguments, "rate", 10)))
-    for _ in ticks(node, period_ns, stop):
+    for _ in ticks(node, publisher.period_ns, stop):
         publisher.publish()
     node.shutdown()
     return 0
@@ -83,8 +94,18 @@ class _Publisher:
         self._node = node
         self._type: Any = message_type("sensor_msgs/msg/JointState")
         self._out = node.create_publisher("joint_states", self._type, queue_size=5)
+        # Joints' names may have dots and slashes, which a reader takes for branches.
         zeros = private(node, arguments, "zeros", {})
-        self._dependents = _dependents(node, arguments, model)
+        dependents = private(node, arguments, "dependent_joints", {})
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            self.period_ns = int(1e9 / own.number("rate"))
+            use_mimics = own.flag("use_mimic_tags")
+            self._with = {
+                word: own.flag(f"publish_default_{word}")
+                for word in ("positions", "velocities", "efforts")
+            }
+            sources = own.texts("source_list")
+        self._dependents = _dependents(dependents, model, use_mimics=use_mimics)
         self._positions = {
             joint.name: default_position(joint, zeros)
             for joint in model.joints
@@ -95,16 +116,12 @@ class _Publisher:
             for joint in model.joints
             if joint.name in self._positions or joint.name in self._dependents
         ]
-        self._with = {
-            word: bool(private(node, arguments, f"publish_default_{word}", word == "positions"))
-            for word in ("positions", "velocities", "efforts")
-        }
         # On a busy machine messages of our own come back only after more of them were sent.
         self._sent: deque[Any] = deque(maxlen=_UNHEARD)
         self._sending = threading.Lock()
         self._foreign: set[str] = set()
         node.create_subscription("joint_states", self._type, self._on_others)
-        for topic in private(node, arguments, "source_list", []):
+        for topic in sources:
             node.create_subscription(topic, self._type, self._on_source)
 
     def publish(self) -> None:
@@ -160,12 +177,14 @@ class _Publisher:
                 self._positions[name] = float(position)
 
 
-def _dependents(node: Node, arguments: NodeArguments, model: Model) -> dict[str, _Dependent]:
+def _dependents(
+    given: Mapping[str, Any], model: Model, *, use_mimics: bool
+) -> dict[str, _Dependent]:
     found = {
         name: _Dependent(item["parent"], float(item.get("factor", 1)), float(item.get("offset", 0)))
-        for name, item in private(node, arguments, "dependent_joints", {}).items()
+        for name, item in given.items()
     }
-    if private(node, arguments, "use_mimic_tags", True):
+    if use_mimics:
         for joint in model.joints:
             if joint.mimic is not None and joint.name not in found:
                 mimic = joint.mimic

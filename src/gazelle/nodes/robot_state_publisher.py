@@ -1,18 +1,8 @@
 """``robot_state_publisher``: joint states and a robot description become tf.
 
-Parameters (wiki: robot_state_publisher):
-
-| name | default | meaning |
-| --- | --- | --- |
-| robot_description | – | the robot, searched upwards from the node's namespace |
-| ~publish_frequency | 50 | Hz, the most that one joint is published |
-| ~use_tf_static | true | fixed joints go to /tf_static, once and latched |
-| ~ignore_timestamp | false | publish every message, however fast |
-| ~tf_prefix | "" | put before every frame, with a slash between |
-
 ROS 2's node of the same name differs: the description may be a file named on the command line,
-``publish_frequency`` is 20 Hz by default, ``frame_prefix`` is put before frames as it is, and the
-description is published, latched, on ``robot_description``.
+``frame_prefix`` is put before frames as it is, and the description is published, latched, on
+``robot_description``.
 """
 
 from __future__ import annotations
@@ -26,7 +16,8 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.reading import private_parameters
 from gazelle.nodes.tree import (
     DESCRIPTION,
     TreeJoint,
@@ -36,10 +27,34 @@ from gazelle.nodes.tree import (
     segment_names,
     take_description_file,
 )
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["StateToTf", "run"]
+__all__ = ["PARAMETERS", "StateToTf", "run"]
 
-_FREQUENCY_HZ = {1: 50.0, 2: 20.0}
+PARAMETERS = ParameterTable(
+    "robot_state_publisher",
+    "Joint states and a robot's description become tf.",
+    ("robot_state_publisher/robot_state_publisher",),
+    (
+        Parameter(
+            "robot_description", "text", None, "the robot; ROS 1 looks in the namespaces above, too"
+        ),
+        Parameter(
+            "publish_frequency", "number", 50.0, "the most that one joint is published", "Hz",
+            ros2_default=20.0,
+        ),
+        Parameter("use_tf_static", "flag", True, "fixed joints go to `/tf_static`, once, latched"),
+        Parameter("ignore_timestamp", "flag", False, "publish every message, however fast"),
+        Parameter(
+            "tf_prefix", "text", "", "put before every frame, with a slash between",
+            generations=(1,),
+        ),
+        Parameter(
+            "frame_prefix", "text", "", "put before every frame as it is", generations=(2,)
+        ),
+    ),
+)  # fmt: skip
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -54,32 +69,30 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     if text is None or model is None:
         node.shutdown()
         return 1
-    frequency_hz = private_number(
-        node, arguments, "publish_frequency", _FREQUENCY_HZ[arguments.generation]
-    )
-    states = StateToTf(
-        joint_tree(model),
-        prefix=_prefix(node, arguments),
-        period_ns=int(1e9 / frequency_hz),
-        ignore_timestamp=bool(private(node, arguments, "ignore_timestamp", False)),
-    )
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        states = StateToTf(
+            joint_tree(model),
+            prefix=_prefix(own, arguments),
+            period_ns=int(1e9 / own.number("publish_frequency")),
+            ignore_timestamp=own.flag("ignore_timestamp"),
+        )
+        is_static = own.flag("use_tf_static")
     if ros2:
         for name in segment_names(model):
             node.log("info", f"got segment {name}")
         kind: Any = message_type("std_msgs/msg/String")
         node.create_publisher(DESCRIPTION, kind, latch=True).publish(kind(data=text))
-    is_static = bool(private(node, arguments, "use_tf_static", True))
     _connect(node, states, is_static, _begin_ns(node, arguments))
     stop.wait()
     node.shutdown()
     return 0
 
 
-def _prefix(node: Node, arguments: NodeArguments) -> str:
+def _prefix(own: ParameterReader, arguments: NodeArguments) -> str:
     """Return what stands before every frame, a slash at its end included."""
     if arguments.generation == 2:
-        return str(private(node, arguments, "frame_prefix", ""))
-    prefix = str(private(node, arguments, "tf_prefix", "")).strip("/")
+        return own.text("frame_prefix")
+    prefix = own.text("tf_prefix").strip("/")
     return f"{prefix}/" if prefix else ""
 
 

@@ -11,9 +11,18 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "tf_remap",
+    "Publishes `/tf_old` as `/tf` with other names of frames.",
+    ("tf/tf_remap",),
+    (Parameter("mappings", "any", None, "other names: a list of `{old: FRAME, new: FRAME}`"),),
+)
 
 _KIND = "tf2_msgs/msg/TFMessage"
 _QUEUE = 100
@@ -22,7 +31,8 @@ _QUEUE = 100
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Rename frames until told to stop."""
     node = start_node(arguments, graph)
-    names = _names(private(node, arguments, "mappings", []))
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        names = _names(own.raw("mappings"))
     shown = ", ".join(f"{old} → {new}" for old, new in names.items()) or "none"
     node.log("info", f"Applying the following mappings to incoming tf frame ids: {shown}")
     out = node.create_publisher("/tf", message_type(_KIND), queue_size=_QUEUE)

@@ -11,9 +11,21 @@ from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node, Publisher, Subscription
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["run_demux", "run_mux"]
+__all__ = ["PARAMETERS", "run_demux", "run_mux"]
+
+PARAMETERS = ParameterTable(
+    "mux and demux",
+    "One of several topics is let through at a time.",
+    ("topic_tools/mux", "topic_tools/demux"),
+    (
+        Parameter("initial_topic", "text", "", "the one at the start; the first one when empty"),
+        *refused("topics are listened to all the time", "lazy"),
+    ),
+)
 
 _NONE = "__none"
 _STRING = "std_msgs/msg/String"
@@ -23,7 +35,9 @@ def run_mux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
     """Publish what comes on the selected of several topics: ``mux OUT IN1 [IN2 …]``."""
     target, *sources = _words(arguments, "mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 [...]]")
     node = start_node(arguments, graph)
-    choice = _Choice(node, "mux", sources, private(node, arguments, "initial_topic", ""))
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        first = own.text("initial_topic")
+    choice = _Choice(node, "mux", sources, first)
     output = _Output(node)
     inputs: dict[str, Subscription] = {}
 
@@ -47,7 +61,9 @@ def run_demux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> 
     """Publish a topic as the selected of several: ``demux IN OUT1 [OUT2 …]``."""
     source, *targets = _words(arguments, "demux IN_TOPIC OUT_TOPIC1 [OUT_TOPIC2 [...]]")
     node = start_node(arguments, graph)
-    choice = _Choice(node, "demux", targets, private(node, arguments, "initial_topic", ""))
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        first = own.text("initial_topic")
+    choice = _Choice(node, "demux", targets, first)
     output = _Output(node)
 
     def take(message: Any) -> None:

@@ -13,9 +13,23 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, MessageInfo, Node, Publisher, RawMessage, Subscription
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["run_drop", "run_relay", "run_throttle"]
+__all__ = ["PARAMETERS", "run_drop", "run_relay", "run_throttle"]
+
+PARAMETERS = ParameterTable(
+    "relay, throttle and drop",
+    "Pass messages of any type on: all, so many a second, or all but some.",
+    ("topic_tools/relay", "topic_tools/throttle", "topic_tools/drop"),
+    (
+        Parameter("lazy", "flag", False, "listen only while somebody listens to what comes out"),
+        Parameter("wall_clock", "flag", False, "throttle by the machine's time"),
+        *refused("messages go the way that publisher and subscriber share", "unreliable"),
+        *refused("the topic is listened to itself", "stealth", "monitor_topic", "monitor_rate"),
+    ),
+)
 
 _Passes = Callable[[int], bool]
 _LOOK_S = 0.05
@@ -28,7 +42,9 @@ def run_relay(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> 
     """Publish every message again: ``relay IN [OUT]``."""
     words = _words(arguments, 1, "relay IN_TOPIC [OUT_TOPIC]")
     node = start_node(arguments, graph)
-    tool = _Tool(node, arguments, words, "_relay", lambda _size: True)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        lazy = own.flag("lazy")
+    tool = _Tool(node, lazy, words, "_relay", lambda _size: True)
     return tool.run(stop, lambda text: node.log("info", text))
 
 
@@ -47,11 +63,11 @@ def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) 
         _, topic, rate, window, *out = _words(arguments, 4, _THROTTLE)
         limits = (_number(rate, _THROTTLE), _number(window, _THROTTLE))
     node = start_node(arguments, graph)
-    now_ns = node.clock.now_ns
-    if private(node, arguments, "wall_clock", False):
-        now_ns = time.time_ns
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        now_ns = time.time_ns if own.flag("wall_clock") else node.clock.now_ns
+        lazy = own.flag("lazy")
     passes = _by_bytes(*limits, now_ns) if kind == "bytes" else _by_rate(node, limits[0], now_ns)
-    return _Tool(node, arguments, [topic, *out], "_throttle", passes).run(stop)
+    return _Tool(node, lazy, [topic, *out], "_throttle", passes).run(stop)
 
 
 def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -67,7 +83,9 @@ def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
         return place >= dropped
 
     node = start_node(arguments, graph)
-    return _Tool(node, arguments, [topic, *out], "_drop", passes).run(stop)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        lazy = own.flag("lazy")
+    return _Tool(node, lazy, [topic, *out], "_drop", passes).run(stop)
 
 
 def _by_rate(node: Node, rate_hz: float, now_ns: Callable[[], int]) -> _Passes:
@@ -110,7 +128,7 @@ class _Tool:
     def __init__(
         self,
         node: Node,
-        arguments: NodeArguments,
+        lazy: bool,
         topics: list[str],
         suffix: str,
         passes: _Passes,
@@ -120,7 +138,7 @@ class _Tool:
         self._source = topics[0]
         self._target = topics[1] if len(topics) > 1 else f"{topics[0]}{suffix}"
         self._passes = passes
-        self._lazy = bool(private(node, arguments, "lazy", False))
+        self._lazy = lazy
         self._publisher: Publisher | None = None
         self._subscription: Subscription | None = None
 

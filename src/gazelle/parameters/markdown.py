@@ -69,7 +69,10 @@ def _parameter_line(row: Parameter) -> str:
 
 def _honoured_line(row: Parameter) -> str:
     default = "" if row.default is None else f"`{row.default}`"
+    if row.ros2_default is not None:
+        default += f", in ROS 2 `{row.ros2_default}`"
     meaning = row.meaning.replace("|", "\\|") + (" *(live)*" if row.live else "")
+    meaning += only_in(row.generations)
     return _line([in_code(row.names), default, row.unit, meaning])
 
 

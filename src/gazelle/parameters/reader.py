@@ -235,6 +235,8 @@ class ParameterReader:
                 self._report_idle(name, value, row.meaning)
             elif row is None and value != {}:
                 self._report_unknown(name, others)
+            elif row is not None and self.generation not in (0, *row.generations):
+                self._report_idle(name, value, f"it is one of ROS {row.generations[0]}")
 
     def _report_unknown(self, name: str, others: tuple[str, ...]) -> None:
         known = (*self.table.keys(), *others)

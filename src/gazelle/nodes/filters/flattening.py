@@ -17,9 +17,52 @@ from gazelle.navigation.filters import FlatScan, scan_of_depth, scan_of_points
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.sensing import cloud_points
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["depth_of_image", "run_clouds", "run_depth"]
+__all__ = ["CLOUD_PARAMETERS", "DEPTH_PARAMETERS", "depth_of_image", "run_clouds", "run_depth"]
+
+DEPTH_PARAMETERS = ParameterTable(
+    "depthimage_to_laserscan",
+    "Makes scans of depth pictures.",
+    (
+        "depthimage_to_laserscan/depthimage_to_laserscan",
+        "depthimage_to_laserscan/depthimage_to_laserscan_node",
+    ),
+    (
+        Parameter("scan_height", "number", 1.0, "rows of the picture that count", "pixels"),
+        Parameter("scan_time", "number", 0.033, "of the message", "s"),
+        Parameter("range_min", "number", 0.45, "nearer is left out", "m"),
+        Parameter("range_max", "number", 10.0, "farther is left out", "m"),
+        Parameter(
+            "output_frame", "text", "camera_depth_frame", "frame of the scans",
+            aliases=("output_frame_id",),
+        ),
+    ),
+)  # fmt: skip
+
+CLOUD_PARAMETERS = ParameterTable(
+    "pointcloud_to_laserscan",
+    "Makes scans of point clouds.",
+    ("pointcloud_to_laserscan/pointcloud_to_laserscan_node",),
+    (
+        Parameter("target_frame", "text", "", "frame of the scans; the cloud's when empty"),
+        Parameter("min_height", "number", -math.inf, "lower points are left out", "m"),
+        Parameter("max_height", "number", math.inf, "higher points are left out", "m"),
+        Parameter("angle_min", "number", -math.pi, "first beam", "rad"),
+        Parameter("angle_max", "number", math.pi, "last beam", "rad"),
+        Parameter("angle_increment", "number", math.pi / 180, "from beam to beam", "rad"),
+        Parameter("scan_time", "number", 1 / 30, "of the message", "s"),
+        Parameter("range_min", "number", 0.0, "nearer is left out", "m"),
+        Parameter("range_max", "number", math.inf, "farther is left out", "m"),
+        Parameter("use_inf", "flag", True, "beams that meet nothing are infinite"),
+        Parameter("inf_epsilon", "number", 1.0, "else they are so much beyond range_max", "m"),
+        *refused("clouds are taken one after the other, as they come", "concurrency_level"),
+        *refused("two clouds may wait", "queue_size"),
+        *refused("transforms are waited for as long as clouds are", "transform_tolerance"),
+    ),
+)
 
 _METRES = {"32FC1": ("f4", 1.0), "16UC1": ("u2", 0.001), "mono16": ("u2", 0.001)}
 
@@ -55,15 +98,12 @@ def run_depth(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> 
 
 class _DepthToScan:
     def __init__(self, node: Node, arguments: NodeArguments) -> None:
-        def number(name: str, default: float) -> float:
-            return private_number(node, arguments, name, default)
-
-        self._rows = int(number("scan_height", 1))
-        self._limits = (
-            number("range_min", 0.45), number("range_max", 10.0), number("scan_time", 0.033)
-        )  # fmt: skip
-        frame = private(node, arguments, "output_frame_id", "camera_depth_frame")
-        self._frame = str(private(node, arguments, "output_frame", frame))
+        with private_parameters(node, arguments, DEPTH_PARAMETERS) as own:
+            self._rows = int(own.number("scan_height"))
+            self._limits = (
+                own.number("range_min"), own.number("range_max"), own.number("scan_time")
+            )  # fmt: skip
+            self._frame = own.text("output_frame")
         self._frames = Frames(node)
         self._info: Any = None
         self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
@@ -126,25 +166,24 @@ def run_clouds(arguments: NodeArguments, graph: Graph, stop: threading.Event) ->
 
 class _CloudToScan:
     def __init__(self, node: Node, arguments: NodeArguments) -> None:
-        def number(name: str, default: float) -> float:
-            return private_number(node, arguments, name, default)
-
-        infinite = bool(private(node, arguments, "use_inf", True))
-        nearest, farthest = number("range_min", 0.0), number("range_max", math.inf)
-        self._options = {
-            "angle_min_rad": number("angle_min", -math.pi),
-            "angle_max_rad": number("angle_max", math.pi),
-            "increment_rad": number("angle_increment", math.pi / 180),
-            "low_m": number("min_height", -math.inf),
-            "high_m": number("max_height", math.inf),
-            "range_min_m": nearest,
-            "range_max_m": farthest,
-            "empty": math.inf if infinite else farthest + number("inf_epsilon", 1.0),
-        }
+        with private_parameters(node, arguments, CLOUD_PARAMETERS) as own:
+            nearest, farthest = own.number("range_min"), own.number("range_max")
+            beyond = math.inf if own.flag("use_inf") else farthest + own.number("inf_epsilon")
+            self._options = {
+                "angle_min_rad": own.number("angle_min"),
+                "angle_max_rad": own.number("angle_max"),
+                "increment_rad": own.number("angle_increment"),
+                "low_m": own.number("min_height"),
+                "high_m": own.number("max_height"),
+                "range_min_m": nearest,
+                "range_max_m": farthest,
+                "empty": beyond,
+            }
+            time_s = own.number("scan_time")
+            self._target = own.text("target_frame")
         # What is wrong with them is told now, not with the first cloud.
         scan_of_points(np.zeros((0, 3)), **self._options)
-        self._limits = (nearest, farthest, number("scan_time", 1 / 30))
-        self._target = str(private(node, arguments, "target_frame", "") or "")
+        self._limits = (nearest, farthest, time_s)
         self._frames = Frames(node)
         self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
         kind = "sensor_msgs/msg/PointCloud2"

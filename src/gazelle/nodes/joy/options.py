@@ -24,7 +24,7 @@ from gazelle.nodes.reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["JoyOptions", "read_options"]
+__all__ = ["PARAMETERS", "JoyOptions", "read_options"]
 
 _FULL = 32767.0
 _MOST_DEADZONE = 0.9
@@ -40,7 +40,7 @@ _ROWS = (
     Parameter("sticky_buttons", "flag", False, "a press toggles"),
     *refused("the joystick is not shaken here", "dev_ff"),
 )
-_TABLE = ParameterTable("joy_node", "a joystick of the Linux kernel", ("joy/joy_node",), _ROWS)
+PARAMETERS = ParameterTable("joy_node", "a joystick of the Linux kernel", ("joy/joy_node",), _ROWS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ def read_options(
         generation: of ROS.
         found: receives what is wrong.
     """
-    settings = node_reader(_TABLE, tree, name, found)
+    settings = node_reader(PARAMETERS, tree, name, found)
     is_ros2 = generation == 2
     path = Path(settings.text("dev"))
     if is_ros2 and not settings.has("dev"):

@@ -34,7 +34,7 @@ from gazelle.nodes.reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 
-__all__ = ["JoyDriving", "read_driving", "run"]
+__all__ = ["PARAMETERS", "JoyDriving", "read_driving", "run"]
 
 _LINEAR, _ANGULAR = ("x", "y", "z"), ("yaw", "pitch", "roll")
 _FIELDS = (*_LINEAR, *_ANGULAR)
@@ -76,7 +76,7 @@ _ROWS = (
         for field in fields
     ),
 )
-_TABLE = ParameterTable(
+PARAMETERS = ParameterTable(
     "teleop_node", "axes as velocities", ("teleop_twist_joy/teleop_node",), _ROWS
 )
 
@@ -135,7 +135,7 @@ def read_driving(
         is_ros2: its defaults are ROS 2's.
     """
     whole = dict(tree) if is_ros2 else _ros1_tree(tree)
-    settings = node_reader(_TABLE, whole, name, found)
+    settings = node_reader(PARAMETERS, whole, name, found)
 
     def by_field(read: Any, linear: str, angular: str) -> dict[str, Any]:
         return {field: read(f"{linear if field in _LINEAR else angular}.{field}")

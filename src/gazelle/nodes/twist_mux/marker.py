@@ -18,10 +18,26 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
 from gazelle.nodes.twist_mux.stamped import is_stamped
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "twist_marker",
+    "Shows velocities as an arrow.",
+    ("twist_mux/twist_marker",),
+    (
+        Parameter("scale", "number", 1.0, "how wide the arrow is"),
+        Parameter("frame_id", "text", "base_footprint", "the robot's frame"),
+        Parameter("vertical_position", "number", 2.0, "where the arrow begins", "m"),
+        Parameter(
+            "use_stamped", "any", None, "velocities have stamps; from Jazzy on they have by default"
+        ),
+    ),
+)
 
 _ARROW = 0
 
@@ -31,10 +47,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     marker: Any = message_type("visualization_msgs/msg/Marker")()
     point: Any = message_type("geometry_msgs/msg/Point")
-    scale = private_number(node, arguments, "scale", 1.0)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        scale = own.number("scale")
+        marker.header.frame_id = own.text("frame_id")
+        marker.pose.position.z = own.number("vertical_position")
     marker.type = _ARROW
-    marker.header.frame_id = str(private(node, arguments, "frame_id", "base_footprint"))
-    marker.pose.position.z = private_number(node, arguments, "vertical_position", 2.0)
     marker.pose.orientation.w = 1.0
     marker.scale.x, marker.scale.y = 0.05 * scale, 0.1 * scale
     marker.color.a = marker.color.g = 1.0

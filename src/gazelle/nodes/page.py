@@ -1,0 +1,41 @@
+"""The page of nodes' parameters: ``python -m gazelle.nodes.page > docs/nodes.md``."""
+
+from __future__ import annotations
+
+import sys
+
+from gazelle.node_specs.all_specs import node_specs
+from gazelle.node_specs.spec import resolved
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.markdown import table_section
+
+__all__ = ["page"]
+
+_INTRODUCTION = (
+    "# Nodes: parameters\n\nGenerated from the tables that the nodes read; do not edit"
+    " (`python -m gazelle.nodes.page > docs/nodes.md`). Names are those below a node's own (`~`)."
+    " Parameters without effect are told when they are set, with the reason, and so are names that"
+    " are not listed. Nodes of [navigation](navigation.md) and [SLAM](slam.md) have pages of their"
+    " own."
+)
+# What the pages of navigation and SLAM are made of.
+_ELSEWHERE = ("frontier_exploration", "move_base", "nav2", "slam")
+
+
+def page() -> str:
+    """Return the page."""
+    return "\n\n".join([_INTRODUCTION, *map(table_section, _tables())]) + "\n"
+
+
+def _tables() -> list[ParameterTable]:
+    """Return the tables of the nodes' rows, each once."""
+    found: dict[str, ParameterTable] = {}
+    for spec in node_specs():
+        place = str(spec.parameters or "").removeprefix("gazelle.nodes.").partition(".")[0]
+        if spec.parameters and place not in _ELSEWHERE:
+            found.setdefault(spec.parameters, resolved(spec.parameters))
+    return list(found.values())
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page())

@@ -1,0 +1,69 @@
+"""What lies below a node's name is read by its table, and what is wrong with it is logged."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.nodes import reading
+from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable, refused
+
+_TABLE = ParameterTable(
+    "thing",
+    "A thing.",
+    ("pkg/thing",),
+    (
+        Parameter("rate", "number", 50.0, "how often", "Hz", ros2_default=20.0),
+        Parameter("prefix", "text", "", "before frames", generations=(1,)),
+        *refused("there is no such thing here", "ghost"),
+    ),
+)
+
+
+@pytest.fixture
+def said(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    found: list[str] = []
+
+    def log(_node: Any, diagnostics: Diagnostics) -> None:
+        found.extend(f"{item.code} {item.message}" for item in diagnostics)
+
+    monkeypatch.setattr(reading, "log_findings", log)
+    return found
+
+
+def _rate(bench: Any, *words: str) -> float:
+    arguments = read_arguments(list(words), "thing")
+    node = start_node(arguments, bench.graph)
+    with private_parameters(node, arguments, _TABLE) as own:
+        return own.number("rate")
+
+
+def test_the_command_line_counts_more_than_the_store(bench: Any, said: list[str]) -> None:
+    bench.graph.parameters.set("/thing", {"rate": 5, "prefix": "a"})
+    assert _rate(bench, "_rate:=7") == 7.0
+    assert not said
+
+
+def test_what_is_wrong_is_logged_once_with_the_node_s_name(bench: Any, said: list[str]) -> None:
+    bench.graph.parameters.set("/thing", {"rate": "fast", "raet": 5, "ghost": 1})
+    assert _rate(bench) == 50.0
+    assert said == [
+        "parameter.bad-value /thing: parameter 'rate' is 'fast', not a number; 50.0 is used",
+        "parameter.unknown /thing: parameter 'raet' is not one of thing; it has no effect",
+        "parameter.idle /thing: parameter 'ghost' (1) has no effect here: there is no such thing"
+        " here",
+    ]
+
+
+def test_a_node_of_ros2_has_its_own_defaults_and_not_ros1_s_names(
+    bench: Any, said: list[str]
+) -> None:
+    assert _rate(bench, "--ros-args", "-p", "prefix:=a") == 20.0
+    assert said == [
+        "parameter.idle /thing: parameter 'prefix' ('a') has no effect here: it is one of ROS 1"
+    ]
