@@ -8,6 +8,7 @@ from pathlib import Path
 from gazelle.compat.refused_page import refused_markdown
 from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.docs import catalogue_markdown
+from gazelle.node_specs.page import nodes_markdown
 
 ROOT = Path(__file__).parents[1]
 _TEST = re.compile(r"`((?:tests|benchmarks)/[\w/.]+)`")
@@ -23,6 +24,12 @@ def test_page_of_refused_names_is_generated_from_their_tables() -> None:
     page = (ROOT / "docs" / "python_names.md").read_text(encoding="utf-8")
     command = "python -m gazelle.compat.refused_page > docs/python_names.md"
     assert page == refused_markdown(), f"run: {command}"
+
+
+def test_page_of_nodes_is_generated_from_their_rows() -> None:
+    page = (ROOT / "docs" / "builtin_nodes.md").read_text(encoding="utf-8")
+    command = "python -m gazelle.node_specs.page > docs/builtin_nodes.md"
+    assert page == nodes_markdown(), f"run: {command}"
 
 
 def test_every_code_is_used_in_the_source_and_named_in_a_test() -> None:

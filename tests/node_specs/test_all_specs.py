@@ -5,7 +5,12 @@ from __future__ import annotations
 import pytest
 
 from gazelle.interfaces import action_type, message_type, service_type
-from gazelle.node_specs.all_specs import builtin_executables, node_spec, node_specs
+from gazelle.node_specs.all_specs import (
+    builtin_executables,
+    names_of_other_ros,
+    node_spec,
+    node_specs,
+)
 from gazelle.node_specs.spec import resolved
 
 
@@ -57,3 +62,11 @@ def test_types_that_rows_name_are_known() -> None:
             (action_type, node.actions),
         ):
             assert all(kind(row.type) for row in rows)
+
+
+def test_names_that_only_the_other_ros_has_are_told_by_package_and_executable() -> None:
+    only_1, only_2 = names_of_other_ros(2), names_of_other_ros(1)
+    assert ("rviz", "") in only_1 and ("rviz2", "") in only_2
+    assert ("teleop_twist_keyboard", "teleop_twist_keyboard.py") in only_1
+    assert ("teleop_twist_keyboard", "teleop_twist_keyboard") in only_2
+    assert not {("teleop_twist_keyboard", ""), ("turtlesim", "mimic")} & (only_1 | only_2)

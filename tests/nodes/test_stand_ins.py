@@ -20,12 +20,10 @@ from gazelle.workspace import Workspace
 from gazelle.workspace.ament_index import get_package_share_directory
 from gazelle.workspace.search_path import BUILTIN
 
-# Their launch files and robots come with the user's own copy of the package.
-OF_THE_USER = ("turtlebot3_",)
 # Gazelle's own types, and a package that every beginner makes.
 NOT_OF_ROS = {"gazelle_msgs", "beginner_tutorials"}
 DEFINITIONS = Path(gazelle.interfaces.__file__).parent / "definitions"
-NODES = {package for package in builtin_packages() if not package.startswith(OF_THE_USER)}
+NODES = set(builtin_packages())
 TYPES = {path.stem for path in DEFINITIONS.rglob("*.txt")} - NOT_OF_ROS
 FILES = (
     "amcl/examples/amcl_diff.launch",

@@ -86,6 +86,16 @@ def test_a_missing_file_names_its_neighbours(workspace, robot):
     assert "did you mean 'package://robot/meshes/Base.STL'?" in found.explain("package://…")
 
 
+def test_a_file_that_only_the_original_of_a_stand_in_has_says_where_to_put_it(workspace):
+    found = workspace.resolve("package://turtlebot3_teleop/launch/turtlebot3_teleop_key.launch")
+    assert found.path is None
+    assert found.note == (
+        "package 'turtlebot3_teleop' has no 'launch/turtlebot3_teleop_key.launch'; this "
+        "'turtlebot3_teleop' is Gazelle's and stands in for the original; put the original's "
+        "folder into your workspace's src for its other files"
+    )
+
+
 def test_a_missing_package_names_the_places(workspace, tmp_path):
     found = workspace.resolve("package://robto/meshes/Base.STL")
     assert found.path is None

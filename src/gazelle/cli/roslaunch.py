@@ -116,12 +116,13 @@ def _in_package(name: str, file: str, workspace: Workspace) -> Path:
     if found:
         return found[0]
     existing = sorted({path.name for path in package.path.rglob("*.launch")})
+    there = f"launch files there: {', '.join(existing) or 'none'}"
     raise NotFoundError(
         "launch file",
         file,
         searched=[str(package.path)],
         nearest=[item for item in existing if did_you_mean(file, [item])],
-        hint=f"launch files there: {', '.join(existing) or 'none'}",
+        hint="\n  ".join(filter(None, (there, package.note_on_files))),
     )
 
 

@@ -17,7 +17,13 @@ from gazelle.node_specs.transforms import TRANSFORMS
 from gazelle.node_specs.turtles import TURTLES
 from gazelle.node_specs.windows import WINDOWS
 
-__all__ = ["builtin_executables", "builtin_packages", "node_spec", "node_specs"]
+__all__ = [
+    "builtin_executables",
+    "builtin_packages",
+    "names_of_other_ros",
+    "node_spec",
+    "node_specs",
+]
 
 _SPECS = (
     *SIMULATION,
@@ -56,6 +62,19 @@ def builtin_executables(package: str) -> tuple[str, ...]:
 def builtin_packages() -> frozenset[str]:
     """Return the packages that have built-in nodes, or installed ones."""
     return frozenset(package for package, _executable in (*_by_name(), *installed_names()))
+
+
+@cache
+def names_of_other_ros(ros_version: int) -> frozenset[tuple[str, str]]:
+    """Return packages and executables that only the other version of ROS has.
+
+    A package all of whose executables are such stands there once more, with an empty executable.
+    """
+    names = [name for spec in _SPECS for name in spec.names]
+    own = {name.package for name in names if ros_version in name.ros}
+    others = [name for name in names if ros_version not in name.ros]
+    packages = {(name.package, "") for name in others if name.package not in own}
+    return frozenset(packages | {(name.package, name.executable) for name in others})
 
 
 @cache

@@ -52,6 +52,16 @@ class Package:
         return 2 if self.build_type.startswith("ament") else None
 
     @property
+    def note_on_files(self) -> str:
+        """What to say of a file that it has not: the original may, where this one stands in."""
+        if not self.is_builtin:
+            return ""
+        return (
+            f"this '{self.name}' is Gazelle's and stands in for the original; put the original's "
+            "folder into your workspace's src for its other files"
+        )
+
+    @property
     def share(self) -> Path:
         """The folder that look-ups of the user's code get: files lie where installing puts them.
 

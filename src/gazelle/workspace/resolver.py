@@ -108,7 +108,8 @@ def _in_package(workspace: Workspace, name: str, inside: str) -> Resolved:
     if path is not None:
         return Resolved(path, tried, note=note)
     near = tuple(f"package://{name}/{item}" for item in nearest_below(package.path, inside))
-    return Resolved(None, tried, near, f"package '{name}' has no '{inside}'")
+    note = "; ".join(filter(None, (f"package '{name}' has no '{inside}'", package.note_on_files)))
+    return Resolved(None, tried, near, note)
 
 
 def _in_model(workspace: Workspace, name: str, inside: str, base_dir: Path | None) -> Resolved:

@@ -61,6 +61,15 @@ def test_packages_and_what_is_in_them(package: Path) -> None:
     assert candidates("rosrun", ["no_such_pkg", ""]) == []
 
 
+@pytest.mark.usefixtures("package")
+def test_built_in_nodes_are_those_of_the_commands_ros() -> None:
+    keyboard = "teleop_twist_keyboard"
+    assert candidates("rosrun", [keyboard, "teleop"]) == ["teleop_twist_keyboard.py"]
+    assert candidates("ros2", ["run", keyboard, "teleop"]) == ["teleop_twist_keyboard"]
+    assert candidates("roslaunch", ["turtlebot3_fa"]) == ["turtlebot3_fake"]
+    assert candidates("ros2", ["launch", "turtlebot3_fa"]) == ["turtlebot3_fake_node"]
+
+
 def test_names_of_the_graph(robot: Node, capsys: Any) -> None:
     robot.create_publisher("/cmd_vel", "geometry_msgs/Twist")
     assert main(["complete", "rostopic", "echo", "/cmd"]) == 0

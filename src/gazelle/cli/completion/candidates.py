@@ -68,7 +68,7 @@ def _found(command: str, words: list[str]) -> Iterable[str]:
     if command in _SHELL_FUNCTIONS:
         return package_names() if position == 1 else ()
     if command in {"rosrun", "roslaunch", "rosversion"}:
-        return _in_package(command, words)
+        return _in_package(command, words, 1)
     if command not in COMMANDS:
         return ()
     if command == "ros2":
@@ -82,15 +82,15 @@ def _ros2(words: list[str]) -> Iterable[str]:
     if len(words) == 1:
         return subcommands("ros2")
     if words[0] in {"run", "launch"}:
-        return _in_package({"run": "rosrun", "launch": "roslaunch"}[words[0]], words[1:])
+        return _in_package({"run": "rosrun", "launch": "roslaunch"}[words[0]], words[1:], 2)
     if len(words) == 2:
         return subcommands("ros2", words[:1])
     return named(words[0], words[1:], ros2=True)
 
 
-def _in_package(command: str, words: list[str]) -> Iterable[str]:
+def _in_package(command: str, words: list[str], ros_version: int) -> Iterable[str]:
     if len(words) == 1:
-        return package_names()
+        return package_names(ros_version)
     if command == "rosversion":
         return ()
     if len(words) > 2:
@@ -98,10 +98,12 @@ def _in_package(command: str, words: list[str]) -> Iterable[str]:
     package = Workspace.discover().packages.get(words[0])
     if command == "roslaunch":
         return {path.name for path in package.path.rglob("*.launch*")} if package else ()
-    from gazelle.node_specs.all_specs import builtin_executables
+    from gazelle.node_specs.all_specs import builtin_executables, names_of_other_ros
 
     files = package.executable_names if package else ()
-    return {*files, *builtin_executables(words[0])}
+    others = names_of_other_ros(ros_version)
+    builtin = [one for one in builtin_executables(words[0]) if (words[0], one) not in others]
+    return {*files, *builtin}
 
 
 def _starting(names: Iterable[str], start: str) -> list[str]:

@@ -10,6 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.interfaces import known_types
 from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.node_specs.all_specs import names_of_other_ros
 from gazelle.workspace import Workspace
 
 __all__ = ["launch_arguments", "named", "package_names"]
@@ -61,9 +62,17 @@ def launch_arguments(words: Sequence[str]) -> Iterable[str]:
     return [f"{one.name}:=" for one in config.args if one.value is None]
 
 
-def package_names() -> Iterable[str]:
-    """Return the names of all packages."""
-    return Workspace.discover().packages
+def package_names(ros_version: int | None = None) -> Iterable[str]:
+    """Return the names of all packages; of Gazelle's own only those of a version of ROS, if given.
+
+    Args:
+        ros_version: whose command is typed; None where it is that of both.
+    """
+    packages = Workspace.discover().packages
+    if ros_version is None:
+        return packages
+    others = names_of_other_ros(ros_version)
+    return [name for name, one in packages.items() if not (one.is_builtin and (name, "") in others)]
 
 
 def _types(parts: Iterable[str], *, ros2: bool) -> list[str]:

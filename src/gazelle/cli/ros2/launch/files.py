@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
-from gazelle.workspace.ament_index import get_package_share_directory
+from gazelle.workspace.ament_index import get_package_share_directory, known_workspace
 
 __all__ = ["is_launch_file", "launch_file_of", "launch_files_below"]
 
@@ -60,10 +60,12 @@ def _instead(share: str, package: str, name: str) -> str:
         # ROS 2 takes a bare name only.
         return f"\n  fix: ros2 launch {package} {direct.name}"
     names = sorted({path.name for path in launch_files_below(share)})
+    found = known_workspace().packages.get(package)
+    note = f"\n  {found.note_on_files}" if found is not None and found.note_on_files else ""
     if not names:
-        return f"\n  package '{package}' has no launch files"
+        return f"\n  package '{package}' has no launch files{note}"
     near = did_you_mean(name, names)
-    return f"\n  {near}" if near else f"\n  it has: {', '.join(names)}"
+    return f"\n  {near}" if near else f"\n  it has: {', '.join(names)}{note}"
 
 
 def _files_below(folder: str) -> list[Path]:
