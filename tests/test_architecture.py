@@ -13,6 +13,8 @@ ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "gazelle"
 LONGEST_FILE = 500
 LONGEST_FUNCTION = 40
+# Launch files and programs of built-in packages are read and run as users' are.
+OF_PACKAGES = "gazelle.workspace.builtin."
 # A text that is a module's name, with a function behind it, or with what a format string adds.
 _NAMED = re.compile(r"""["'](gazelle(?:\.\w+)+)(?::\w+)?[.:]?(?=["'{])""")
 
@@ -138,7 +140,7 @@ def _upwards(
     module: str, names: frozenset[str], layers: dict[str, int]
 ) -> Iterator[tuple[str, str]]:
     """Yield those names, with their layers, that lie above the layer of a module."""
-    if module == "gazelle":
+    if module == "gazelle" or module.startswith(OF_PACKAGES):
         return
     own = _layer_of(module, layers)
     for name in sorted(names):
