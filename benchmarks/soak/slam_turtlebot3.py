@@ -30,7 +30,7 @@ from gazelle.mapping.poses import between, compose, transform_points
 from gazelle.mapping.relations import alignment
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam import Slam, SlamResult
-from gazelle.nodes.slam.scan_messages import plane_pose, scan_of
+from gazelle.nodes.slam.scan_messages import scan_of
 from gazelle.simulator import Simulation
 from gazelle.simulator.messages import twist_message
 from gazelle.workspace import Workspace
@@ -109,8 +109,8 @@ def _recorded(sim: Simulation, tour: np.ndarray) -> Drive:
         pose = odometry[-1].pose.pose
         x, y, z, w = (getattr(pose.orientation, name) for name in "xyzw")
         odo = Pose((pose.position.x, pose.position.y, 0.0), (x, y, z, w))
-        records.append((scan_of(found[-1], T_base_laser), np.array(plane_pose(odo))))
-        truth.append(plane_pose(robot.link("base_footprint").pose))
+        records.append((scan_of(found[-1], T_base_laser), np.array(odo.xy_yaw)))
+        truth.append(robot.link("base_footprint").pose.xy_yaw)
     return Drive(records, np.array(truth), _cut(sim, mount.position_m[2]))
 
 
@@ -118,7 +118,7 @@ def _commands(robot: Any, tour: np.ndarray) -> Iterator[tuple[float, float]]:
     """Yield speeds, forward and turning, until the last place is reached."""
     for x, y in tour:
         while True:
-            pose = plane_pose(robot.link("base_footprint").pose)
+            pose = robot.link("base_footprint").pose.xy_yaw
             dx, dy = x - pose[0], y - pose[1]
             if math.hypot(dx, dy) < 0.15:
                 break
