@@ -8,9 +8,7 @@ import threading
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["LogStream", "tell_of_gap"]
-
-_told: set[str] = set()
+__all__ = ["GAPS", "Gaps", "LogStream"]
 
 
 class LogStream:
@@ -55,7 +53,7 @@ class LogStream:
             _write_all(self._descriptor, text.encode("utf-8", "replace"))
         except OSError as error:
             self._missing += 1
-            tell_of_gap(str(self.path), error)
+            GAPS.tell(str(self.path), error)
         else:
             self._missing = 0
 
@@ -65,12 +63,27 @@ def _write_all(descriptor: int, data: bytes) -> None:
         data = data[os.write(descriptor, data) :]
 
 
-def tell_of_gap(place: str, error: OSError) -> None:
-    """Say once on standard error that something is missing at a place; several may write there."""
-    if place in _told:
-        return
-    _told.add(place)
-    if sys.stderr is not None:
-        with suppress(OSError, ValueError):
-            text = f"{place}: {error.strerror}; what cannot be written is missing there"
-            sys.stderr.write(f"warning: {text}\n")
+class Gaps:
+    """Where something is missing that could not be written, said once of each place."""
+
+    def __init__(self) -> None:
+        """Begin with nothing said."""
+        self._told: set[str] = set()
+
+    def tell(self, place: str, error: OSError) -> None:
+        """Say on standard error that something is missing at a place; several may write there."""
+        if place in self._told:
+            return
+        self._told.add(place)
+        if sys.stderr is not None:
+            with suppress(OSError, ValueError):
+                text = f"{place}: {error.strerror}; what cannot be written is missing there"
+                sys.stderr.write(f"warning: {text}\n")
+
+    def reset(self) -> None:
+        """Forget what was said."""
+        self._told.clear()
+
+
+GAPS = Gaps()
+"""Those of this process."""

@@ -7,7 +7,7 @@ import sys
 from contextlib import suppress
 from logging.handlers import RotatingFileHandler, WatchedFileHandler
 
-from gazelle.log_files import tell_of_gap
+from gazelle.log_files import GAPS
 
 __all__ = ["RotatingLog", "WatchedLog"]
 
@@ -19,7 +19,7 @@ class _TellsOnce(logging.FileHandler):
         """Say what is wrong with the disk; leave other mistakes to logging."""
         error = sys.exc_info()[1]
         if isinstance(error, OSError):
-            tell_of_gap(self.baseFilename, error)
+            GAPS.tell(self.baseFilename, error)
         else:
             super().handleError(record)
 

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from gazelle.graph.console import Level, LogRecord, format_record, level_of, print_record
+from gazelle.log_files import GAPS
 
 RECORD = LogRecord(Level.INFO, "hello", "/ns/talker", 12_000_000_345, None, "", "a.py", "main", 7)
 
@@ -58,7 +59,7 @@ def test_a_full_disk_ends_nobody_who_writes_to_a_file(
         def flush(self) -> None:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr("gazelle.log_files._told", set())
+    GAPS.reset()
     monkeypatch.setattr(sys, "stdout", Full())
     for _ in range(2):
         print_record(LogRecord(Level.INFO, "here", "/node", wall_ns=0))

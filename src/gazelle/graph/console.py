@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TextIO
 
-from gazelle.log_files import tell_of_gap
+from gazelle.log_files import GAPS
 
 __all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
 
@@ -135,7 +135,7 @@ def _write(stream: TextIO, text: str) -> None:
         raise
     except OSError as error:
         # It goes to a file on a full disk, which is no reason to end.
-        tell_of_gap("standard output" if stream is sys.stdout else "standard error", error)
+        GAPS.tell("standard output" if stream is sys.stdout else "standard error", error)
 
 
 def _seconds(stamp_ns: int, digits: int) -> str:

@@ -23,16 +23,17 @@ _NUMBERS = {
     "uint32": np.uint32,
     "uint64": np.uint64,
 }
-_made: dict[type[Ros1Message], type[Ros1Message]] = {}
 
 
 def numpy_msg(msg_type: type[_M]) -> type[_M]:
-    """Return a subclass whose number arrays are numpy arrays when read."""
-    if msg_type not in _made:
+    """Return a subclass whose number arrays are numpy arrays when read; one for each class."""
+    # It is kept at its class: those of a bag's own types go with the bag.
+    made: type[_M] | None = vars(msg_type).get("_numpy_class")
+    if made is None:
         namespace = {"__slots__": (), "__getattribute__": _get}
         made = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), namespace)
-        _made[msg_type] = made
-    return _made[msg_type]  # type: ignore[return-value]
+        msg_type._numpy_class = made  # type: ignore[attr-defined]
+    return made
 
 
 def _get(self: Ros1Message, name: str) -> object:

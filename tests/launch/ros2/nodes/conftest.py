@@ -62,5 +62,4 @@ def _own_graph(free_port: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[None
     monkeypatch.setenv("GAZELLE_PORT", str(free_port))
     monkeypatch.delenv("GAZELLE_PARENT_PID", raising=False)
     yield
-    for graph in launch_graph._CARRIED:
-        graph.close()
+    launch_graph.drop_graph()

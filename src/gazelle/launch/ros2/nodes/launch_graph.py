@@ -13,7 +13,7 @@ from gazelle.launch.ros2.event_handlers import OnShutdown
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
 
-__all__ = ["call_while_running", "carry_graph", "launch_node"]
+__all__ = ["call_while_running", "carry_graph", "drop_graph", "launch_node"]
 
 _NODE = "launch_ros_node"
 _LOOK_S = 0.2
@@ -27,6 +27,12 @@ def carry_graph() -> Graph:
         known = Graph.open(role="hub")
         _CARRIED[:] = [known]
     return known
+
+
+def drop_graph() -> None:
+    """Carry the graph no longer; nothing happens where this process carries none."""
+    while _CARRIED:
+        _CARRIED.pop().close()
 
 
 def launch_node(context: LaunchContext) -> Node:
