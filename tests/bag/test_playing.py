@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.bag import Connection, Encoding
-from gazelle.bag.playing import Controls, Timeline
+from gazelle.bag.playing import Controls, Player, PlayOptions, Timeline
 from gazelle.cli import rosbag
 
 
@@ -73,3 +73,33 @@ def test_another_definition_is_told_when_a_bag_is_played(
     captured = capfd.readouterr()
     assert "[bag.other-definition]" in captured.err
     assert "Done." in captured.out
+
+
+def test_bags_that_define_a_type_differently_are_played_together(
+    tmp_path: Path, free_port: int
+) -> None:
+    from gazelle.bag import Storage, create_bag, open_bag
+    from gazelle.graph import Graph
+    from gazelle.interfaces import exists
+
+    told: list[str] = []
+    for name, kind, data in (("a", "int32", b"\1\0\0\0"), ("b", "int16", b"\2\0")):
+        one = Connection(
+            0, "/own", "torn_msgs/Own", Encoding.ROS1, f"{kind} data\n", name * 32, "/n"
+        )
+        writer = create_bag(tmp_path / f"{name}.bag", Storage.ROS1)
+        writer.write(writer.add(one), 5, data)
+        writer.close()
+    bags = [open_bag(tmp_path / f"{name}.bag") for name in "ab"]
+    with Graph.open(port=free_port) as graph:
+        got: list[bytes] = []
+        node = graph.create_node("player")
+        node.create_subscription(
+            "/own", None, lambda message: got.append(bytes(message.data)), raw=True, inline=True
+        )
+        say = (lambda _level, text: told.append(text), lambda *_args: None)
+        player = Player(node, bags, PlayOptions(immediate=True), Controls(), *say)
+        player.play()
+        assert len(player.publishers) == 2 and told == []
+    assert sorted(got) == [b"\0\1\0\0\1\0\0\0", b"\0\1\0\0\2\0"]
+    assert not exists("torn_msgs/Own")

@@ -12,7 +12,7 @@ import pytest
 from tests.graph.test_requests import HOSTILE
 from tests.patience import eventually, stretched
 
-from gazelle.bag import Connection, Encoding, Storage, create_bag, learn_definitions, open_bag
+from gazelle.bag import Connection, Encoding, Storage, create_bag, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.texts import TextShare, fetch_text
 from gazelle.graph import Graph
@@ -43,7 +43,6 @@ def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port:
     with Graph.open(port=free_port) as graph:
         recorder = subprocess.Popen([*command, *topics], cwd=tmp_path, env=environ)
         bag = open_bag(tmp_path / "in.bag")
-        learn_definitions(bag.connections)
         quiet = (lambda *_args: None, lambda *_args: None)
         node = graph.create_node("player")
         player = Player(node, [bag], PlayOptions(), Controls(), *quiet)

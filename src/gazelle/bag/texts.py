@@ -6,13 +6,14 @@ graph; who writes connections of ROS 1 asks once for each type.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bag.records import Connection, Encoding
 from gazelle.bag.types import learn_definitions
 from gazelle.errors import GazelleError
 from gazelle.graph.delivery import Mailbox
-from gazelle.interfaces import Generation, keep_text, kept_text, md5sum, type_hash
+from gazelle.interfaces import Generation, TypeStore, default_types, keep_text
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
@@ -29,11 +30,18 @@ _KEY = "@gazelle/{}/definition/{}"  # 1/pkg/Name/MD5 or 2/pkg/Name/HASH
 class TextShare:
     """Answers with the texts that came into this process."""
 
-    def __init__(self, graph: Graph) -> None:
-        """Start to answer."""
+    def __init__(self, graph: Graph, stores: Sequence[TypeStore] = ()) -> None:
+        """Start to answer.
+
+        Args:
+            graph: who may ask.
+            stores: have the texts, the first that knows a type answers; the process's own when
+                empty.
+        """
         import zenoh
 
-        self._mailbox = Mailbox(_answer, size=0, name="definition texts")
+        self._stores = stores or (default_types(),)
+        self._mailbox = Mailbox(self._answer, size=0, name="definition texts")
         # Direct: zenoh's own callback threads would keep a process from ending.
         callback = zenoh.handlers.Callback(self._mailbox.put, None, indirect=False)
         key = _KEY.format(graph.domain, "**")
@@ -43,6 +51,19 @@ class TextShare:
         """Answer no more."""
         self._queryable.undeclare()
         self._mailbox.close()
+
+    def _answer(self, query: Any) -> None:
+        start, _, rest = str(query.key_expr).rpartition("/definition/")
+        words = rest.split("/")
+        if len(words) == 4 and words[0] in ("1", "2"):
+            generation, name = Generation(int(words[0])), f"{words[1]}/{words[2]}"
+            for types in self._stores:
+                text, meaning = types.kept_text(name, generation), _meaning(types, name, generation)
+                if text and words[3] in (meaning, _ANY):
+                    key = f"{start}/definition/{words[0]}/{name}/{meaning}"
+                    query.reply(key, text.encode())
+                    break
+        query.drop()
 
 
 def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
@@ -55,7 +76,7 @@ def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
         name: ``pkg/Name``.
         generation: whose text.
     """
-    meaning = _meaning(name, generation)
+    meaning = _meaning(default_types(), name, generation)
     key = _KEY.format(graph.domain, f"{int(generation)}/{name}/{meaning or _ANY}")
     for reply in graph.session.get(key, timeout=_ASK_S):
         if reply.ok is None:
@@ -71,20 +92,8 @@ def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
 _ENCODINGS = {Generation.ROS1: Encoding.ROS1, Generation.ROS2: Encoding.CDR}
 
 
-def _meaning(name: str, generation: Generation) -> str:
+def _meaning(types: TypeStore, name: str, generation: Generation) -> str:
     try:
-        return md5sum(name) if generation is Generation.ROS1 else type_hash(name)
+        return types.md5sum(name) if generation is Generation.ROS1 else types.type_hash(name)
     except GazelleError:
         return ""
-
-
-def _answer(query: Any) -> None:
-    start, _, rest = str(query.key_expr).rpartition("/definition/")
-    words = rest.split("/")
-    if len(words) == 4 and words[0] in ("1", "2"):
-        generation, name = Generation(int(words[0])), f"{words[1]}/{words[2]}"
-        text, meaning = kept_text(name, generation), _meaning(name, generation)
-        if text and words[3] in (meaning, _ANY):
-            key = f"{start}/definition/{words[0]}/{name}/{meaning}"
-            query.reply(key, text.encode())
-    query.drop()

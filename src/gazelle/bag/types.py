@@ -167,7 +167,7 @@ def learn_definitions(
     Args:
         connections: of the bag.
         types: learns; it reads those types as the bag has them from then on, and writes their
-            texts so. The process's own by default, for whoever plays a bag speaks for it.
+            texts so. The process's own by default, for those whose users ask the process.
 
     Returns:
         Names of the types that are known here with another definition.

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from gazelle.bag.records import BagMessage, BagReader, Connection, Encoding
 from gazelle.bag.types import converter
 from gazelle.errors import GazelleError
+from gazelle.interfaces import TypeStore
 
 __all__ = ["Outgoing", "ahead", "outgoing"]
 
@@ -32,6 +33,7 @@ def outgoing(
     start_ns: int,
     end_ns: int | None,
     on_error: Callable[[Connection, GazelleError], None],
+    types: Sequence[TypeStore] = (),
 ) -> Iterator[Outgoing]:
     """Yield the messages of several bags by stamp, in CDR.
 
@@ -41,9 +43,12 @@ def outgoing(
         start_ns: stamp of the first.
         end_ns: stamp of the last, None for the end.
         on_error: told once of each connection whose messages cannot be read; they are left out.
+        types: of each bag; the process's own when empty.
     """
     streams = [
-        _converted(place, bag.messages(wanted, start_ns, end_ns), on_error)
+        _converted(
+            place, bag.messages(wanted, start_ns, end_ns), on_error, types[place] if types else None
+        )
         for place, bag in enumerate(bags)
     ]
     return heapq.merge(*streams, key=lambda one: one.stamp_ns)
@@ -80,13 +85,14 @@ def _converted(
     place: int,
     messages: Iterable[BagMessage],
     on_error: Callable[[Connection, GazelleError], None],
+    types: TypeStore | None,
 ) -> Iterator[Outgoing]:
     converters: dict[int, Callable[[bytes], bytes] | None] = {}
     for one, stamp_ns, data in messages:
         try:
             if one.id not in converters:
                 converters[one.id] = None
-                converters[one.id] = converter(one, Encoding.CDR)
+                converters[one.id] = converter(one, Encoding.CDR, types)
             convert = converters[one.id]
             if convert is not None:
                 yield Outgoing(place, one, stamp_ns, convert(data))

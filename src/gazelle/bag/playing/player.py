@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from gazelle.bag.playing.timeline import Timeline
 from gazelle.bag.qos import read_qos
 from gazelle.bag.records import BagReader, Connection
 from gazelle.bag.texts import TextShare
-from gazelle.bag.types import wire_name_of
+from gazelle.bag.types import bag_types, wire_name_of
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
@@ -98,7 +98,8 @@ class Player:
         self._publishers: dict[tuple[int, int], Publisher] = {}
         self._clock: Publisher | None = None
         self._clock_ns = 0
-        self._texts = TextShare(node.graph)
+        self._types = tuple(bag_types(one.connections).store for one in bags)
+        self._texts = TextShare(node.graph, self._types)
         self._announce()
 
     @property
@@ -130,7 +131,7 @@ class Player:
         if self._controls.paused:
             self.timeline.hold(start_ns)
         last_ns = start_ns
-        for one in ahead(outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread)):
+        for one in ahead(self._outgoing(start_ns, end_ns)):
             gap_s = (one.stamp_ns - last_ns) / 1e9
             if options.immediate or (
                 options.skip_empty_s is not None and gap_s > options.skip_empty_s
@@ -141,9 +142,12 @@ class Player:
             self._publish(one)
             last_ns = one.stamp_ns
 
+    def _outgoing(self, start_ns: int, end_ns: int | None) -> Iterator[Outgoing]:
+        return outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread, self._types)
+
     def _publish_last(self, start_ns: int, end_ns: int | None) -> None:
         last: dict[str, Outgoing] = {}
-        for one in outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread):
+        for one in self._outgoing(start_ns, end_ns):
             if self._controls.stopped:
                 return
             last[one.connection.topic] = one
@@ -206,26 +210,26 @@ class Player:
             self._controls.pause(True)
 
     def _announce(self) -> None:
-        made: dict[tuple[str, str, bool], Publisher] = {}
+        made: dict[tuple[str, str, str, bool], Publisher] = {}
         for place, bag in enumerate(self._bags):
             for one in filter(self._wants, bag.connections):
                 latched = one.latching or read_qos(one.qos).latched
-                key = (one.topic, wire_name_of(one), latched)
-                if key not in made and (new := self._publisher(one, latched)) is not None:
-                    made[key] = new
-                if key in made:
+                topic = f"{self._options.prefix}{one.topic}"
+                try:
+                    name, types = wire_name_of(one), self._types[place]
+                    kind: Any = types.message_type(name)
+                    # Bags may define a type of one name differently.
+                    key = (topic, name, types.type_hash(name), latched)
+                    if key not in made:
+                        made[key] = self._node.create_publisher(
+                            topic, kind, latch=latched, queue_size=100
+                        )
+                except GazelleError as error:
+                    self._on_unread(one, error)
+                else:
                     self._publishers[place, one.id] = made[key]
         if self._options.clock_hz:
             self._clock = self._node.create_publisher("/clock", message_type(_CLOCK))
-
-    def _publisher(self, one: Connection, latched: bool) -> Publisher | None:
-        topic = f"{self._options.prefix}{one.topic}"
-        try:
-            kind: Any = message_type(wire_name_of(one))
-            return self._node.create_publisher(topic, kind, latch=latched, queue_size=100)
-        except GazelleError as error:
-            self._on_unread(one, error)
-            return None
 
     def _wants(self, one: Connection) -> bool:
         topics = self._options.topics

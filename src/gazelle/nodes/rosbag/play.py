@@ -8,7 +8,7 @@ import time
 from functools import partial
 from optparse import OptionParser, Values
 
-from gazelle.bag import BagReader, learn_definitions, open_bag
+from gazelle.bag import BagReader, bag_types, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.unindexed import tell_of_unindexed
@@ -136,7 +136,7 @@ def _open(node: Node, path: str, *, quiet: bool) -> BagReader:
     bag = open_bag(path)
     tell_of_unindexed(bag)
     learn_workspace_types()
-    for name in learn_definitions(bag.connections):
+    for name in bag_types(bag.connections).differing:
         text = f"{path} defines {name} differently from this machine; it is played as it is"
         node.log("warn", f"{text} (ROS: md5sum mismatch) [bag.other-definition]")
     return bag

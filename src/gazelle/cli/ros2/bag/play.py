@@ -6,7 +6,7 @@ import argparse
 import re
 from functools import partial
 
-from gazelle.bag import Connection, learn_definitions, open_bag
+from gazelle.bag import Connection, bag_types, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.unindexed import tell_of_unindexed
@@ -44,7 +44,7 @@ def _play(graph: Graph, options: argparse.Namespace, controls: Controls) -> int:
     bag = open_bag(options.bag_path)
     tell_of_unindexed(bag)
     learn_workspace_types()
-    for name in learn_definitions(bag.connections):
+    for name in bag_types(bag.connections).differing:
         text = f"{name} is defined differently on this machine; it is played as it is"
         _say("warn", f"{text} [bag.other-definition]")
     topics = frozenset(one.topic for one in bag.connections if _wanted(one, options))
