@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import pytest
 
+from gazelle.cli import commands
 from gazelle.interfaces import action_type, message_type, service_type
 from gazelle.node_specs.all_specs import (
     builtin_executables,
+    command_of,
     names_of_other_ros,
     node_spec,
     node_specs,
 )
+from gazelle.node_specs.commands import COMMANDS
 from gazelle.node_specs.spec import resolved
 
 
@@ -70,3 +73,13 @@ def test_names_that_only_the_other_ros_has_are_told_by_package_and_executable() 
     assert ("teleop_twist_keyboard", "teleop_twist_keyboard.py") in only_1
     assert ("teleop_twist_keyboard", "teleop_twist_keyboard") in only_2
     assert not {("teleop_twist_keyboard", ""), ("turtlesim", "mimic")} & (only_1 | only_2)
+
+
+def test_a_command_that_is_named_as_a_node_is_an_executable_of_its_package() -> None:
+    assert command_of("tf2_ros", "tf2_echo") == ("tf_echo", "--tf2")
+    assert command_of("tf2_ros", "tf_echo") == ()
+    assert {"tf2_echo", "static_transform_publisher"} <= set(builtin_executables("tf2_ros"))
+    assert all(words.split()[0] in commands.COMMANDS for words in COMMANDS.values())
+    assert not {name[:2] for name in COMMANDS} & {
+        name[:2] for spec in node_specs() for name in spec.names
+    }

@@ -12,7 +12,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
-from gazelle.node_specs.all_specs import builtin_executables, node_spec
+from gazelle.node_specs.all_specs import builtin_executables, command_of, node_spec
 from gazelle.node_specs.elsewhere import missing_node, missing_package
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
@@ -21,20 +21,6 @@ from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["Executable", "find_executable", "script_command"]
 
-# Commands that launch files and rosrun name as nodes.
-_COMMANDS = {
-    **{(name, name): name for name in ("rosmsg", "rosnode", "rosparam", "rosservice", "rostopic")},
-    ("dynamic_reconfigure", "dynparam"): "dynparam",
-    ("tf", "tf_echo"): "tf_echo",
-    ("tf2_ros", "tf2_echo"): "tf_echo --tf2",
-    ("tf", "tf_monitor"): "tf_monitor",
-    ("tf2_ros", "tf2_monitor"): "tf_monitor",
-    ("tf", "view_frames"): "view_frames",
-    ("tf2_tools", "view_frames"): "view_frames --tf2",
-    ("tf2_tools", "view_frames.py"): "view_frames --tf2",
-    ("xacro", "xacro"): "xacro",
-    ("xacro", "xacro.py"): "xacro",
-}
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
 
@@ -75,8 +61,9 @@ def find_executable(
     found = _in_workspace(package, type_name, workspace, diagnostics, span)
     if found is not None:
         return found
-    if _COMMANDS.get((package, type_name)):
-        words = (sys.executable, "-m", "gazelle.cli", *_COMMANDS[package, type_name].split())
+    command = command_of(package, type_name)
+    if command:
+        words = (sys.executable, "-m", "gazelle.cli", *command)
         return Executable(words)
     try:
         builtin = node_spec(package, type_name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+from gazelle.node_specs.commands import COMMANDS
 from gazelle.node_specs.control import CONTROL
 from gazelle.node_specs.driving import DRIVING
 from gazelle.node_specs.installed import installed_names, installed_spec
@@ -20,6 +21,7 @@ from gazelle.node_specs.windows import WINDOWS
 __all__ = [
     "builtin_executables",
     "builtin_packages",
+    "command_of",
     "names_of_other_ros",
     "node_spec",
     "node_specs",
@@ -54,9 +56,14 @@ def node_spec(package: str, executable: str) -> NodeSpec | None:
 
 
 def builtin_executables(package: str) -> tuple[str, ...]:
-    """Return the executables that exist under a package's name."""
-    names = (*_by_name(), *installed_names())
+    """Return the executables that exist under a package's name, commands included."""
+    names = (*_by_name(), *_commands(), *installed_names())
     return tuple(sorted({name for owner, name in names if owner == package}))
+
+
+def command_of(package: str, executable: str) -> tuple[str, ...]:
+    """Return the words behind ``gazelle`` of a command that is named as a node; empty for none."""
+    return tuple(_commands().get((package, executable), "").split())
 
 
 def builtin_packages() -> frozenset[str]:
@@ -70,7 +77,7 @@ def names_of_other_ros(ros_version: int) -> frozenset[tuple[str, str]]:
 
     A package all of whose executables are such stands there once more, with an empty executable.
     """
-    names = [name for spec in _SPECS for name in spec.names]
+    names = [*COMMANDS, *(name for spec in _SPECS for name in spec.names)]
     own = {name.package for name in names if ros_version in name.ros}
     others = [name for name in names if ros_version not in name.ros]
     packages = {(name.package, "") for name in others if name.package not in own}
@@ -80,3 +87,8 @@ def names_of_other_ros(ros_version: int) -> frozenset[tuple[str, str]]:
 @cache
 def _by_name() -> dict[tuple[str, str], NodeSpec]:
     return {(name.package, name.executable): spec for spec in _SPECS for name in spec.names}
+
+
+@cache
+def _commands() -> dict[tuple[str, str], str]:
+    return {(name.package, name.executable): words for name, words in COMMANDS.items()}

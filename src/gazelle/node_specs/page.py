@@ -15,9 +15,10 @@ _HEAD = """# Nodes that are built in
 
 Generated from the rows that the nodes are found by; do not edit (`python -m
 gazelle.node_specs.page > docs/builtin_nodes.md`). `rosrun PACKAGE EXECUTABLE`, `ros2 run` and
-launch files start them under any of their names. Names of topics are those of the code, before remapping:
-`/global`, `relative`, `~private`; `{~scan_topic|scan}` is the value of a parameter, or `scan`.
-Topics that only words or parameters name are not listed.
+launch files start them under any of their names. Names of topics are those of the code, before
+remapping: `/global`, `relative`, `~private`; `{~scan_topic|scan}` is the value of a parameter, or
+`scan`. Topics that only words or parameters name are not listed; parameters are on
+[a page of their own](nodes.md).
 """
 _PARAMETER = re.compile(r"(!?)(~?[\w.]+)\|(.*)")
 
