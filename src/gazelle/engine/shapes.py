@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,6 +91,8 @@ def geom_shapes(
             shapes = tuple(_solid(piece) for piece in pieces)
         case Polyline():
             shapes = tuple(_solid(piece) for piece in polyline_pieces(collision.shape))
+        case _:
+            assert_never(collision.shape)
     return tuple(shape for shape in shapes if _has_volume(shape, collision, name, diagnostics))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, assert_never
 
 from gazelle.description.model import (
     Joint,
@@ -125,8 +125,10 @@ def geometry_value(shape: Shape) -> Value:
             return {"type": kind, "radius": shape.radius_m, "length": shape.length_m}
         case Plane():
             return {"type": "plane", "normal": list(shape.normal), "size": list(shape.size_m)}
-        case _:
+        case MeshShape() | Heightmap() | Polyline():
             return _file_geometry(shape)
+        case _:
+            assert_never(shape)
 
 
 def _file_geometry(shape: MeshShape | Heightmap | Polyline) -> Value:
@@ -151,6 +153,8 @@ def _file_geometry(shape: MeshShape | Heightmap | Polyline) -> Value:
         case Polyline():
             outlines = [[list(point) for point in outline] for outline in shape.outlines_m]
             return {"type": "polyline", "outlines": outlines, "height": shape.height_m}
+        case _:
+            assert_never(shape)
 
 
 def _models_value(models: Sequence[Model]) -> Value:

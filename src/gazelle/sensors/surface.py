@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
+from typing import assert_never
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -102,8 +103,10 @@ def surface_of(
             size = (ENDLESS_M, ENDLESS_M) if endless else shape.size_m
             matrix = _facing(shape.normal) @ _scale(*size, 1.0)
             return _shared(("plane",), _of_facets(unit_plane)), matrix
-        case _:
+        case Box() | Sphere() | Cylinder() | Cone() | Ellipsoid():
             return _primitive(shape)
+        case _:
+            assert_never(shape)
 
 
 def _primitive(
@@ -122,6 +125,8 @@ def _primitive(
             return _shared(("sphere",), _sphere), _scale(radius, radius, radius)
         case Ellipsoid(radii_m=radii):
             return _shared(("sphere",), _sphere), _scale(*radii)
+        case _:
+            assert_never(shape)
 
 
 def _shared(key: tuple[object, ...], build: Callable[[], Surface]) -> Surface:

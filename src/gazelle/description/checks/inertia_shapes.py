@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,32 +15,29 @@ from gazelle.description.model import (
     Cone,
     Cylinder,
     Ellipsoid,
+    Heightmap,
     MeshShape,
+    Plane,
     Polyline,
     Shape,
     Sphere,
 )
+from gazelle.description.solids import solid_body
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry import (
     MassProperties,
     Mesh,
     MeshPart,
-    box_mass_properties,
     box_mesh,
-    capsule_mass_properties,
     capsule_mesh,
-    cone_mass_properties,
     cone_mesh,
     convex_hull,
-    cylinder_mass_properties,
     cylinder_mesh,
-    ellipsoid_mass_properties,
     ellipsoid_mesh,
     load_mesh_reported,
     mesh_mass_properties,
     polyline_mesh,
-    sphere_mass_properties,
     sphere_mesh,
 )
 
@@ -71,23 +69,15 @@ def shape_body(
 
 def _body(shape: Shape, density: float, diagnostics: Diagnostics) -> MassProperties | None:
     match shape:
-        case Box(size_m=size):
-            return box_mass_properties(density * math.prod(size), size)
-        case Sphere(radius_m=r):
-            return sphere_mass_properties(density * 4 / 3 * math.pi * r**3, r)
-        case Cylinder(radius_m=r, length_m=length):
-            return cylinder_mass_properties(density * math.pi * r**2 * length, r, length)
-        case Cone(radius_m=r, length_m=length):
-            return cone_mass_properties(density * math.pi * r**2 * length / 3, r, length)
-        case Capsule(radius_m=r, length_m=length):
-            volume = math.pi * r**2 * (length + 4 / 3 * r)
-            return capsule_mass_properties(density * volume, r, length)
-        case Ellipsoid(radii_m=radii):
-            return ellipsoid_mass_properties(density * 4 / 3 * math.pi * math.prod(radii), radii)
+        case Box() | Sphere() | Cylinder() | Cone() | Capsule() | Ellipsoid():
+            return solid_body(shape, density)
         case MeshShape() | Polyline():
             mesh = _mesh(shape, diagnostics)
             return None if mesh is None else mesh_body(mesh, density)
-    return None
+        case Plane() | Heightmap():
+            return None
+        case _:
+            assert_never(shape)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -141,9 +131,12 @@ def _mesh(shape: Shape, diagnostics: Diagnostics) -> Mesh | MeshPart | None:
                 return polyline_mesh(shape.outlines_m, shape.height_m)
             case MeshShape():
                 return _loaded(shape, diagnostics)
+            case Plane() | Heightmap():
+                return None
+            case _:
+                assert_never(shape)
     except (ValueError, ZeroDivisionError):
         return None  # the reader has reported sizes that make no shape
-    return None
 
 
 def _loaded(shape: MeshShape, diagnostics: Diagnostics) -> Mesh | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from typing import assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,8 +62,10 @@ def add_urdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
             mesh = geometry.add("mesh", filename=beside.address(shape.path, shape.uri))
             if shape.scale != _ONES:
                 mesh.attributes["scale"] = numbers(shape.scale)
-        case _:
+        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
             raise AssertionError(f"URDF has no word for {shape}")
+        case _:
+            assert_never(shape)
 
 
 def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, Pose], ...]:
@@ -75,35 +78,49 @@ def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, 
     Returns:
         What is added to the name, the shape, and its place in the frame of `shape`.
     """
-    if isinstance(shape, Capsule) and not has_capsules:
-        if shape.length_m <= 0:
-            return (("", Sphere(shape.radius_m), Pose()),)
-        ends = (
-            (word, Sphere(shape.radius_m), Pose((0.0, 0.0, side * shape.length_m / 2)))
-            for word, side in (("_top", 1.0), ("_bottom", -1.0))
-        )
-        return (("", Cylinder(shape.radius_m, shape.length_m), Pose()), *ends)
-    if isinstance(shape, MeshShape) and shape.submesh:
-        return ()
-    sayable = isinstance(shape, Box | Sphere | Cylinder | Capsule | MeshShape)
-    return (("", shape, Pose()),) if sayable else ()
+    match shape:
+        case Capsule() if not has_capsules:
+            return _capsule_pieces(shape)
+        case Box() | Sphere() | Cylinder() | Capsule():
+            return (("", shape, Pose()),)
+        case MeshShape():
+            return () if shape.submesh else (("", shape, Pose()),)
+        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
+            return ()
+        case _:
+            assert_never(shape)
+
+
+def _capsule_pieces(shape: Capsule) -> tuple[tuple[str, Shape, Pose], ...]:
+    if shape.length_m <= 0:
+        return (("", Sphere(shape.radius_m), Pose()),)
+    ends = (
+        (word, Sphere(shape.radius_m), Pose((0.0, 0.0, side * shape.length_m / 2)))
+        for word, side in (("_top", 1.0), ("_bottom", -1.0))
+    )
+    return (("", Cylinder(shape.radius_m, shape.length_m), Pose()), *ends)
 
 
 def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
-    """Return a word and an STL file for a shape; None for planes, terrain and lost files."""
-    if isinstance(shape, MeshShape):
-        mesh = mesh_of(shape)
-        return None if mesh is None else (shape.submesh, stl_bytes(mesh.vertices_m, mesh.faces))
-    part: MeshPart | None = None
+    """Return a word and an STL file for a shape that URDF has no other for.
+
+    None for planes, terrain, lost files and what `add_urdf_geometry` says.
+    """
+    part: MeshPart
     match shape:
+        case MeshShape():
+            mesh = mesh_of(shape)
+            return None if mesh is None else (shape.submesh, stl_bytes(mesh.vertices_m, mesh.faces))
         case Ellipsoid(radii_m=radii):
             part = ellipsoid_mesh(radii)
         case Cone(radius_m=radius, length_m=length):
             part = cone_mesh(radius, length)
         case Polyline(outlines_m=outlines, height_m=height):
             part = polyline_mesh(outlines, height)
-    if part is None:
-        return None
+        case Box() | Sphere() | Cylinder() | Capsule() | Plane() | Heightmap():
+            return None
+        case _:
+            assert_never(shape)
     return type(shape).__name__.lower(), stl_bytes(part.vertices_m, part.faces)
 
 
@@ -162,6 +179,8 @@ def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
                 for point in outline:
                     line.add("point", numbers(point))
                 line.add("height", number(height))
+        case _:
+            assert_never(shape)
 
 
 def _add_mesh(geometry: Markup, shape: MeshShape, beside: Beside) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
+from typing import assert_never
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
@@ -13,25 +13,20 @@ from gazelle.description.model import (
     Cone,
     Cylinder,
     Ellipsoid,
+    Heightmap,
     Inertial,
     MeshShape,
+    Plane,
     Polyline,
     Shape,
     Sphere,
 )
 from gazelle.description.sdf.values import child_float, optional_float
+from gazelle.description.solids import solid_body
 from gazelle.description.xml import Tag
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 from gazelle.geometry.mass import MassProperties, combined_mass_properties
-from gazelle.geometry.solids import (
-    box_mass_properties,
-    capsule_mass_properties,
-    cone_mass_properties,
-    cylinder_mass_properties,
-    ellipsoid_mass_properties,
-    sphere_mass_properties,
-)
 
 __all__ = ["computed_inertial"]
 
@@ -91,23 +86,14 @@ def _body(
 ) -> MassProperties | None:
     """Return one shape of even density; None when it has no volume."""
     match shape:
-        case Box():
-            return box_mass_properties(density * math.prod(shape.size_m), shape.size_m)
-        case Sphere(radius_m=r):
-            return sphere_mass_properties(density * 4 / 3 * math.pi * r**3, r)
-        case Cylinder(radius_m=r, length_m=length):
-            return cylinder_mass_properties(density * math.pi * r**2 * length, r, length)
-        case Cone(radius_m=r, length_m=length):
-            return cone_mass_properties(density * math.pi * r**2 * length / 3, r, length)
-        case Capsule(radius_m=r, length_m=length):
-            volume = math.pi * r**2 * (length + 4 / 3 * r)
-            return capsule_mass_properties(density * volume, r, length)
-        case Ellipsoid(radii_m=radii):
-            volume = 4 / 3 * math.pi * math.prod(radii)
-            return ellipsoid_mass_properties(density * volume, radii)
+        case Box() | Sphere() | Cylinder() | Cone() | Capsule() | Ellipsoid():
+            return solid_body(shape, density)
         case MeshShape() | Polyline():
             return _mesh_body(shape, density, collision, context)
-    return None  # planes and terrain
+        case Plane() | Heightmap():
+            return None
+        case _:
+            assert_never(shape)
 
 
 def _mesh_body(

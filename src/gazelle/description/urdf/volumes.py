@@ -3,19 +3,30 @@
 from __future__ import annotations
 
 import math
+from typing import assert_never
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import Box, Capsule, Cylinder, Link, MeshShape, Shape, Sphere
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Heightmap,
+    Link,
+    MeshShape,
+    Plane,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from gazelle.description.solids import solid_body
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import GazelleError
 from gazelle.geometry import (
     MassProperties,
     Pose,
-    box_mass_properties,
-    capsule_mass_properties,
     combined_mass_properties,
-    cylinder_mass_properties,
-    sphere_mass_properties,
 )
 
 __all__ = ["body_of"]
@@ -51,18 +62,14 @@ def _whole(
 
 def _body(shape: Shape, span: SourceSpan | None, context: ReadContext) -> MassProperties | None:
     match shape:
-        case Box(size_m=size):
-            return box_mass_properties(_DENSITY_KG_M3 * math.prod(size), size)
-        case Sphere(radius_m=r):
-            return sphere_mass_properties(_DENSITY_KG_M3 * 4 / 3 * math.pi * r**3, r)
-        case Cylinder(radius_m=r, length_m=length):
-            return cylinder_mass_properties(_DENSITY_KG_M3 * math.pi * r**2 * length, r, length)
-        case Capsule(radius_m=r, length_m=length):
-            volume = math.pi * r**2 * (length + 4 / 3 * r)
-            return capsule_mass_properties(_DENSITY_KG_M3 * volume, r, length)
+        case Box() | Sphere() | Cylinder() | Capsule():
+            return solid_body(shape, _DENSITY_KG_M3)
         case MeshShape():
             return _mesh_body(shape, span, context)
-    return None
+        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
+            return None  # URDF has no word for them
+        case _:
+            assert_never(shape)
 
 
 def _mesh_body(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Any
+from typing import Any, assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from gazelle.description.model import (
     Cone,
     Cylinder,
     Ellipsoid,
+    Heightmap,
     Link,
     Material,
     MeshShape,
@@ -208,7 +209,10 @@ def _primitive(shape: Shape) -> tuple[Any, tuple[float, ...]] | None:
             return types.mjGEOM_CAPSULE, (radius, length / 2)
         case Ellipsoid(radii_m=radii):
             return types.mjGEOM_ELLIPSOID, tuple(radii)
-    return None
+        case MeshShape() | Cone() | Polyline() | Plane() | Heightmap():
+            return None
+        case _:
+            assert_never(shape)
 
 
 def _triangles(shape: Shape) -> tuple[MeshPart, ...]:
@@ -222,7 +226,10 @@ def _triangles(shape: Shape) -> tuple[MeshPart, ...]:
             return (polyline_mesh(outlines, height),)
         case Plane(normal=normal, size_m=size):
             return (plane_mesh(size, normal),)
-    return ()
+        case Box() | Sphere() | Cylinder() | Capsule() | Ellipsoid() | Heightmap():
+            return ()
+        case _:
+            assert_never(shape)
 
 
 def _has_area(part: MeshPart) -> bool:

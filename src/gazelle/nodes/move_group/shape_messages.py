@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, assert_never
 
 import numpy as np
 
-from gazelle.description.model import Box, Cone, Cylinder, Plane, Sphere
+from gazelle.description.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    MeshShape,
+    Plane,
+    Sphere,
+)
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose
@@ -103,16 +112,19 @@ def pose_message(pose: Pose) -> Any:
 
 
 def _primitive(shape: SceneShape) -> Any:
-    if isinstance(shape, Box):
-        kind, sizes = 1, list(shape.size_m)
-    elif isinstance(shape, Sphere):
-        kind, sizes = 2, [shape.radius_m]
-    elif isinstance(shape, Cylinder):
-        kind, sizes = 3, [shape.length_m, shape.radius_m]
-    elif isinstance(shape, Cone):
-        kind, sizes = 4, [shape.length_m, shape.radius_m]
-    else:
-        raise ValueError(f"shape_msgs has no {type(shape).__name__}")
+    match shape:
+        case Box(size_m=size):
+            kind, sizes = 1, list(size)
+        case Sphere(radius_m=radius):
+            kind, sizes = 2, [radius]
+        case Cylinder(radius_m=radius, length_m=length):
+            kind, sizes = 3, [length, radius]
+        case Cone(radius_m=radius, length_m=length):
+            kind, sizes = 4, [length, radius]
+        case Capsule() | Ellipsoid() | Plane() | MeshShape() | SceneMesh():
+            raise ValueError(f"shape_msgs has no {type(shape).__name__}")
+        case _:
+            assert_never(shape)
     return message_type("shape_msgs/msg/SolidPrimitive")(type=kind, dimensions=sizes)
 
 
