@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import inspect
 from collections.abc import Callable, Generator, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -19,7 +20,7 @@ from gazelle.launch.ros2.testing.loader import ready_actions
 
 __all__ = ["event_loop", "fixture", "launch_context", "launch_service"]
 
-_OPTIONS = "_launch_pytest_options"
+_RECORD = "_launch_pytest_fixture"
 _WRONG_VALUE = "has to return a launch description, or a sequence that begins with one"
 
 
@@ -40,11 +41,30 @@ def fixture(
     """
 
     def decorate(function: Callable[..., Any]) -> Any:
-        setattr(function, _OPTIONS, (shutdown_when_idle, auto_shutdown))
-        _scopes[function.__name__] = str(kwargs.get("scope", "function"))
-        return pytest.fixture(**kwargs)(function)
+        scope = str(kwargs.get("scope", "function"))
+        record = _Fixture(shutdown_when_idle, auto_shutdown, scope)
+        made = pytest.fixture(**kwargs)(function)
+        for one in (function, made):  # what pytest calls, and what tests name in their marker
+            setattr(one, _RECORD, record)
+        return made
 
     return decorate if decorated is None else decorate(decorated)
+
+
+@dataclass
+class _Fixture:
+    """A launch fixture.
+
+    Attributes:
+        shutdown_when_idle, auto_shutdown: as `fixture` has them.
+        scope: of the fixture.
+        launch: which it has made last.
+    """
+
+    shutdown_when_idle: bool
+    auto_shutdown: bool
+    scope: str
+    launch: _Launch | None = None
 
 
 class _Launch:
@@ -55,11 +75,12 @@ class _Launch:
         service: its service.
     """
 
-    def __init__(self, name: str, options: tuple[bool, bool]) -> None:
+    def __init__(self, name: str, made_by: _Fixture) -> None:
         self.loop = asyncio.new_event_loop()
         self.service = LaunchService()
         self._name = name
-        self._shutdown_when_idle, self._auto_shutdown = options
+        self._shutdown_when_idle = made_by.shutdown_when_idle
+        self._auto_shutdown = made_by.auto_shutdown
         self._task: asyncio.Task[int] | None = None
         self._code: int | None = None
 
@@ -109,11 +130,6 @@ class _Launch:
             self.loop.close()
 
 
-# Scopes of launch fixtures, and the launch each one has made last, by name.
-_scopes: dict[str, str] = {}
-_launches: dict[str, _Launch] = {}
-
-
 @pytest.fixture
 def launch_service(request: pytest.FixtureRequest) -> LaunchService:
     """The service of the test's launch."""
@@ -142,11 +158,10 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_fixture_setup(fixturedef: Any, request: Any) -> Generator[None, Any, Any]:
     """Launch what a launch fixture returns."""
     value = yield
-    options = getattr(fixturedef.func, _OPTIONS, None)
-    if options is not None:
-        launch = _Launch(fixturedef.argname, options)
+    record: _Fixture | None = getattr(fixturedef.func, _RECORD, None)
+    if record is not None:
+        record.launch = launch = _Launch(fixturedef.argname, record)
         fixturedef.addfinalizer(launch.close)
-        _launches[fixturedef.argname] = launch
         launch.begin(value)
     return value
 
@@ -176,7 +191,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         return first.setdefault(key, len(first)) if key[1] else -1, _is_behind(item)
 
     first: dict[tuple[str, str], int] = {}
-    wide = [one for one in items if _scopes.get(_fixture_name(one), "function") != "function"]
+    records = [(one, _record_of(one)) for one in items]
+    wide = [one for one, record in records if record is not None and record.scope != "function"]
     ordered = iter(sorted(wide, key=place))
     chosen = {id(one) for one in wide}
     items[:] = [next(ordered) if id(one) in chosen else one for one in items]
@@ -191,7 +207,7 @@ def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
         pytest.fail(text, pytrace=False)
     if not name:
         return None
-    launch = _launches[name]
+    launch = _made(pyfuncitem)
     names = pyfuncitem._fixtureinfo.argnames
     arguments = {one: pyfuncitem.funcargs[one] for one in names}
     if _is_behind(pyfuncitem):
@@ -233,6 +249,19 @@ def _fixture_name(item: pytest.Item) -> str:
     return str(getattr(found, "__name__", "")) if found is not None else ""
 
 
+def _record_of(item: pytest.Item) -> _Fixture | None:
+    mark = item.get_closest_marker("launch")
+    return None if mark is None else getattr(mark.kwargs.get("fixture"), _RECORD, None)
+
+
+def _made(item: pytest.Item) -> _Launch:
+    record = _record_of(item)
+    if record is None or record.launch is None:
+        text = f"'{_fixture_name(item)}' is no fixture of launch_pytest that was set up"
+        pytest.fail(text, pytrace=False)
+    return record.launch
+
+
 def _is_behind(item: pytest.Item) -> bool:
     mark = item.get_closest_marker("launch")
     return mark is not None and bool(mark.kwargs.get("shutdown", False))
@@ -243,4 +272,4 @@ def _launch_of(request: pytest.FixtureRequest) -> _Launch:
     if not name:
         pytest.fail("only tests with @pytest.mark.launch(fixture=…) have a launch", pytrace=False)
     request.getfixturevalue(name)
-    return _launches[name]
+    return _made(request.node)

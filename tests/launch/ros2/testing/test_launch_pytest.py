@@ -132,3 +132,41 @@ def test_launches_are_fixtures_and_mistakes_are_told(tmp_path: Path) -> None:
     ):
         assert words in text
     assert "2 failed, 7 passed, 3 errors" in text
+
+
+_OF_MODULE = """
+@launch_pytest.fixture(scope='module')
+def description():
+    return launch.LaunchDescription([ExecuteProcess(cmd=['sleep', '60'])])
+
+@pytest.mark.launch(fixture=description, shutdown=True)
+def test_behind(launch_service):
+    assert launch_service.event_loop is None
+
+@pytest.mark.launch(fixture=description)
+def test_beside(launch_service):
+    assert launch_service.event_loop is not None
+"""
+_OF_EACH = """
+@launch_pytest.fixture
+def description():
+    return launch.LaunchDescription([ExecuteProcess(cmd=['sleep', '60'])])
+
+@pytest.mark.launch(fixture=description)
+def test_each(launch_service):
+    assert launch_service.event_loop is not None
+"""
+
+
+def test_fixtures_of_one_name_in_two_files_have_their_own_scopes(tmp_path: Path) -> None:
+    (tmp_path / "test_a.py").write_text(_HEAD + _OF_MODULE, encoding="utf-8")
+    (tmp_path / "test_b.py").write_text(_HEAD + _OF_EACH, encoding="utf-8")
+    ran = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", *_PLUGINS, "test_a.py", "test_b.py"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=stretched(),
+        check=False,
+    )
+    assert "3 passed" in ran.stdout, ran.stdout
