@@ -13,7 +13,6 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
 from gazelle.node_specs.all_specs import builtin_executables, command_of, node_spec
-from gazelle.node_specs.elsewhere import missing_node, missing_package
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
@@ -150,6 +149,8 @@ def _report_missing(
     span: SourceSpan | None,
     ros_version: int,
 ) -> None:
+    from gazelle.node_specs.elsewhere import missing_node, missing_package
+
     existing, found = set(builtin_executables(package)), None
     try:
         found = workspace.package(package)

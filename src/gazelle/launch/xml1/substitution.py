@@ -14,7 +14,6 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.documents import Budget, LimitError, compile_limited
 from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
-from gazelle.node_specs.elsewhere import replacement_of
 from gazelle.workspace import Workspace
 
 __all__ = ["TOLD", "UNREADABLE", "Substitution", "SubstitutionError"]
@@ -202,6 +201,8 @@ _EVAL_NAMES: dict[str, Any] = {
 
 def _not_found(name: str, error: NotFoundError) -> SubstitutionError:
     """Return an error for a wrong name, and a warning for a package that everybody else has."""
+    from gazelle.node_specs.elsewhere import replacement_of
+
     what = replacement_of(name, 1)
     if not what:
         return SubstitutionError("launch.package-missing", f"$(find {name}): {error}")
