@@ -10,7 +10,6 @@ from __future__ import annotations
 import itertools
 import json
 import os
-import re
 import threading
 import traceback
 from collections.abc import Sequence
@@ -23,31 +22,20 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.parameter_values import value_from_message
 from gazelle.interfaces import service_type
 from gazelle.node_specs.all_specs import builtin_executables, node_spec
+from gazelle.node_specs.components import executable_of_component
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.parameters import start_node
 
 __all__ = ["builtin_of_component", "run"]
 
-_WORD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-_SUFFIXES = ("_node", "_component", "_nodelet")
-# Components whose names say something else than the node that does their work.
-_OTHERS = {
-    "ros_gz_bridge::RosGzBridge": "bridge_node",
-    "ros_gz_sim::GzServer": "gzserver",
-    "tf2_ros::StaticTransformBroadcasterNode": "static_transform_publisher",
-}
 _END_S = 2.0
 
 
 def builtin_of_component(package: str, plugin: str) -> NodeSpec | None:
     """Return the built-in node that does the work of a component, None when there is none."""
-    own = plugin.rpartition("::")[2]
-    name = _OTHERS.get(plugin) or _WORD.sub("_", own).lower()
-    bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
-    types = builtin_executables(package)
-    found = next((one for one in (name, bare, f"{bare}_node") if one in types), "")
-    return node_spec(package, found) if found else None
+    executable = executable_of_component(package, plugin)
+    return node_spec(package, executable) if executable else None
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:

@@ -30,14 +30,9 @@ _BUILD_PREFIXES = ("ament_", "rosidl_", "libgtest", "google-mock")
 # What they are for is done by Gazelle's own commands, engine, page and readers.
 _REPLACED = frozenset(
     {
-        "ament_index_python", "gazebo", "gazebo_dev", "gazebo_plugins", "gazebo_ros",
-        "gazebo_ros2_control", "gazebo_ros_control", "gazebo_ros_pkgs", "gz_ros2_control",
-        "hardware_interface", "ign_ros2_control", "joint_limits_interface", "launch", "launch_ros",
-        "launch_xml", "launch_yaml", "libgazebo-dev", "ros2_control", "ros2_controllers", "ros2cli",
-        "ros2launch", "ros2run", "ros_control", "ros_controllers", "ros_gz", "ros_gz_bridge",
-        "ros_gz_sim", "rosbag", "rosbash", "roslaunch", "rosmsg", "rosnode", "rosparam",
-        "rosservice", "rostopic", "transmission_interface", "urdfdom", "urdfdom_headers", "urdf",
-        "liburdfdom-tools", "liburdfdom-dev",
+        "gazebo_dev", "joint_limits_interface", "liburdfdom-dev", "liburdfdom-tools",
+        "libgazebo-dev", "ros2cli", "ros2launch", "ros2run", "ros_control", "ros_controllers",
+        "ros_gz", "rosbash", "transmission_interface", "urdfdom", "urdfdom_headers",
     }
 )  # fmt: skip
 # Python keys whose module has another name; the others are named as their key says.

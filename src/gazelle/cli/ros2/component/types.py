@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import sys
 from pathlib import Path
 
 from gazelle.cli.ros2.verbs import add_direct_arguments, fail
 from gazelle.cli.tool import hint
 from gazelle.node_specs.all_specs import builtin_executables
+from gazelle.node_specs.components import executable_of_component
 from gazelle.workspace import Workspace
 
 __all__ = ["add_arguments_standalone", "add_arguments_types", "add_component_arguments"]
 __all__ += ["instead_of", "run_standalone", "run_types"]
 
 _INDEX = "share/ament_index/resource_index/rclcpp_components"
-_WORD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-_SUFFIXES = ("_node", "_component", "_nodelet")
 
 
 def add_arguments_types(parser: argparse.ArgumentParser) -> None:
@@ -82,12 +80,7 @@ def run_standalone(options: argparse.Namespace) -> int:
 
 def instead_of(package: str, plugin: str, words: str = "") -> str:
     """Return lines that name the built-in node of a component's work, or what there is."""
-    name = _WORD.sub("_", plugin.rpartition("::")[2]).lower()
-    bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
-    types = builtin_executables(package)
-    found = next((one for one in (name, bare) if one in types), "")
-    if not found and "static_transform" in bare and "static_transform_publisher" in types:
-        found = "static_transform_publisher"
+    found, types = executable_of_component(package, plugin), builtin_executables(package)
     if found:
         return f"\n  the built-in node does the same: ros2 run {package} {found}{words}"
     if types:
