@@ -10,7 +10,7 @@ import pytest
 from gazelle.interfaces import (
     Generation,
     add_package,
-    full_text,
+    default_types,
     installed,
     keep_text,
     ros1_definition,
@@ -28,9 +28,9 @@ def bare_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[No
     monkeypatch.setattr(installed, "_DISTRIBUTIONS", tmp_path / "opt")
     for name in installed._VARIABLES:
         monkeypatch.delenv(name, raising=False)
-    full_text._cached_text.cache_clear()
+    default_types().look_again()
     yield
-    full_text._cached_text.cache_clear()
+    default_types().look_again()
 
 
 def put(path: Path, text: str) -> None:

@@ -108,6 +108,10 @@ class TypeStore:
         self._texts = None
         self.taught_by.clear()
 
+    def look_again(self) -> None:
+        """Forget what was made of definitions: files and variables of the machine have changed."""
+        self._memory = (self._library.revision, {})
+
     def remembered(self, key: Hashable, make: Callable[[], _T]) -> _T:
         """Return what `make` gives, made once for as long as definitions stay what they are."""
         revision, memory = self._memory
