@@ -17,6 +17,7 @@ CONTROL = (
         is_light=True,
         aliases=(NodeName("pr2_controller_manager", "pr2_controller_manager", ROS_1),),
         role=NodeRole.CONTROLLER_SPAWNER,
+        is_complete=True,
     ),
     NodeSpec(
         package="controller_manager",
@@ -60,6 +61,7 @@ CONTROL = (
         is_light=True,
         aliases=(NodeName("pr2_controller_manager", "spawner", ROS_1),),
         role=NodeRole.CONTROLLER_SPAWNER,
+        is_complete=True,
     ),
     NodeSpec(
         package="controller_manager",
@@ -69,6 +71,7 @@ CONTROL = (
         does="loads and activates controllers, ROS 2's older name",
         is_light=True,
         role=NodeRole.CONTROLLER_SPAWNER,
+        is_complete=True,
     ),
     NodeSpec(
         package="controller_manager",

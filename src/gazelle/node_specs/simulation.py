@@ -84,6 +84,7 @@ SIMULATION = (
             NodeName("gazebo_tools", "gazebo_model", ROS_1),
         ),
         role=NodeRole.MODEL_SPAWNER,
+        is_complete=True,
     ),
     NodeSpec(
         package="gazebo_ros",

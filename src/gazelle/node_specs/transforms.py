@@ -34,6 +34,7 @@ TRANSFORMS = (
             publishes("/tf_static", "tf2_msgs/msg/TFMessage"),
             listens("joint_states", "sensor_msgs/msg/JointState"),
         ),
+        is_complete=True,
     ),
     NodeSpec(
         package="tf",
@@ -59,6 +60,7 @@ TRANSFORMS = (
         is_light=True,
         role=NodeRole.STATIC_TRANSFORM,
         topics=(publishes("/tf", "tf2_msgs/msg/TFMessage"),),
+        is_complete=True,
     ),
     NodeSpec(
         package="tf2_ros",
@@ -68,6 +70,7 @@ TRANSFORMS = (
         is_light=True,
         role=NodeRole.STATIC_TRANSFORM,
         topics=(publishes("/tf_static", "tf2_msgs/msg/TFMessage"),),
+        is_complete=True,
     ),
     NodeSpec(
         package="joint_state_publisher_gui",

@@ -69,21 +69,13 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
         case Role.SCRIPT if node.file is not None:
             script = read_script(node.file)
             return _named(node, dict(script.publishes), dict(script.listens), script.is_complete)
-        case Role.STATE_PUBLISHER:
-            tf = {"/tf": "tf2_msgs/msg/TFMessage", "/tf_static": "tf2_msgs/msg/TFMessage"}
-            return _named(node, tf, {"joint_states": _JOINT_STATE})
         case Role.JOINT_STATES:
             sources = launched.private(node, "source_list", [])
             names = sources if isinstance(sources, list) else []
             listens = {name: _JOINT_STATE for name in names if isinstance(name, str)}
             return _named(node, {"joint_states": _JOINT_STATE}, listens)
-        case Role.STATIC_TRANSFORM:
-            is_latched = node.spec.package == "tf2_ros"
-            return _named(node, {"/tf_static" if is_latched else "/tf": ""}, {})
         case Role.RELAY:
             return _of_relay(node)
-        case Role.MODEL_SPAWNER | Role.CONTROLLER_SPAWNER:
-            return _named(node, {}, {})
     builtin = builtin_topics(node, launched)
     if builtin is not None:
         return NodeTopics(
