@@ -136,6 +136,17 @@ def test_no_layer_names_a_higher_one_by_text_but_for_the_stated_exceptions() -> 
     assert allowed == needed, "docs/architecture.md allows names that nobody needs"
 
 
+def test_every_function_that_is_named_by_text_lies_in_a_module() -> None:
+    entries = re.compile(r"""["'](gazelle(?:\.\w+)+):\w+["']""")
+    wrong = [
+        f"{one.path.relative_to(ROOT)}: {name}"
+        for one in _modules()
+        for name in entries.findall(one.path.read_text(encoding="utf-8"))
+        if not _is_module(name)
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
 def _upwards(
     module: str, names: frozenset[str], layers: dict[str, int]
 ) -> Iterator[tuple[str, str]]:
