@@ -14,6 +14,7 @@ from tests.fuzzing.kind import Kind
 from gazelle.bag import (
     BagReader,
     Storage,
+    bag_types,
     cdr_connection,
     create_bag,
     open_bag,
@@ -58,18 +59,21 @@ def _metadata(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> No
 
 def _look_through(bag: BagReader, diagnostics: Diagnostics) -> None:
     """Do what is done to bags: tell what is in them, play them, make tables of them."""
-    summary, errors = bag.summary, []
+    summary, errors, types = bag.summary, [], bag_types(bag.connections).store
     assert summary.messages >= 0 or summary.duration_ns
     for one in bag.connections:
-        generation = Generation.ROS2 if bag.storage is not Storage.ROS1 else Generation.ROS1
+        generation = Generation.ROS2 if bag.storage != Storage.ROS1 else Generation.ROS1
         for name, text in split_texts(one):
             parse_message(text, name, generation, diagnostics=diagnostics)
         if one.qos:
             read_qos(one.qos)
-    for _ in outgoing([bag], lambda _: True, 0, None, lambda _one, error: errors.append(error)):
+    played = outgoing(
+        [bag], lambda _: True, 0, None, lambda _one, error: errors.append(error), [types]
+    )
+    for _ in played:
         pass
     for message in bag.messages(lambda one: one.topic != "/b", _BEGIN_NS, _BEGIN_NS + 10):
-        row_of(message.stamp_ns, reader_of(message.connection)(message.data))
+        row_of(message.stamp_ns, reader_of(message.connection, types)(message.data))
     if errors:
         raise errors[0]
 

@@ -16,7 +16,7 @@ from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config
 from gazelle.description.moveit.places import read_yaml
-from gazelle.description.moveit.settings import ParameterReader as MoveItSettings
+from gazelle.description.moveit.settings import Settings as MoveItSettings
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import follow
