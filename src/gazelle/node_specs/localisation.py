@@ -24,6 +24,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.server:run",
         does="publishes a map from a file",
         is_light=False,
+        parameters="gazelle.nodes.map_server.server:PARAMETERS",
         topics=(
             publishes("map", "nav_msgs/msg/OccupancyGrid"),
             publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
@@ -49,6 +50,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.server_ros2:run",
         does="publishes a map from a file, ROS 2's package",
         is_light=False,
+        parameters="gazelle.nodes.map_server.server_ros2:PARAMETERS",
         topics=(
             publishes("{~topic_name|map}", "nav_msgs/msg/OccupancyGrid"),
             *LIFECYCLE_TOPICS,

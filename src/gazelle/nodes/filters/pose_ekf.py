@@ -17,14 +17,16 @@ from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.filters.fusing import Fusion
 from gazelle.nodes.filters.measuring import measure_imu, measure_pose
-from gazelle.nodes.filters.tables import report_pose_ekf
+from gazelle.nodes.filters.tables import POSE_EKF, report_pose_ekf
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.parameters import parameter_tree, private, private_number, start_node, ticks
+from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.reading import node_reader
 
 __all__ = ["run"]
 
 _POSE = np.arange(15) < 6
 _TURN = np.isin(np.arange(15), (5,))
+_INPUTS = ("odom_used", "vo_used", "imu_used")
 _LEVEL = np.isin(np.arange(15), (3, 4))
 
 
@@ -32,16 +34,18 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Fuse measurements until told to stop."""
     node = start_node(arguments, graph)
     fusion = Fusion(node, Ekf())
-    base = str(private(node, arguments, "base_footprint_frame", "base_footprint"))
-    parent = str(private(node, arguments, "output_frame", "odom_combined"))
     told = Diagnostics()
-    report_pose_ekf(parameter_tree(node, arguments), node.name, told)
+    tree = parameter_tree(node, arguments)
+    own = node_reader(POSE_EKF, tree, node.name, told)
+    base, parent = own.text("base_footprint_frame"), own.text("output_frame")
+    period_ns = int(1e9 / max(own.number("freq"), 0.1))
+    used = frozenset(key for key in _INPUTS if own.flag(key))
+    report_pose_ekf(tree, node.name, told)
     log_findings(node, told)
-    _connect(node, arguments, fusion, base)
+    _connect(node, used, fusion, base)
     kind: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
     out = node.create_publisher("~/odom_combined", kind)
     arguments.ready()
-    period_ns = int(1e9 / max(private_number(node, arguments, "freq", 30.0), 0.1))
     for _now_ns in ticks(node, period_ns, stop):
         stamp_ns, state, covariance = fusion.snapshot()
         if stamp_ns == 0:
@@ -58,11 +62,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return 0
 
 
-def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) -> None:
+def _connect(node: Node, used: frozenset[str], fusion: Fusion, base: str) -> None:
     """Listen to what is used; every pose counts relative to the one before, as in the original."""
-
-    def used(name: str, default: bool = True) -> bool:
-        return bool(private(node, arguments, name, default))
 
     def on_odometry(name: str) -> Any:
         def take(message: Any) -> None:
@@ -83,9 +84,9 @@ def _connect(node: Node, arguments: NodeArguments, fusion: Fusion, base: str) ->
         fusion.take("imu level", found, _LEVEL)
 
     odometry = "nav_msgs/msg/Odometry"
-    if used("odom_used"):
+    if "odom_used" in used:
         node.create_subscription("odom", odometry, on_odometry("odom"), queue_size=10)
-    if used("vo_used"):
+    if "vo_used" in used:
         node.create_subscription("vo", odometry, on_odometry("vo"), queue_size=10)
-    if used("imu_used"):
+    if "imu_used" in used:
         node.create_subscription("imu_data", "sensor_msgs/msg/Imu", on_imu, queue_size=10)

@@ -15,9 +15,24 @@ from gazelle.mapping.grids import MapFile, OccupancyGrid, read_map, read_map_ima
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["result_of", "run"]
+__all__ = ["PARAMETERS", "result_of", "run"]
+
+PARAMETERS = ParameterTable(
+    "map_server (ROS 1)",
+    "Publishes a map from a file.",
+    ("map_server/map_server",),
+    (
+        Parameter("frame_id", "text", "map", "frame of the map"),
+        Parameter("negate", "number", 0.0, "other than 0: white is occupied; without a YAML only"),
+        Parameter("occupied_thresh", "number", 0.65, "darker is occupied; without a YAML only"),
+        Parameter("free_thresh", "number", 0.196, "lighter is free; without a YAML only"),
+    ),
+)
 
 _USAGE = "USAGE: map_server <map.yaml>\n  map.yaml: map description file"
 _NANO = 1_000_000_000
@@ -42,12 +57,13 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         raise LaunchError(f"map_server takes a map's YAML, got {len(words)} words\n{_USAGE}")
     node = start_node(arguments, graph)
     found = Diagnostics()
-    grid = _first_map(node, arguments, words, found)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        grid = _first_map(node, own, words, found)
     log_findings(node, found)
     if grid is None:
         node.shutdown()
         return 255
-    _Server(node, str(private(node, arguments, "frame_id", "map")), grid)
+    _Server(node, own.text("frame_id"), grid)
     arguments.ready()
     stop.wait()
     node.shutdown()
@@ -63,17 +79,17 @@ def result_of(found: Diagnostics) -> int:
 
 
 def _first_map(
-    node: Node, arguments: NodeArguments, words: tuple[str, ...], found: Diagnostics
+    node: Node, own: ParameterReader, words: tuple[str, ...], found: Diagnostics
 ) -> OccupancyGrid | None:
     if len(words) == 1:
         node.log("info", f'Loading map from "{words[0]}"')
         return read_map(words[0], found)
     node.log("warn", "Using deprecated map server interface. Please switch to new interface.")
-    return _from_parameters(node, arguments, words, found)
+    return _from_parameters(own, words, found)
 
 
 def _from_parameters(
-    node: Node, arguments: NodeArguments, words: tuple[str, ...], found: Diagnostics
+    own: ParameterReader, words: tuple[str, ...], found: Diagnostics
 ) -> OccupancyGrid | None:
     """Read a picture with a resolution on the command line, the form before the YAML."""
     try:
@@ -89,9 +105,9 @@ def _from_parameters(
         image=Path(words[0]),
         resolution_m=resolution_m,
         origin=(0.0, 0.0, 0.0),
-        negate=private_number(node, arguments, "negate", 0) != 0,
-        occupied_thresh=private_number(node, arguments, "occupied_thresh", 0.65),
-        free_thresh=private_number(node, arguments, "free_thresh", 0.196),
+        negate=own.number("negate") != 0,
+        occupied_thresh=own.number("occupied_thresh"),
+        free_thresh=own.number("free_thresh"),
     )
     return read_map_image(described, found)
 

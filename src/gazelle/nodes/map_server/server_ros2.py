@@ -14,9 +14,22 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.map_server.server import result_of
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import start_node
+from gazelle.nodes.reading import private_parameters
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "map_server (ROS 2)",
+    "Publishes a map from a file, as a managed node.",
+    ("nav2_map_server/map_server",),
+    (
+        Parameter("yaml_filename", "text", "", "the map; none until one is loaded when empty"),
+        Parameter("topic_name", "text", "map", "where it is published"),
+        Parameter("frame_id", "text", "map", "frame of the map"),
+    ),
+)
 
 _POLL_S = 0.2
 
@@ -36,7 +49,7 @@ class _Server:
     """The map appears when the node is configured, and is published while it is active."""
 
     def __init__(self, node: Node, arguments: NodeArguments) -> None:
-        self._node, self._arguments = node, arguments
+        self._node = node
         self._message: Any = None
         self._maps: Any = None
         callbacks = {
@@ -45,17 +58,17 @@ class _Server:
             "deactivate": self._deactivate,
             "cleanup": self._cleanup,
         }
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            self._path, self._topic = own.text("yaml_filename"), own.text("topic_name")
+            self._frame_id = own.text("frame_id")
         self.lifecycle = Lifecycle(node, callbacks)
         node.log("info", "Creating; waits to be configured and activated by a lifecycle manager")
         node.create_service("~/map", service_type("nav_msgs/srv/GetMap"), self._on_get)
         node.create_service("~/load_map", service_type("nav2_msgs/srv/LoadMap"), self._on_load)
 
-    def _text(self, name: str, default: str) -> str:
-        return str(private(self._node, self._arguments, name, default))
-
     def _configure(self) -> bool:
         self._node.log("info", "Configuring")
-        path = self._text("yaml_filename", "")
+        path = self._path
         if not path:
             text = "yaml-filename parameter is empty, set map through '~/load_map'-service"
             self._node.log("info", text)
@@ -63,8 +76,7 @@ class _Server:
             self._node.log("error", f"Failed to load map yaml file: {path}")
             return False
         kind: Any = message_type("nav_msgs/msg/OccupancyGrid")
-        topic = self._text("topic_name", "map")
-        self._maps = self._node.create_publisher(topic, kind, latch=True, queue_size=1)
+        self._maps = self._node.create_publisher(self._topic, kind, latch=True, queue_size=1)
         return True
 
     def _activate(self) -> bool:
@@ -90,8 +102,7 @@ class _Server:
         log_findings(self._node, found)
         if grid is None:
             return result_of(found)
-        frame_id = self._text("frame_id", "map")
-        self._message = message_of_grid(grid, frame_id, self._node.clock.now_ns())
+        self._message = message_of_grid(grid, self._frame_id, self._node.clock.now_ns())
         text = f"Read map {path}: {grid.width} X {grid.height} map @ {grid.resolution_m:g} m/cell"
         self._node.log("info", text)
         return 0
