@@ -30,13 +30,13 @@ from gazelle.documents.yaml import (
 def test_nodes_know_where_they_stand_and_how_long_they_are() -> None:
     root = read_yaml("a:\n  wheel: [1, 'two']\n", "f.yaml").root
     assert isinstance(root, YamlMapping)
-    found = {".".join(path): (key.span, value.span) for path, key, value in entries(root)}
+    found = {".".join(path): (key.span, value.span) for path, key, value, _ in entries(root)}
     assert found["a.wheel"] == (
         SourceSpan("f.yaml", 2, 3, 5),
         SourceSpan("f.yaml", 2, 10, 10),
     )
     items = list(entries(root, lists=True))
-    assert [path for path, _, _ in items] == [
+    assert [path for path, *_ in items] == [
         ("a",),
         ("a", "wheel"),
         ("a", "wheel", "0"),
@@ -52,7 +52,7 @@ def test_merged_keys_are_in_the_value_and_not_in_the_nodes() -> None:
     assert document.value == {"a": {"x": 1}, "b": {"x": 1, "y": 2}}
     root = document.root
     assert isinstance(root, YamlMapping)
-    assert [path for path, _, _ in entries(root)][2:] == [
+    assert [path for path, *_ in entries(root)][2:] == [
         ("b",),
         ("b", "<<"),
         ("b", "<<", "x"),
@@ -63,8 +63,9 @@ def test_merged_keys_are_in_the_value_and_not_in_the_nodes() -> None:
 def test_keys_that_are_there_twice_are_told_with_the_first() -> None:
     root = read_yaml("a: 1\nb: 2\na: 3\n").root
     assert isinstance(root, YamlMapping)
-    [(again, first)] = duplicates(root)
+    [(again, first)] = duplicates(root).items()
     assert (again.span.line, first.span.line) == (3, 1)
+    assert [entry.first for entry in entries(root)] == [None, None, first]
 
 
 def test_lists_as_keys_have_the_text_that_is_written() -> None:

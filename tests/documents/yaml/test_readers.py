@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -265,6 +266,25 @@ READERS = {
     ),
 }
 
+# Those that ask for a file themselves.
+_OF_FILES = (
+    "parameter file",
+    "MoveIt's file",
+    "doctor",
+    "doctor's launch file",
+    "rosparam of roslaunch",
+    "map",
+    "ros2 bag convert",
+    "parameters of a simulation",
+    "controller_spawner",
+    "ros_gz_bridge",
+    "dynparam load",
+    "launch file",
+    "RewrittenYaml",
+    "ParameterFile",
+    ".rviz",
+)
+
 
 class _Store:
     def set(self, name: str, value: object) -> None:
@@ -300,3 +320,9 @@ def test_odd_yaml_is_a_value_or_an_error_of_the_reader(
     path = tmp_path / "a.yaml"
     path.write_bytes(ODD[text])
     _said(READERS[name], path)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no devices in folders")
+@pytest.mark.parametrize("name", _OF_FILES)
+def test_a_file_without_end_is_refused(name: str) -> None:
+    assert "it is a device, not a file" in _said(READERS[name], Path("/dev/zero"))

@@ -19,6 +19,7 @@ from gazelle.documents.yaml import (
     YamlProblem,
     YamlScalar,
     YamlSequence,
+    duplicates,
     read_yaml,
     read_yaml_file,
     value_of,
@@ -155,10 +156,11 @@ class _Reader:
         self, node: YamlMapping, prefix: str, places: dict[str, SourceSpan]
     ) -> dict[str, Any]:
         found: dict[str, Any] = {}
+        doubles = duplicates(node)
         for key, value in self._pairs(node):
             name = f"{prefix}{key.text}"
             places[name] = key.span
-            if key.text in found:
+            if key in doubles:
                 text = f"key '{name}' is there twice; the last one counts"
                 self._diagnostics.report("control.double-parameter", text, key.span)
             if isinstance(value, YamlMapping):

@@ -69,8 +69,8 @@ def _substituted(
 
 def _places(root: YamlNode, diagnostics: Diagnostics) -> dict[tuple[str, ...], SourceSpan]:
     places: dict[tuple[str, ...], SourceSpan] = {}
-    for path, key, value in entries(root, lists=True):
-        if path in places and key is not value:
+    for path, key, _, first in entries(root, lists=True):
+        if first is not None:
             message = f"'{key.text}' is there twice; the last one counts"
             diagnostics.report("moveit.double-key", message, key.span)
         places[path] = key.span

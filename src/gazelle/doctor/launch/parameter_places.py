@@ -38,5 +38,5 @@ def placed(item: Diagnostic, places: Mapping[str, SourceSpan]) -> Diagnostic:
 def _lines(file: str, target: str) -> Iterator[tuple[str, SourceSpan]]:
     # Whoever loaded it has told why it cannot be read.
     root = read_yaml_file(file).root
-    for path, key, _ in entries(root) if root is not None else ():
+    for path, key, *_ in entries(root) if root is not None else ():
         yield reduce(lambda above, name: resolve(name, above), path, target or "/"), key.span

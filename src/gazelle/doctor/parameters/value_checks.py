@@ -8,7 +8,7 @@ from collections.abc import Collection
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.parameters.document import Document, scalars
 from gazelle.doctor.parameters.layouts import MARK, Layout
-from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
 
 _MARK = "ros__parameters"
 _ADDED_UP = "rcl adds the two up, programs in Python see the last one only"
@@ -127,18 +127,17 @@ def _check_doubles(node: YamlNode, diagnostics: Diagnostics, *, adds_up: bool = 
             _check_doubles(item, diagnostics)
     if not isinstance(node, YamlMapping):
         return
-    first: dict[str, YamlNode] = {}
+    doubles = duplicates(node)
     for key, value in node.pairs:
         name = key.text
         is_above = adds_up and name != _MARK
         _check_doubles(value, diagnostics, adds_up=is_above)
-        if name in first and name != "<<":
-            line = first[name].span.line
-            text = f"key '{name}' is there twice, first in line {line}; "
+        first = doubles.get(key)
+        if first is not None and name != "<<":
+            text = f"key '{name}' is there twice, first in line {first.span.line}; "
             text += _ADDED_UP if is_above else "the last one counts"
             severity = Severity.INFO if is_above else None
             diagnostics.report("control.double-parameter", text, key.span, severity=severity)
-        first.setdefault(name, key)
 
 
 def _check_keys(node: YamlNode, diagnostics: Diagnostics) -> None:

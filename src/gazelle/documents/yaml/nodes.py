@@ -96,11 +96,13 @@ class YamlEntry(NamedTuple):
         path: the texts of the keys that lead to it, positions in lists as ``0``, ``1``, …
         key: the key; the item itself in a list.
         value: what stands there.
+        first: the first key of this text in the mapping, when this is another one.
     """
 
     path: tuple[str, ...]
     key: YamlNode
     value: YamlNode
+    first: YamlNode | None = None
 
 
 def entries(
@@ -114,9 +116,10 @@ def entries(
         lists: the items of lists, too, and what is in them.
     """
     if isinstance(node, YamlMapping):
+        known = duplicates(node)
         for key, value in node.pairs:
             inner = (*path, key.text)
-            yield YamlEntry(inner, key, value)
+            yield YamlEntry(inner, key, value, known.get(key))
             yield from entries(value, inner, lists=lists)
     elif lists and isinstance(node, YamlSequence):
         for index, item in enumerate(node.items):
@@ -125,13 +128,11 @@ def entries(
             yield from entries(item, inner, lists=lists)
 
 
-def duplicates(mapping: YamlMapping) -> Iterator[tuple[YamlNode, YamlNode]]:
-    """Yield each key of a mapping that was there before, and the first one of its text."""
+def duplicates(mapping: YamlMapping) -> dict[YamlNode, YamlNode]:
+    """Return the keys of a mapping that were there before, with the first one of their text."""
     first: dict[str, YamlNode] = {}
-    for key, _ in mapping.pairs:
-        known = first.setdefault(key.text, key)
-        if known is not key:
-            yield key, known
+    pairs = ((key, first.setdefault(key.text, key)) for key, _ in mapping.pairs)
+    return {key: known for key, known in pairs if known is not key}
 
 
 def node_of(composed: yaml.Node, file: str) -> YamlNode:
