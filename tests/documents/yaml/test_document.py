@@ -138,6 +138,16 @@ def test_dialects_differ_in_numbers() -> None:
     assert load_yaml(text, ROSPARAM) == ["1e-3", pytest.approx(3.14159265), "5e2", "1e-3", "08", 6]
 
 
+def test_rosparam_has_tags_of_angles() -> None:
+    text = "[!degrees 180, !radians 2*pi, !degrees deg(90)]"
+    half = 3.141592653589793
+    assert load_yaml(text, ROSPARAM) == pytest.approx([half, 2 * half, half / 2])
+    with pytest.raises(YamlError, match="could not determine a constructor for the tag '!degrees'"):
+        load_yaml(text)
+    with pytest.raises(YamlError, match=r"invalid angle '__import__\(\)'"):
+        load_yaml("!degrees __import__()", ROSPARAM)
+
+
 def test_tags_of_a_dialect_make_values_of_mappings() -> None:
     dialect = Dialect(tags=(("!pair", lambda one: (one["a"], one["b"])),))
     assert load_yaml("x: !pair {a: 1, b: [2]}", dialect) == {"x": (1, [2])}

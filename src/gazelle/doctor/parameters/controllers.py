@@ -12,7 +12,7 @@ from gazelle.control.parameters import controller_parameters
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
 from gazelle.doctor.parameters.layouts import MARK, Layout
-from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, entries
 from gazelle.parameters.trees import flattened, nested
 
 __all__ = ["FoundController", "FoundControllers", "check_controllers", "controllers_in"]
@@ -136,7 +136,7 @@ def _of_ros2(document: Document) -> Iterator[FoundController]:
         for node_name, section in sections:
             if node_name.rpartition("/")[2] == name:
                 tree.update(plain(section))
-                nodes.update(_leaves(section, ""))
+                nodes.update(_leaves(section))
         tree.pop("type", None)
         kind_name = type_name.replace("::", "/")
         yield FoundController(name, name, kind_name, 2, tree, nodes, place.span)
@@ -150,7 +150,7 @@ def _of_ros1(
         tree = dict(plain(node))
         tree.pop("type", None)
         name = above[-1] if above else document.file.stem
-        nodes = _leaves(node, "")
+        nodes = _leaves(node)
         full = "/" + "/".join(above)
         yield FoundController(name, full, kind.text, 1, tree, nodes, kind.span)
         return
@@ -177,13 +177,10 @@ def _type_of(node: YamlNode) -> YamlScalar | None:
     return found if is_class and isinstance(found, YamlScalar) else None
 
 
-def _leaves(node: YamlNode, prefix: str) -> dict[str, tuple[YamlNode, SourceSpan]]:
-    found: dict[str, tuple[YamlNode, SourceSpan]] = {}
-    for key, value in node.pairs if isinstance(node, YamlMapping) else ():
-        name = f"{prefix}{key.text}".replace("/", ".")
-        found[name] = (value, key.span)
-        found.update(_leaves(value, f"{name}."))
-    return found
+def _leaves(node: YamlNode) -> dict[str, tuple[YamlNode, SourceSpan]]:
+    return {
+        ".".join(path).replace("/", "."): (value, key.span) for path, key, value, _ in entries(node)
+    }
 
 
 def _check_types(item: FoundController, diagnostics: Diagnostics) -> None:

@@ -20,7 +20,8 @@ __all__ = ["RCL", "ROSPARAM", "YAML_1_1", "Dialect", "PlacedMapping", "loader_of
 
 _MAP_TAG = "tag:yaml.org,2002:map"
 _FLOAT_TAG = "tag:yaml.org,2002:float"
-_ANGLE = re.compile(r"^(?P<unit>deg|rad)\((?P<expression>[^()]*)\)$")
+_DEGREES = re.compile(r"^deg\(([^()]*)\)$")
+_RADIANS = re.compile(r"^rad\(([^()]*)\)$")
 _ANGLE_TEXT = re.compile(r"^[0-9pi\s.eE+*/-]*$")
 # rcl reads these with strtod; YAML 1.1, as PyYAML has it, wants a dot and a sign.
 _STRTOD = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", re.ASCII)
@@ -43,7 +44,8 @@ class Dialect:
     """What a program adds to YAML 1.1.
 
     Attributes:
-        has_angles: ``deg(90)``, ``rad(pi/2)`` and the tag ``!angle`` are numbers, in rad.
+        has_angles: ``deg(90)``, ``rad(pi/2)``, ``!degrees 90`` and ``!radians pi/2`` are numbers,
+            in rad.
         has_strtod: ``1e-3`` and ``5e2`` are numbers.
         has_places: mappings are `PlacedMapping`.
         tags: further tags of mappings, and what makes a value of such a mapping.
@@ -73,8 +75,10 @@ def loader_of(dialect: Dialect) -> type[LimitedLoader]:
         pass
 
     if dialect.has_angles:
-        _Loader.add_constructor("!angle", _angle)
-        _Loader.add_implicit_resolver("!angle", _ANGLE, ["d", "r"])
+        _Loader.add_constructor("!degrees", _degrees)
+        _Loader.add_constructor("!radians", _radians)
+        _Loader.add_implicit_resolver("!degrees", _DEGREES, ["d"])
+        _Loader.add_implicit_resolver("!radians", _RADIANS, ["r"])
     if dialect.has_places:
         _Loader.add_constructor(_MAP_TAG, _placed)
     if dialect.has_strtod:
@@ -97,16 +101,23 @@ def _constructor(
     return lambda loader, node: made(loader.construct_mapping(node, deep=True))
 
 
-def _angle(loader: LimitedLoader, node: yaml.ScalarNode) -> float:
+def _degrees(loader: LimitedLoader, node: yaml.ScalarNode) -> float:
+    return math.radians(_angle(loader, node, _DEGREES))
+
+
+def _radians(loader: LimitedLoader, node: yaml.ScalarNode) -> float:
+    return _angle(loader, node, _RADIANS)
+
+
+def _angle(loader: LimitedLoader, node: yaml.ScalarNode, form: re.Pattern[str]) -> float:
     text = str(loader.construct_scalar(node))
-    match = _ANGLE.match(text)
-    expression = match.group("expression") if match else text
+    match = form.match(text)
+    expression = match[1] if match else text
     if not _ANGLE_TEXT.match(expression):
         raise yaml.constructor.ConstructorError(
             None, None, f"invalid angle '{text}'", node.start_mark
         )
-    value = _arithmetic(expression)
-    return math.radians(value) if match and match.group("unit") == "deg" else value
+    return _arithmetic(expression)
 
 
 def _arithmetic(expression: str) -> float:
