@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import io
+import re
 import time
 from collections.abc import Callable
 from typing import Any
@@ -14,6 +15,11 @@ from gazelle.documents.yaml import ProblemKind, YamlError, read_yaml
 __all__ = ["ExpansionLimitError", "Spending"]
 
 _MOST_SECONDS = 10
+_LONG_YAML = 1 << 20
+_DEEP_YAML = 32
+_BRACKETS = re.compile(r"[][{}]")
+# Indented far, or many lists begun in it.
+_DEEP_LINE = re.compile(r"^(?: {32}|[ ]*(?:[-?] +){16})", re.MULTILINE)
 _SLOW = {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP}
 _MOST_CALLS = 5_000
 _MOST_COPIES = 20_000
@@ -92,7 +98,8 @@ class Spending:
             YamlError: it is so long or nested so deep that PyYAML would take for ever.
         """
         text = read_text_limited(name)
-        problem = read_yaml(text, name).problem
+        # The library reads it again: that is not done twice where it cannot be slow.
+        problem = read_yaml(text, name).problem if _may_be_slow(text) else None
         if problem is not None and problem.kind in _SLOW:
             raise YamlError(problem)
         return io.StringIO(text)
@@ -104,3 +111,15 @@ class Spending:
         # As the library does: the file's own expression.
         value = eval(code, {**names, "__builtins__": allowed}, locals_)  # noqa: S307
         return self.expressions.checked(value)
+
+
+def _may_be_slow(text: str) -> bool:
+    """Tell whether a YAML text may be long or nested deep; brackets in quotes count as well."""
+    if len(text) > _LONG_YAML or _DEEP_LINE.search(text):
+        return True
+    depth = 0
+    for bracket in _BRACKETS.findall(text):
+        depth += 1 if bracket in "[{" else -1
+        if depth > _DEEP_YAML:
+            return True
+    return False
